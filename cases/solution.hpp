@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cases {
+
+enum class Status { converged, failed, skipped };
+
+/// What either model answers. A failed side keeps its message and counters but has no displacement.
+struct Solution {
+  Status status = Status::skipped;
+  std::string message;
+  std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
+  std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³
+  std::size_t unknowns = 0;                  ///< free degrees of freedom
+  double residual = 0;                       ///< |imbalance on free degrees of freedom| / |applied load|
+  double load_reached = 0;                   ///< 0 to 1
+  int newton_iterations = 0;
+  long linear_iterations = 0;
+  std::optional<double> lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  int inverted_cells = 0;                  ///< cells with a corner Jacobian <= 0
+};
+
+} // namespace cases

@@ -1,0 +1,48 @@
+#!/bin/sh
+# springproof's one script: installs what is missing, configures, builds, and does what was asked.
+#   ./do tables [ARGS]   regenerate the thesis's tables      ./do test    build and run every test
+#   ./do build           build/springproof                   ./do format  clang-format over the sources
+#   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
+set -eu
+cd "$(dirname "$0")"
+
+# packages.txt is the one list of dependencies. Nothing is run as root when nothing is missing.
+install_missing() {
+  wanted=$(sed -e 's/#.*//' packages.txt)
+  # shellcheck disable=SC2086
+  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p' || true)
+  missing=
+  for package in $wanted; do
+    printf '%s\n' "$installed" | grep -qx "$package" || missing="$missing $package"
+  done
+  [ -n "$missing" ] || return 0
+  echo "installing:$missing" >&2
+  as_root=
+  [ "$(id -u)" -eq 0 ] || as_root=sudo
+  $as_root apt-get update -qq >&2
+  # shellcheck disable=SC2086
+  DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $missing >&2
+}
+
+build() {
+  install_missing
+  [ -f build/build.ninja ] || cmake --preset release >&2
+  cmake --build build --target "${1:-all}" >&2
+}
+
+command=${1:-help}
+[ $# -eq 0 ] || shift
+case $command in
+  tables) build springproof; exec build/springproof tables "$@" ;;
+  run)    build springproof; exec build/springproof run "$@" ;;
+  build)  build ;;
+  test)
+    build
+    # MPI's launcher refuses root unless told twice; a container has no other user.
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@" ;;
+  format)
+    git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;
+  bench)  build; exec build/springproof_bench "$@" ;;
+  *) sed -n '2,5s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
+esac

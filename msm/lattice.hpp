@@ -1,0 +1,54 @@
+#pragma once
+
+#include "cases/hex_mesh.hpp"
+#include "msm/spring.hpp"
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace msm {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// What a design method answers for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal diagonals,
+/// and the volume term (k_v/2) V0 (V/V0 - 1)².
+struct CellStiffness {
+  double edge = 0;              ///< k_e, N/mm
+  double face_diagonal = 0;     ///< k_f, N/mm
+  double internal_diagonal = 0; ///< k_d, N/mm
+  double volume = 0;            ///< k_v, MPa
+};
+
+/// Two points joined by a spring. Springs that cells share are one link with the sum of the cells' stiffnesses.
+struct Link {
+  int i, j; ///< i < j
+  Spring spring;
+};
+
+/// A cell that resists a change of its volume.
+struct VolumeCell {
+  std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
+  double stiffness;         ///< k_v, MPa
+  double rest_volume;       ///< mm³
+};
+
+/// A mass-spring body at rest: its points and what joins them. Links are sorted by (i, j) and unique.
+struct Lattice {
+  Points rest; ///< mm
+  std::vector<Link> links;
+  std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
+};
+
+/// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis section 4.3.1: an interior edge of
+/// a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and volume terms of stiffness 0 are left out.
+/// @param stiffness  one for every cell, or a single one for all
+Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness);
+
+/// Sum of all spring energies and volume energies at these positions, N mm.
+double energy(const Lattice& lattice, const Points& positions);
+
+/// Internal force on every point, N: minus the gradient of energy().
+Points internal_force(const Lattice& lattice, const Points& positions);
+
+} // namespace msm
