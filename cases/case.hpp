@@ -32,17 +32,17 @@ struct LinearElastic {
 /// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) of the isochoric stretches
 /// + kappa/4 (J² - 1 - 2 ln J). Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
 struct Ogden {
-  std::vector<double> mu;                ///< MPa; the sum is the initial shear modulus, > 0
-  std::vector<double> alpha;             ///< as many, none 0
-  std::optional<double> bulk_modulus;    ///< MPa; absent: nearly incompressible
+  std::vector<double> mu;             ///< MPa; the sum is the initial shear modulus, > 0
+  std::vector<double> alpha;          ///< as many, none 0
+  std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
 };
 
 using Material = std::variant<LinearElastic, Ogden>;
 
 /// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, or the node nearest to a point.
 struct Region {
-  std::string name;                      ///< as written; empty when near is set
-  std::optional<Eigen::Vector3d> near;   ///< mm
+  std::string name;                    ///< as written; empty when near is set
+  std::optional<Eigen::Vector3d> near; ///< mm
   Where where;
 };
 
@@ -55,15 +55,15 @@ enum class LoadKind {
   nodal_force, ///< value N on every node of the region
   total_force, ///< value N, shared equally by the region's nodes
   traction,    ///< value MPa on the rest area, dead, integrated consistently
-  torque       ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
+  torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
 };
 
 struct Load {
   Region region;
   LoadKind kind;
-  Eigen::Vector3d value = Eigen::Vector3d::Zero(); ///< N or MPa; unused by torque
-  double moment = 0;                               ///< N mm; torque only
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< torque only, unit length
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< N or MPa; unused by torque
+  double moment = 0;                                ///< N mm; torque only
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< torque only, unit length
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< mm; torque only
 };
 
@@ -81,26 +81,34 @@ enum class Design { linear_method, nonlinear_method, moduli, hybrid, multi_load,
 
 struct Msm {
   Design design = Design::linear_method;
-  std::optional<double> poissons_ratio;              ///< design from another nu than the material's
-  std::optional<double> split;                       ///< t of the moduli and hybrid designs, 0 to 1
-  std::optional<std::array<double, 3>> stiffness;    ///< N/m: k_e, k_f, k_d; design = "given"
-  double volume_stiffness = 0;                       ///< MPa: k_v; design = "given"
+  std::optional<double> poissons_ratio;           ///< design from another nu than the material's
+  std::optional<double> split;                    ///< t of the moduli and hybrid designs, 0 to 1
+  std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
+  double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
   Where where;
 };
 
-enum class MeasureKind { coordinate, displacement, tilt, twist, volume, displacement_field_l2, displacement_field_max };
+enum class MeasureKind {
+  coordinate,
+  displacement,
+  tilt,
+  twist,
+  volume,
+  displacement_field_l2,
+  displacement_field_max
+};
 enum class Axis { x = 0, y = 1, z = 2 };
 enum class Component { x = 0, y = 1, z = 2, norm = 3 };
 
 struct Measure {
   std::string name;
   MeasureKind kind;
-  Region node;                          ///< coordinate, displacement, twist: exactly one node
-  Axis axis = Axis::z;                  ///< coordinate; twist: the axis looked along (thesis: beta is seen along z)
+  Region node;         ///< coordinate, displacement, twist: exactly one node
+  Axis axis = Axis::z; ///< coordinate; twist: the axis looked along (thesis: beta is seen along z)
   Component component = Component::norm; ///< displacement
-  Region top, bottom;                   ///< tilt: one node each
-  Axis toward = Axis::x;                ///< tilt: atan2(d_toward, d_up) of top - bottom, up = axis (default z)
-  Region centre;                        ///< twist
+  Region top, bottom;                    ///< tilt: one node each
+  Axis toward = Axis::x; ///< tilt: atan2(d_toward, d_up) of top - bottom, up = axis (default z)
+  Region centre;         ///< twist
   Where where;
 };
 

@@ -11,6 +11,7 @@ std::string place(const Where& where) {
 } // namespace
 
 InputError::InputError(const Where& where, const std::string& problem)
-    : std::runtime_error(place(where) + (where.key.empty() ? "" : where.key + ": ") + problem), where_(where) {}
+    : std::runtime_error(place(where) + (where.key.empty() ? "" : where.key + ": ") + problem),
+      where_(where) {}
 
 } // namespace cases

@@ -5,7 +5,8 @@
 
 namespace cases {
 
-/// A place in a case file, for messages: "file:line:column". Line 0: the value came from the command line or a default.
+/// A place in a case file, for messages: "file:line:column". Line 0: the value came from the command line or
+/// a default.
 struct Where {
   std::string file;
   int line = 0;
@@ -15,25 +16,29 @@ struct Where {
 
 /// Wrong input or usage (exit status 2). The message says where, which key and value, and what is allowed.
 class InputError : public std::runtime_error {
-public:
+ public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
   /// Message "file:line:column: key: problem".
   InputError(const Where& where, const std::string& problem);
   const Where& where() const { return where_; }
 
-private:
+ private:
   Where where_;
 };
 
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {
-public:
+ public:
   /// @param load_reached  fraction of the load in equilibrium when the solver gave up, 0 to 1
   /// @param residual      |imbalance on free degrees of freedom| / |applied load| when it gave up
   SolveError(const std::string& reason, double load_reached, double residual)
-      : std::runtime_error(reason), load_reached(load_reached), residual(residual) {}
-  double load_reached;
-  double residual;
+      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual) {}
+  double load_reached() const { return load_reached_; }
+  double residual() const { return residual_; }
+
+ private:
+  double load_reached_;
+  double residual_;
 };
 
 } // namespace cases

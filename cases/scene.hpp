@@ -38,18 +38,21 @@ Scene refine(const Scene& scene, int n);
 /// Whether degree of freedom 3*node + component is held, for every node of the mesh.
 std::vector<bool> fixed_degrees_of_freedom(const Scene& scene);
 
-/// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries the modelled
-/// part alone: half, a quarter, an eighth), tractions and torques integrated with bilinear shape functions on the rest faces.
+/// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries
+/// the modelled part alone: half, a quarter, an eighth), tractions and torques integrated with bilinear shape
+/// functions on the rest faces.
 std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 
 /// The point forces (nodal_force, total_force) alone, N per node.
 std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
-/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest. A torque needs the polar moment
-/// of its faces about the axis: see polar_moment().
-Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point, double polar_moment);
+/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest. A torque
+/// needs the polar moment of its faces about the axis: see polar_moment().
+Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point,
+                                 double polar_moment);
 
-/// Integral of r² over the load's rest faces (mm⁴), r the distance from the torque's axis, exact for bilinear planar faces.
+/// Integral of r² over the load's rest faces (mm⁴), r the distance from the torque's axis, exact for bilinear
+/// planar faces.
 double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied);
 
 } // namespace cases

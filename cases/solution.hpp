@@ -21,8 +21,9 @@ struct Solution {
   double load_reached = 0;                   ///< 0 to 1
   int newton_iterations = 0;
   long linear_iterations = 0;
-  std::optional<double> lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
-  int inverted_cells = 0;                  ///< cells with a corner Jacobian <= 0
+  std::optional<double>
+      lowest_eigenvalue;  ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  int inverted_cells = 0; ///< cells with a corner Jacobian <= 0
 };
 
 } // namespace cases

@@ -11,7 +11,7 @@ namespace fem_reference {
 /// A finite-element model of a scene, distributed over the ranks of a communicator: mesh, degrees of freedom,
 /// sparsity. Every member function is collective; every rank gets the whole answer.
 class Model {
-public:
+ public:
   /// @param scene  the body's scene; definition.fem.refine is applied here
   /// @throws InputError for a combination of material, formulation and element that has no meaning
   Model(const cases::Scene& scene, MPI_Comm communicator);
@@ -22,7 +22,7 @@ public:
   /// @throws SolveError with the load factor reached when the load cannot be carried
   cases::Solution solve();
 
-private:
+ private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/hex_mesh.hpp"
+#include "msm/cell_volume.hpp"
 #include "msm/spring.hpp"
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@ namespace msm {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// What a design method answers for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal diagonals,
-/// and the volume term (k_v/2) V0 (V/V0 - 1)².
+/// What a design method answers for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
+/// diagonals, and the volume term (k_v/2) V0 (V/V0 - 1)².
 struct CellStiffness {
   double edge = 0;              ///< k_e, N/mm
   double face_diagonal = 0;     ///< k_f, N/mm
@@ -20,7 +21,8 @@ struct CellStiffness {
   double volume = 0;            ///< k_v, MPa
 };
 
-/// Two points joined by a spring. Springs that cells share are one link with the sum of the cells' stiffnesses.
+/// Two points joined by a spring. Springs that cells share are one link with the sum of the cells'
+/// stiffnesses.
 struct Link {
   int i, j; ///< i < j
   Spring spring;
@@ -40,8 +42,12 @@ struct Lattice {
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
 };
 
-/// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis section 4.3.1: an interior edge of
-/// a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and volume terms of stiffness 0 are left out.
+/// Where the cell's vertices are, mm.
+CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
+
+/// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis
+/// section 4.3.1: an interior edge of a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and
+/// volume terms of stiffness 0 are left out.
 /// @param stiffness  one for every cell, or a single one for all
 Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness);
 

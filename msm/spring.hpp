@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace msm {
 
@@ -15,8 +16,8 @@ inline double spring_energy(const Eigen::Vector3d& d, const Spring& spring) {
   return 0.5 * spring.stiffness * elongation * elongation;
 }
 
-/// Force on point i from the spring (i, j):  f = k (|d| - l0) d / |d|,  d = x_j - x_i: it pulls i towards j when stretched;
-/// point j receives the opposite. The points must not coincide.
+/// Force on point i from the spring (i, j):  f = k (|d| - l0) d / |d|,  d = x_j - x_i: it pulls i towards j
+/// when stretched; point j receives the opposite. The points must not coincide.
 /// @param d  x_j - x_i, mm  @return N
 /// Source: thesis eq. 4.8; minus the gradient of spring_energy() with respect to x_i.
 inline Eigen::Vector3d spring_force(const Eigen::Vector3d& d, const Spring& spring) {
@@ -28,8 +29,10 @@ enum class TransverseTerm { exact, clamped };
 
 /// Second derivative of spring_energy() with respect to d:
 ///   k n n^T + k (1 - l0/|d|) (I - n n^T),  n = d/|d|.
-/// The transverse factor is negative in a compressed spring; clamped, it is at least 0 and the matrix positive semidefinite.
-/// @param d  mm  @return N/mm, symmetric; the (i, i) and (j, j) blocks of the tangent get it, (i, j) its negative
+/// The transverse factor is negative in a compressed spring; clamped, it is at least 0 and the matrix
+/// positive semidefinite.
+/// @param d  mm  @return N/mm, symmetric; the (i, i) and (j, j) blocks of the tangent get it, (i, j) its
+/// negative
 inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& spring, TransverseTerm term) {
   const double length_squared = d.squaredNorm();
   double transverse = spring.stiffness * (1 - spring.rest_length / std::sqrt(length_squared));

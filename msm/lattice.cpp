@@ -1,0 +1,94 @@
+#include "msm/lattice.hpp"
+
+#include "msm/cell_volume.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace msm {
+
+namespace {
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+template<std::size_t N>
+void add_links(const std::array<int, 8>& cell, const std::array<std::array<int, 2>, N>& pairs,
+               double stiffness, std::vector<Link>& links) {
+  if (stiffness == 0) return;
+  for (const auto& pair : pairs) {
+    const auto [i, j] = std::minmax(cell[index(pair[0])], cell[index(pair[1])]);
+    links.push_back({i, j, {stiffness, 0}});
+  }
+}
+
+/// Links between the same two points become one with the sum of their stiffnesses.
+std::vector<Link> merge(std::vector<Link> links) {
+  const auto points = [](const Link& link) { return std::pair(link.i, link.j); };
+  std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return points(a) < points(b); });
+  std::vector<Link> merged;
+  for (const Link& link : links) {
+    if (!merged.empty() && points(merged.back()) == points(link))
+      merged.back().spring.stiffness += link.spring.stiffness;
+    else
+      merged.push_back(link);
+  }
+  return merged;
+}
+
+} // namespace
+
+CellPositions cell_positions(const VolumeCell& cell, const Points& positions) {
+  CellPositions x;
+  for (std::size_t v = 0; v < 8; ++v) x[v] = positions[index(cell.nodes[v])];
+  return x;
+}
+
+Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness) {
+  assert(stiffness.size() == 1 || stiffness.size() == mesh.cells.size());
+  Lattice lattice;
+  lattice.rest = mesh.nodes;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
+    add_links(mesh.cells[c], cases::cell_edges, k.edge, lattice.links);
+    add_links(mesh.cells[c], cases::cell_face_diagonals, k.face_diagonal, lattice.links);
+    add_links(mesh.cells[c], cases::cell_internal_diagonals, k.internal_diagonal, lattice.links);
+    if (k.volume != 0)
+      lattice.volume_cells.push_back(
+          {mesh.cells[c], k.volume, cases::cell_volume(cases::cell_vertices(mesh, c))});
+  }
+  lattice.links = merge(std::move(lattice.links));
+  for (Link& link : lattice.links)
+    link.spring.rest_length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
+  return lattice;
+}
+
+double energy(const Lattice& lattice, const Points& positions) {
+  double sum = 0;
+  for (const Link& link : lattice.links)
+    sum += spring_energy(positions[index(link.j)] - positions[index(link.i)], link.spring);
+  for (const VolumeCell& cell : lattice.volume_cells) {
+    const double change = trilinear_volume(cell_positions(cell, positions)) / cell.rest_volume - 1;
+    sum += 0.5 * cell.stiffness * cell.rest_volume * change * change;
+  }
+  return sum;
+}
+
+Points internal_force(const Lattice& lattice, const Points& positions) {
+  Points force(positions.size(), Eigen::Vector3d::Zero());
+  for (const Link& link : lattice.links) {
+    const Eigen::Vector3d f = spring_force(positions[index(link.j)] - positions[index(link.i)], link.spring);
+    force[index(link.i)] += f;
+    force[index(link.j)] -= f;
+  }
+  for (const VolumeCell& cell : lattice.volume_cells) {
+    const CellPositions x = cell_positions(cell, positions);
+    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
+    const CellGradient gradient = trilinear_volume_gradient(x);
+    for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
+  }
+  return force;
+}
+
+} // namespace msm

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "msm/lattice.hpp"
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace msm {
+
+/// Second derivative of energy() as 3x3 blocks: calls sink(row point, column point, block in N/mm) for every
+/// contribution with row point >= column point (the matrix is symmetric). Clamped, no spring has a negative
+/// transverse term and no cell the second derivative of its volume under pressure, so that the sum is
+/// positive semidefinite.
+template<class Sink>
+void visit_tangent_blocks(const Lattice& lattice, const Points& positions, TransverseTerm term,
+                          const Sink& sink) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  for (const Link& link : lattice.links) {
+    const Eigen::Matrix3d block =
+        spring_stiffness(positions[at(link.j)] - positions[at(link.i)], link.spring, term);
+    sink(link.i, link.i, block);
+    sink(link.j, link.j, block);
+    sink(link.j, link.i, -block);
+  }
+  for (const VolumeCell& cell : lattice.volume_cells) {
+    const CellPositions x = cell_positions(cell, positions);
+    const CellGradient gradient = trilinear_volume_gradient(x);
+    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b) {
+        if (cell.nodes[at(a)] < cell.nodes[at(b)]) continue;
+        Eigen::Matrix3d block =
+            (cell.stiffness / cell.rest_volume) * gradient[at(a)] * gradient[at(b)].transpose();
+        if (term == TransverseTerm::exact) block += pressure * trilinear_volume_second_derivative(x, a, b);
+        sink(cell.nodes[at(a)], cell.nodes[at(b)], block);
+      }
+  }
+}
+
+/// The sparse tangent stiffness of a lattice on its free degrees of freedom. The pattern, and the place in it
+/// of every contribution, are found once.
+class Tangent {
+ public:
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  /// @param lattice   must outlive the tangent
+  /// @param is_fixed  degree of freedom 3*point + component, three entries per point
+  Tangent(const Lattice& lattice, const std::vector<bool>& is_fixed);
+
+  /// Lower triangle, N/mm, at these positions (mm).
+  const Matrix& assemble(const Points& positions, TransverseTerm term);
+
+  int n_free() const { return n_free_; }
+  /// Number among the free ones of degree of freedom 3*point + component, or -1.
+  const std::vector<int>& free_number() const { return free_number_; }
+
+ private:
+  const Lattice& lattice_;
+  std::vector<int> free_number_;
+  int n_free_ = 0;
+  Matrix matrix_;
+  std::vector<int>
+      slots_; ///< place among the matrix's values, 9 per block in the order of visiting; -1: none
+};
+
+} // namespace msm
