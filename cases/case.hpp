@@ -20,6 +20,7 @@ struct Box {
 /// An all-hexahedral gmsh mesh (.msh, format 4), or a .geo that gmsh meshes on the fly.
 struct MeshFile {
   std::string path; ///< as opened: relative paths are resolved against the case file
+  Where where;
 };
 
 using Body = std::variant<Box, MeshFile>;

@@ -1,0 +1,160 @@
+#include "cases/read_sections.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace cases {
+
+namespace {
+
+bool is_poissons_ratio(double value) {
+  return value > -1 && value < 0.5;
+}
+
+/// Refuses a key that has no meaning beside the others.
+void refuse_unless(bool has_meaning, Table& table, const std::string& key, const std::string& reason) {
+  if (table.has(key) && !has_meaning) table.entry(key).refuse("left out: " + reason);
+}
+
+/// One line per formulation: the elements it has, its default first. The pressure of a mixed or averaged
+/// element acts on the volume ratio J; the law S = lambda tr(E) I + 2 mu E has no such part, so there is
+/// nothing to average in it.
+const std::vector<std::pair<Formulation, std::vector<Element>>>& elements_of_formulations() {
+  using E = Element;
+  static const std::vector<std::pair<Formulation, std::vector<Element>>> table{
+      {Formulation::small_strain, {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1}},
+      {Formulation::saint_venant_kirchhoff, {E::q1, E::q2}},
+      {Formulation::log_strain, {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1}},
+      {Formulation::hyperelastic, {E::q1_p0, E::q1_bbar, E::q1, E::q2, E::q2_p1}}};
+  return table;
+}
+
+const std::vector<Element>& elements_of(Formulation formulation) {
+  const auto& table = elements_of_formulations();
+  return std::find_if(table.begin(), table.end(), [&](const auto& line) { return line.first == formulation; })
+      ->second;
+}
+
+Formulation read_formulation(Table& table, const Material& material) {
+  const bool is_ogden = std::holds_alternative<Ogden>(material);
+  const auto formulation = table.optional("formulation", read_name<Formulation>);
+  if (!formulation) return is_ogden ? Formulation::hyperelastic : Formulation::log_strain;
+  const bool needs_ogden = *formulation == Formulation::hyperelastic;
+  if (needs_ogden && !is_ogden)
+    table.entry("formulation")
+        .refuse("\"small_strain\" | \"saint_venant_kirchhoff\" | \"log_strain\" with the linear_elastic "
+                "material; "
+                "hyperelastic needs model = \"ogden\"");
+  if (!needs_ogden && is_ogden)
+    table.entry("formulation")
+        .refuse("\"hyperelastic\" with the ogden material; the others need model = \"linear_elastic\"");
+  return *formulation;
+}
+
+Element read_element(Table& table, Formulation formulation, const Material& material) {
+  const std::vector<Element>& allowed = elements_of(formulation);
+  const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
+  const auto quoted = [](const std::vector<Element>& elements) {
+    std::vector<std::string> words;
+    for (Element e : elements) words.push_back(name_of(e));
+    return fmt::format("\"{}\"", fmt::join(words, "\" | \""));
+  };
+  if (std::find(allowed.begin(), allowed.end(), element) == allowed.end())
+    table.entry("element").refuse(
+        fmt::format("{} with formulation = \"{}\"", quoted(allowed), name_of(formulation)));
+  const Ogden* ogden = std::get_if<Ogden>(&material);
+  if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
+    table.entry("element").refuse(
+        "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
+        "nearly incompressible, and a displacement element without averaged volume locks");
+  return element;
+}
+
+/// A mesh of that many nodes is numbered with int, three degrees of freedom each.
+void check_refined_size(const Entry& entry, const Body& body, int refine) {
+  const Box* box = std::get_if<Box>(&body);
+  if (!box) return;
+  double nodes = 1;
+  for (int n : box->cells) nodes *= double(n) * double(1 << refine) + 1;
+  if (!(3 * nodes < 2147483647.0))
+    entry.refuse(
+        fmt::format("fewer: the refined mesh would have {:.3g} nodes, above what can be numbered", nodes));
+}
+
+} // namespace
+
+Fem read_fem(Table& table, const Material& material, const Body& body) {
+  Fem fem;
+  fem.where = table.where();
+  fem.formulation = read_formulation(table, material);
+  fem.element = read_element(table, fem.formulation, material);
+  if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
+    fem.refine = *refine;
+    check_refined_size(table.entry("refine"), body, fem.refine);
+  }
+  return fem;
+}
+
+namespace {
+
+void check_given_stiffness(const Entry& entry, const std::array<double, 3>& stiffness) {
+  if (!(stiffness[0] > 0 || stiffness[1] > 0 || stiffness[2] > 0))
+    entry.refuse("stiffnesses of which one is above 0");
+}
+
+/// What a design needs of the Poisson's ratio it starts from.
+void check_design_ratio(Table& table, const Msm& msm, const Material& material) {
+  const LinearElastic* linear = std::get_if<LinearElastic>(&material);
+  const Ogden* ogden = std::get_if<Ogden>(&material);
+  const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
+  if (msm.design == Design::linear_method && is_incompressible)
+    table.entry("design").refuse(
+        "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
+        "material has none without bulk_modulus; or give msm.poissons_ratio");
+  const std::optional<double> ratio = msm.poissons_ratio ? msm.poissons_ratio
+                                      : linear           ? std::optional(linear->poissons_ratio)
+                                                         : std::nullopt;
+  if (msm.design == Design::hybrid && ratio && *ratio < 0.25)
+    table.entry("design").refuse(
+        fmt::format("another design than \"hybrid\", which needs a Poisson's ratio of 0.25 and more: "
+                    "at {} its volume stiffness would be negative",
+                    *ratio));
+}
+
+} // namespace
+
+Msm read_msm(Table& table, const Material& material) {
+  Msm msm;
+  msm.where = table.where();
+  msm.design = table.optional("design", read_name<Design>)
+                   .value_or(std::holds_alternative<Ogden>(material) ? Design::nonlinear_method
+                                                                     : Design::linear_method);
+  const bool is_given = msm.design == Design::given;
+  const bool has_split = msm.design == Design::moduli || msm.design == Design::hybrid;
+  const std::string belongs = " belongs to design = ";
+  refuse_unless(!is_given, table, "poissons_ratio",
+                "a given stiffness is not designed from a Poisson's ratio");
+  refuse_unless(has_split, table, "split", "it" + belongs + "\"moduli\" | \"hybrid\"");
+  refuse_unless(is_given, table, "stiffness", "it" + belongs + "\"given\"");
+  refuse_unless(is_given, table, "volume_stiffness", "it" + belongs + "\"given\"");
+
+  msm.poissons_ratio =
+      table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
+  msm.split =
+      table.optional("split", Number{"a number from 0 to 1", [](double t) { return t >= 0 && t <= 1; }});
+  if (is_given) {
+    const Entry entry = table.entry("stiffness");
+    const auto k = Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
+    msm.stiffness = {k[0], k[1], k[2]};
+    check_given_stiffness(entry, *msm.stiffness);
+  } else {
+    table.optional("stiffness", read_text); // known, though absent
+  }
+  msm.volume_stiffness =
+      table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
+  check_design_ratio(table, msm, material);
+  return msm;
+}
+
+} // namespace cases

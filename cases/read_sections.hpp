@@ -1,0 +1,26 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "cases/toml_table.hpp"
+
+/// The readers of a case file's sections, which read_case() puts together. Each checks what it reads.
+namespace cases {
+
+/// A region under `region`, or a point under `near`.
+Region read_region(Table& table, const Body& body);
+/// A region in a text: "z+ x-", "near 5 5 10", or the name of a physical group.
+Region read_region_text(const Entry& entry, const Body& body);
+/// How many faces of a box meet in the region: 1 a face, 2 an edge, 3 a vertex; 0 for a point.
+int n_box_faces(const Region& region);
+
+Fixed read_fixed(Table& table, const Body& body);
+Fixed read_symmetry(Table& table, const Body& body);
+Load read_load(Table& table, const Body& body);
+
+Fem read_fem(Table& table, const Material& material, const Body& body);
+Msm read_msm(Table& table, const Material& material);
+
+Measure read_measure(Table& table, const Body& body);
+Expectation read_expectation(Table& table, const std::vector<Measure>& measures);
+
+} // namespace cases
