@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+/// The program's commands. Each adds its subcommand and options to the command line and, when it is the one
+/// chosen, sets what is to be done after MPI has started. The answer is the exit status: 0 done, 1 an
+/// expectation missed or a solve failed.
+namespace compare {
+
+using Action = std::function<int()>;
+
+void add_run_command(CLI::App& program, Action& chosen);
+void add_tables_command(CLI::App& program, Action& chosen);
+
+} // namespace compare

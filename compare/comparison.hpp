@@ -1,0 +1,61 @@
+#pragma once
+
+#include "cases/scene.hpp"
+#include "cases/solution.hpp"
+#include "msm/design/design.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace compare {
+
+/// One model's answer to a case, and what it took. Wall-clock seconds.
+struct Side {
+  cases::Solution solution;
+  double setup_seconds = 0; ///< design, mesh, degrees of freedom, pattern
+  double solve_seconds = 0; ///< from rest to equilibrium
+};
+
+/// A measure on both sides. A side that failed or was skipped has no value.
+struct MeasuredValue {
+  std::string name;
+  std::string unit;
+  std::optional<double> fem;
+  std::optional<double> msm;
+  std::optional<double> error_percent;
+};
+
+enum class Verdict { met, missed };
+
+/// An expectation held against what was measured. What cannot be measured is missed, with the reason.
+struct Judgement {
+  cases::Expectation expectation;
+  Verdict verdict;
+  std::optional<double> value;
+  std::string reason; ///< empty when met
+};
+
+/// Everything known of a case after it was run: one plain record, which the writers read.
+struct Comparison {
+  cases::Scene scene;
+  Side fem;
+  Side msm;
+  std::optional<msm::DesignResult>
+      design; ///< absent when the mass-spring side was skipped or could not be designed
+  std::vector<MeasuredValue> measures;
+  std::vector<Judgement> judgements;
+  bool failed() const; ///< a side that was asked for did not converge
+};
+
+enum class Only { both, fem, msm };
+
+/// Solves both sides of a case, or the one asked for, and measures them. A solve that fails is a failed side.
+/// Collective over MPI_COMM_WORLD; the mass-spring side is solved on rank 0 alone.
+/// @throws InputError
+Comparison compare_case(const cases::Case& definition, Only only = Only::both);
+
+/// @param measures  of the same case
+Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
+
+} // namespace compare

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace compare {
+
+/// What a timing depends on.
+struct Machine {
+  std::string processor;
+  int cores;
+  std::string system;   ///< "Linux 6.1 x86_64"
+  std::string compiler; ///< that built this program
+  std::string blas;     ///< OpenBLAS' own description, or "not OpenBLAS"
+};
+
+Machine describe_machine();
+
+/// Whether the BLAS that this process loaded is OpenBLAS.
+bool blas_is_openblas();
+
+/// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
+void use_one_blas_thread();
+
+} // namespace compare

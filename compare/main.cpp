@@ -1,0 +1,48 @@
+#include "cases/error.hpp"
+#include "compare/commands.hpp"
+#include "compare/machine.hpp"
+#include "compare/version.hpp"
+#include "fem_reference/session.hpp"
+
+#include <iostream>
+
+namespace {
+
+enum ExitStatus { wrong_input = 2, internal_error = 3 };
+
+int run_action(const compare::Action& action) {
+  const fem_reference::Session session;
+  const bool speaks = session.rank() == 0; // every rank meets the same error; one tells it
+  compare::use_one_blas_thread();
+  if (speaks && !compare::blas_is_openblas())
+    std::cerr
+        << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
+           "(install libopenblas0-pthread)\n";
+  try {
+    return action();
+  } catch (const cases::InputError& error) {
+    if (speaks) std::cerr << error.what() << '\n';
+    return wrong_input;
+  } catch (const std::exception& error) {
+    std::cerr << "springproof: internal error: " << error.what() << '\n';
+    return internal_error;
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{"springproof: mass-spring models of soft tissue against finite elements, measured"};
+  program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
+  program.require_subcommand(1);
+  compare::Action chosen;
+  compare::add_run_command(program, chosen);
+  compare::add_tables_command(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = program.exit(error);
+    return status == 0 ? 0 : wrong_input;
+  }
+  return run_action(chosen);
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cases/scene.hpp"
+#include "cases/solution.hpp"
+
+#include <string>
+
+namespace compare {
+
+/// Value of a measure on a converged solution, in unit_of(measure).
+///   coordinate, displacement: of the node; tilt: atan2(d_toward, d_up) of the vector from bottom to top;
+///   twist: rotation of the segment from centre to node about the axis against its rest direction, in (-180,
+///   180]; volume: of all cells of the body's mesh.
+/// @throws InputError for a measure of the two solutions' difference, which one side does not have
+/// Source: thesis sections 4.3.3 and 5.3.1.3.
+double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
+
+/// "mm", "deg" or "mm3".
+std::string unit_of(const cases::Measure& measure);
+
+/// r = (msm - fem)/fem x 100 %, as in the thesis; nothing when fem is zero next to msm or either is not
+/// finite.
+std::optional<double> error_percent(double fem, double msm);
+
+} // namespace compare

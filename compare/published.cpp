@@ -1,0 +1,74 @@
+#include "compare/published.hpp"
+
+#include "cases/error.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace compare {
+
+namespace {
+
+double number(const std::string& text, const std::string& path) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw cases::InputError(path + ": '" + text + "' is not a number");
+  return value;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+} // namespace
+
+std::string cases_folder() {
+  const char* moved = std::getenv("SPRINGPROOF_CASES");
+  return moved ? moved : SPRINGPROOF_CASES_DIR;
+}
+
+std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line)) throw cases::InputError(path + ": cannot be read, or is empty");
+  const std::size_t width = split(line).size();
+  std::vector<std::vector<std::string>> rows;
+  for (int number = 2; std::getline(file, line); ++number) {
+    rows.push_back(split(line));
+    if (rows.back().size() != width)
+      throw cases::InputError(path + ":" + std::to_string(number) + ": " +
+                              std::to_string(rows.back().size()) + " fields where the header has " +
+                              std::to_string(width));
+  }
+  return rows;
+}
+
+std::vector<PublishedError> read_published_errors() {
+  const std::string path = cases_folder() + "/published/errors.csv";
+  std::vector<PublishedError> errors;
+  for (const auto& row : read_csv(path))
+    errors.push_back({row.at(0), row.at(1), number(row.at(2), path), row.at(3), number(row.at(4), path),
+                      row.at(5), row.at(6), row.at(7), number(row.at(8), path)});
+  return errors;
+}
+
+std::optional<std::array<double, 3>>
+published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio) {
+  const std::string path = cases_folder() + "/published/stiffness.csv";
+  // The cube's linear elastic material has E = 0.3 MPa; chapter 6 prints sets for others.
+  const std::string wanted = material == "linear_elastic" ? "linear_elastic E=0.3 MPa" : material;
+  for (const auto& row : read_csv(path))
+    if (row.at(1) == design && row.at(2) == wanted && number(row.at(3), path) == design_poissons_ratio &&
+        number(row.at(4), path) == 1)
+      return std::array<double, 3>{number(row.at(5), path), number(row.at(6), path), number(row.at(7), path)};
+  return std::nullopt;
+}
+
+} // namespace compare

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The thesis's printed figures, read from cases/published/.
+namespace compare {
+
+/// One printed error of tables 4.5 to 5.4.
+struct PublishedError {
+  std::string table;     ///< "4.5"
+  std::string material;  ///< "linear_elastic" or "ogden"
+  double poissons_ratio; ///< of the finite-element reference
+  std::string design;    ///< "linear_method" or "nonlinear_method"
+  double design_poissons_ratio;
+  std::string load_set; ///< "small" or "large"
+  std::string test;     ///< "tensile", "shear" or "torsion"
+  std::string measure;  ///< "L_1" ... "beta_2"
+  double error_percent;
+};
+
+/// Folder of the case files and data that come with the program; the environment variable SPRINGPROOF_CASES
+/// moves it.
+std::string cases_folder();
+
+/// All rows of errors.csv, in the order of print.  @throws InputError naming file and line when a row is
+/// broken
+std::vector<PublishedError> read_published_errors();
+
+/// k_e, k_f, k_d in whole N/m where the thesis prints them for this design of the 1 mm cell, else nothing.
+std::optional<std::array<double, 3>>
+published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio);
+
+/// Rows of a comma-separated file without its header, every row as wide as the header.  @throws InputError
+std::vector<std::vector<std::string>> read_csv(const std::string& path);
+
+} // namespace compare

@@ -1,0 +1,76 @@
+#include "compare/commands.hpp"
+
+#include "cases/read_case.hpp"
+#include "compare/atomic_file.hpp"
+#include "compare/write.hpp"
+
+#include <iostream>
+#include <memory>
+#include <mpi.h>
+#include <nlohmann/json.hpp>
+
+namespace compare {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;
+  std::string only = "both";
+  std::string out;
+  bool json = false;
+};
+
+Only parse_only(const std::string& word) {
+  if (word == "fem") return Only::fem;
+  if (word == "msm") return Only::msm;
+  return Only::both;
+}
+
+/// Finished results are on disk before the next case starts, so that an interrupted run keeps them.
+void write_results(const std::string& folder, const std::vector<Comparison>& done) {
+  const Comparison& last = done.back();
+  write_file(folder + "/" + last.scene.definition.name + ".vtu",
+             [&](std::ostream& out) { write_vtu(out, last); });
+  write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
+  write_file(folder + "/results.json", [&](std::ostream& out) { out << to_json(done).dump(2) << '\n'; });
+}
+
+int run(const RunOptions& options) {
+  std::vector<cases::Case>
+      definitions; // all are read before any is solved: a mistake in the last costs nothing
+  for (const std::string& file : options.files)
+    definitions.push_back(cases::read_case(file, options.settings));
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  std::vector<Comparison> done;
+  bool failed = false;
+  for (const cases::Case& definition : definitions) {
+    done.push_back(compare_case(definition, parse_only(options.only)));
+    failed = failed || done.back().failed();
+    if (rank != 0) continue;
+    if (!options.json) write_text(std::cout, done.back());
+    if (!options.out.empty()) write_results(options.out, done);
+  }
+  if (rank == 0 && options.json) std::cout << to_json(done).dump(2) << '\n';
+  return failed ? 1 : 0;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "solve both sides of each case and print the comparison");
+  command->add_option("case", options->files, "case files (TOML)")->required();
+  command
+      ->add_option("--set", options->settings,
+                   "override a key: material.poissons_ratio=0.3, load[0].value=[0,0,1]")
+      ->allow_extra_args(false);
+  command->add_option("--only", options->only, "solve one side")
+      ->check(CLI::IsMember({"both", "fem", "msm"}));
+  command->add_option("--out", options->out, "folder for results.json, comparison.csv and fields as .vtu");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace compare

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "compare/comparison.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <vector>
+
+/// One plain record (Comparison), many writers.
+namespace compare {
+
+void write_text(std::ostream& out, const Comparison& comparison);
+
+/// The document of `run --json`: schema, program, machine and the cases. Keys stay in the order written.
+nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
+
+/// One row per case and measure: case,measure,unit,fem,msm,error_percent,fem_status,msm_status; empty where
+/// there is no value.
+void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
+
+/// The body's mesh as a VTK unstructured grid (.vtu, raw binary) with the displacements and cell volumes of
+/// the sides that converged, and their difference: ParaView's "warp by vector" overlays both models. Doubles,
+/// mm and mm³.
+void write_vtu(std::ostream& out, const Comparison& comparison);
+
+} // namespace compare

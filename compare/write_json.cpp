@@ -1,0 +1,89 @@
+#include "compare/write.hpp"
+
+#include "cases/names.hpp"
+#include "compare/machine.hpp"
+#include "compare/version.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace compare {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+template<class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json side_to_json(const Side& side) {
+  const cases::Solution& s = side.solution;
+  return {{"status", cases::name_of(s.status)},
+          {"message", s.message},
+          {"unknowns", s.unknowns},
+          {"residual", s.residual},
+          {"load_reached", s.load_reached},
+          {"newton_iterations", s.newton_iterations},
+          {"linear_iterations", s.linear_iterations},
+          {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
+          {"inverted_cells", s.inverted_cells},
+          {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
+}
+
+Json msm_to_json(const Comparison& comparison) {
+  Json side = side_to_json(comparison.msm);
+  if (comparison.design) {
+    const msm::CellStiffness& k = comparison.design->stiffness;
+    side["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+    side["volume_stiffness_MPa"] = k.volume;
+    side["warnings"] = comparison.design->warnings;
+  }
+  return side;
+}
+
+Json comparison_to_json(const Comparison& comparison) {
+  Json measures = Json::array();
+  for (const MeasuredValue& m : comparison.measures)
+    measures.push_back({{"name", m.name},
+                        {"unit", m.unit},
+                        {"fem", or_null(m.fem)},
+                        {"msm", or_null(m.msm)},
+                        {"error_percent", or_null(m.error_percent)}});
+  Json expectations = Json::array();
+  for (const Judgement& j : comparison.judgements)
+    expectations.push_back({{"measure", j.expectation.measure},
+                            {"quantity", cases::name_of(j.expectation.quantity)},
+                            {"interval", j.expectation.interval},
+                            {"reference", cases::name_of(j.expectation.reference)},
+                            {"value", or_null(j.value)},
+                            {"met", j.verdict == Verdict::met},
+                            {"reason", j.reason}});
+  const cases::Case& definition = comparison.scene.definition;
+  return {{"name", definition.name},
+          {"description", definition.description},
+          {"fem", side_to_json(comparison.fem)},
+          {"msm", msm_to_json(comparison)},
+          {"measures", measures},
+          {"expectations", expectations},
+          {"status", comparison.failed() ? "failed" : "converged"}};
+}
+
+} // namespace
+
+Json to_json(const std::vector<Comparison>& comparisons) {
+  const Machine machine = describe_machine();
+  Json cases = Json::array();
+  for (const Comparison& comparison : comparisons) cases.push_back(comparison_to_json(comparison));
+  return {{"schema", 1},
+          {"program", {{"version", program_version()}, {"commit", program_commit()}}},
+          {"machine",
+           {{"processor", machine.processor},
+            {"cores", machine.cores},
+            {"system", machine.system},
+            {"compiler", machine.compiler},
+            {"blas", machine.blas}}},
+          {"cases", cases}};
+}
+
+} // namespace compare

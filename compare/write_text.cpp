@@ -1,0 +1,63 @@
+#include "compare/write.hpp"
+
+#include "cases/names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+namespace compare {
+
+namespace {
+
+std::string number(const std::optional<double>& value, const char* format) {
+  return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+void write_side(std::ostream& out, const char* label, const std::string& what, const Side& side) {
+  const cases::Solution& s = side.solution;
+  if (s.status == cases::Status::skipped) return;
+  fmt::print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
+  if (s.status == cases::Status::failed) {
+    fmt::print(out, " at {:.4g} of the load: {}\n", s.load_reached, s.message);
+    return;
+  }
+  fmt::print(out, ", {} unknowns, {} Newton iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s",
+             s.unknowns, s.newton_iterations, s.residual, side.setup_seconds, side.solve_seconds);
+  if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
+  if (s.lowest_eigenvalue) fmt::print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
+  fmt::print(out, "\n");
+}
+
+std::string describe(const msm::DesignResult& design, cases::Design method) {
+  const msm::CellStiffness& k = design.stiffness;
+  std::string text = fmt::format("{} k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", cases::name_of(method),
+                                 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
+  return text;
+}
+
+} // namespace
+
+void write_text(std::ostream& out, const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  fmt::print(out, "{}: {}\n", definition.name, definition.description);
+  write_side(out, "fem",
+             cases::name_of(definition.fem.formulation) + " " + cases::name_of(definition.fem.element),
+             comparison.fem);
+  const std::string design = comparison.design ? describe(*comparison.design, definition.msm.design)
+                                               : cases::name_of(definition.msm.design);
+  write_side(out, "msm", design, comparison.msm);
+  if (comparison.design)
+    for (const std::string& warning : comparison.design->warnings)
+      fmt::print(out, "  warning: {}\n", warning);
+  fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}\n", "measure", "unit", "fem", "msm", "error %");
+  for (const MeasuredValue& m : comparison.measures)
+    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}\n", m.name, m.unit, number(m.fem, "{:.6g}"),
+               number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"));
+  for (const Judgement& j : comparison.judgements)
+    fmt::print(out, "  {} {} ({}): {}\n", j.verdict == Verdict::met ? "met   " : "MISSED",
+               j.expectation.measure, cases::name_of(j.expectation.reference),
+               j.verdict == Verdict::met ? fmt::format("{:.6g}", *j.value) : j.reason);
+}
+
+} // namespace compare
