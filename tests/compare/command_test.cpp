@@ -1,0 +1,121 @@
+// The program as its users run it: exit status, standard output, standard error, files.
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string cases_folder = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases";
+const std::string shear = cases_folder + "/thesis/linear_elastic/cube_shear_small.toml";
+
+struct Outcome {
+  int status;
+  std::string out, error;
+};
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("springproof-command-" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// @param words  as typed in a shell, after the program's name
+Outcome springproof(const std::string& words) {
+  const Folder folder;
+  const std::string errors = (folder.path / "stderr").string();
+  FILE* pipe = popen((SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
+  REQUIRE(pipe);
+  std::string out;
+  std::array<char, 4096> block{};
+  while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
+  const int status = pclose(pipe);
+  return {WEXITSTATUS(status), out, content(errors)};
+}
+
+} // namespace
+
+TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else") {
+  for (const auto& entry : fs::recursive_directory_iterator(cases_folder + "/thesis")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    const Outcome outcome = springproof("run --json " + entry.path().string());
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.error.empty());
+    const auto document = nlohmann::json::parse(outcome.out);
+    for (const char* side : {"fem", "msm"}) {
+      const auto& solution = document["cases"][0][side];
+      CHECK(solution["status"] == "converged");
+      CHECK(solution["residual"].get<double>() <= 1e-9); // the bound that both solvers promise
+      CHECK(solution["load_reached"] == 1.0);
+      CHECK(solution["inverted_cells"] == 0);
+    }
+    for (const auto& measure : document["cases"][0]["measures"]) CHECK(measure["error_percent"].is_number());
+  }
+}
+
+TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
+  const Outcome outcome = springproof("run --json --only msm " + shear);
+  REQUIRE(outcome.status == 0);
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["cases"][0]["fem"]["status"] == "skipped");
+  CHECK(document["cases"][0]["measures"][0]["fem"].is_null());
+  CHECK(document["cases"][0]["measures"][0]["msm"].is_number());
+}
+
+TEST_CASE("a broken case ends in exit status 2, one message and no files, even behind a good case") {
+  const Folder folder;
+  const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";
+  std::ofstream(broken) << "schema = 1\nname = \"b\"\nbdoy = 3\n";
+  const Outcome outcome = springproof("run " + shear + " " + broken.string() + " --out " + out.string());
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.error.find("broken.toml:3:1: bdoy") != std::string::npos);
+  CHECK(outcome.error.find("body") != std::string::npos);
+  CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("a region that selects nothing is refused before any solve, with its place in the file") {
+  const Outcome outcome = springproof("run " + shear + " --set 'measure[0].top=\"near 1 2 3.5\"'");
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.error.find("no node within") != std::string::npos);
+}
+
+TEST_CASE("--out leaves results, a comparison and both models' fields, and nothing temporary") {
+  const Folder folder;
+  const fs::path out = folder.path / "out";
+  REQUIRE(springproof("run " + shear + " --out " + out.string()).status == 0);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(out)) names.push_back(entry.path().filename());
+  CHECK_THAT(names,
+             Catch::UnorderedEquals<std::string>({"results.json", "comparison.csv", "cube-shear-small.vtu"}));
+  CHECK(nlohmann::json::parse(content(out / "results.json"))["cases"].size() == 1);
+  const std::string vtu = content(out / "cube-shear-small.vtu");
+  for (const char* field : {"fem_displacement", "msm_displacement", "difference", "msm_cell_volume"})
+    CHECK(vtu.find(field) != std::string::npos);
+}
+
+TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unknown table") {
+  for (const char* words : {"", "run", "run --no-such-option x", "tables 9.9", "run /no/such/file.toml"}) {
+    INFO(words);
+    const Outcome outcome = springproof(words);
+    CHECK(outcome.status == 2);
+    CHECK_FALSE(outcome.error.empty());
+  }
+  CHECK(springproof("--help").status == 0);
+}
