@@ -1,0 +1,17 @@
+#pragma once
+
+#include "cases/scene.hpp"
+#include "msm/design/design.hpp"
+
+namespace compare {
+
+/// A design request whose K_FEM comes from the finite-element side.
+/// @param cell  mm    @param element  q1 (the thesis's choice) or q1_bbar
+msm::DesignRequest design_request(const cases::Material& material, const msm::CellVertices& cell,
+                                  const cases::Msm& options, cases::Element element = cases::Element::q1);
+
+/// The stiffnesses that a scene's [msm] block asks for, from its material and the first cell of its mesh.
+/// @throws InputError when the method cannot serve the material or the mesh's cells
+msm::DesignResult design_for(const cases::Scene& scene);
+
+} // namespace compare

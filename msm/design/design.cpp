@@ -1,0 +1,126 @@
+#include "msm/design/design.hpp"
+
+#include "cases/error.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+
+namespace msm {
+
+namespace {
+
+constexpr double newton_per_metre = 1e-3; // N/mm
+
+DesignResult from_linear_method(const DesignRequest& request) {
+  const cases::LinearElastic material = designed_material(request, 0);
+  const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
+  return {fit.stiffness, fit.residual, {}, {}};
+}
+
+DesignResult from_given(const DesignRequest& request) {
+  const cases::Msm& options = request.options;
+  if (!options.stiffness)
+    throw cases::InputError(options.where, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
+  const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
+  return {{newton_per_metre * edge, newton_per_metre * face_diagonal, newton_per_metre * internal_diagonal,
+           options.volume_stiffness},
+          std::nullopt,
+          {},
+          {}};
+}
+
+struct Method {
+  cases::Design id;
+  const char* name;
+  DesignResult (*run)(const DesignRequest&); ///< fills stiffness and residual; null: not available yet
+};
+
+constexpr std::array<Method, 6> methods = {{
+    {cases::Design::linear_method, "linear_method", from_linear_method},
+    {cases::Design::nonlinear_method, "nonlinear_method", nullptr},
+    {cases::Design::moduli, "moduli", nullptr},
+    {cases::Design::hybrid, "hybrid", nullptr},
+    {cases::Design::multi_load, "multi_load", nullptr},
+    {cases::Design::given, "given", from_given},
+}};
+
+const Method& find(cases::Design id) {
+  for (const Method& method : methods)
+    if (method.id == id) return method;
+  throw cases::InputError("unknown design method");
+}
+
+cases::LinearElastic with_shear_modulus(double shear, std::optional<double> bulk) {
+  if (!bulk) return {3 * shear, 0.5};
+  return {9 * *bulk * shear / (3 * *bulk + shear), (3 * *bulk - 2 * shear) / (2 * (3 * *bulk + shear))};
+}
+
+} // namespace
+
+std::string method_name(cases::Design method) {
+  return find(method).name;
+}
+
+cases::LinearElastic small_strain_material(const cases::Material& material) {
+  if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
+  const auto& ogden = std::get<cases::Ogden>(material);
+  double shear = 0;
+  for (const double mu : ogden.mu) shear += mu;
+  return with_shear_modulus(shear, ogden.bulk_modulus);
+}
+
+cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio) {
+  cases::LinearElastic material = small_strain_material(request.material);
+  const cases::Msm& options = request.options;
+  if (options.poissons_ratio) material.poissons_ratio = *options.poissons_ratio;
+  if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
+    throw cases::InputError(options.where, "Young's modulus " + std::to_string(material.youngs_modulus) +
+                                               " MPa: must be positive and finite");
+  if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
+    throw cases::InputError(options.where, "Poisson's ratio " + std::to_string(material.poissons_ratio) +
+                                               ": design = \"" + method_name(options.design) + "\" takes " +
+                                               std::to_string(lowest_poissons_ratio) +
+                                               " <= nu < 0.5; msm.poissons_ratio designs from another one");
+  return material;
+}
+
+std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {
+  std::vector<std::string> warnings;
+  const std::array<std::pair<const char*, double>, 4> named = {
+      {{"edge springs k_e", stiffness.edge},
+       {"face diagonals k_f", stiffness.face_diagonal},
+       {"internal diagonals k_d", stiffness.internal_diagonal},
+       {"volume term k_v", stiffness.volume}}};
+  for (const auto& [name, value] : named) {
+    if (!std::isfinite(value)) return {std::string(name) + ": the stiffness is not a finite number"};
+    if (value < 0) warnings.push_back(std::string(name) + ": the stiffness is negative");
+  }
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<CellMatrix>(
+                                          cell_stiffness_matrix(vertices, stiffness), Eigen::EigenvaluesOnly)
+                                          .eigenvalues();
+  const double zero =
+      1e-9 * eigenvalues.cwiseAbs().maxCoeff(); // far above round-off, far below any spring's share
+  const auto n_negative = (eigenvalues.array() < -zero).count();
+  const auto n_zero = (eigenvalues.array().abs() <= zero).count();
+  if (n_negative > 0)
+    warnings.push_back("the cell's tangent at rest is indefinite: " + std::to_string(n_negative) +
+                       " negative eigenvalues");
+  if (n_zero > 6)
+    warnings.push_back("the cell is a mechanism: " + std::to_string(n_zero - 6) +
+                       " zero-energy modes besides the rigid motions");
+  return warnings;
+}
+
+DesignResult design(const DesignRequest& request) {
+  const Method& method = find(request.options.design);
+  if (method.run == nullptr)
+    throw cases::InputError(request.options.where,
+                            "not available yet: design = \"" + std::string(method.name) + "\"");
+  DesignResult result = method.run(request);
+  result.moduli = lattice_moduli(result.stiffness, request.cell);
+  result.warnings = examine(result.stiffness, request.cell);
+  return result;
+}
+
+} // namespace msm

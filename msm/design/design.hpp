@@ -1,0 +1,53 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/linear_method.hpp"
+#include "msm/lattice.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Design: from a material to the stiffnesses of one cell. A method is one function and one line in the table
+/// of design.cpp.
+namespace msm {
+
+/// What a design method may look at.
+struct DesignRequest {
+  cases::Material material;
+  CellVertices cell = cube(1); ///< mm
+  cases::Msm options;          ///< the method and its settings, as in a case file's [msm]
+  /// K_FEM of the cell for a small-strain material, N/mm; only the linear method asks for it.
+  std::function<CellMatrix(const cases::LinearElastic&)> element_stiffness;
+};
+
+struct DesignResult {
+  CellStiffness stiffness;
+  std::optional<double> residual; ///< what the method minimised, at its minimum; absent for a closed form
+  LatticeModuli moduli;
+  std::vector<std::string> warnings; ///< why the design should not be trusted; empty for a sound one
+};
+
+/// Runs the method that request.options names, then examines its answer.
+/// @throws InputError when the material or a setting has no meaning for the method
+DesignResult design(const DesignRequest& request);
+
+/// Names as in case files: "linear_method", ...
+std::string method_name(cases::Design method);
+
+/// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
+/// a bulk modulus.
+cases::LinearElastic small_strain_material(const cases::Material& material);
+
+/// The small-strain material that the design is made for: options.poissons_ratio replaces the material's own,
+/// E stays.
+/// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
+cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio);
+
+/// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
+/// indefinite tangent at rest.  @param vertices  mm
+std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices);
+
+} // namespace msm

@@ -1,0 +1,63 @@
+#include "msm/design/lattice_moduli.hpp"
+
+#include "msm/design/linear_method.hpp"
+
+namespace msm {
+
+namespace {
+
+// The displacement u = e x at the vertices, e symmetric with unit engineering strain in one Voigt component.
+Eigen::Matrix<double, 24, 1> affine_displacement(const CellVertices& vertices, int component) {
+  static constexpr std::array<std::array<int, 2>, 6> axes = {
+      {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  const auto [i, j] = axes[static_cast<std::size_t>(component)];
+  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+  strain(i, j) += 0.5;
+  strain(j, i) += 0.5;
+  Eigen::Matrix<double, 24, 1> displacement;
+  for (int v = 0; v < 8; ++v) displacement.segment<3>(3 * v) = strain * vertices[static_cast<std::size_t>(v)];
+  return displacement;
+}
+
+} // namespace
+
+LatticeModuli cubic_moduli(double c11, double c12, double c44) {
+  return {c11, c12, c44, 2 * c44 / (c11 - c12), c11 - 2 * c12 * c12 / (c11 + c12), c12 / (c11 + c12), c44};
+}
+
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge) {
+  const double edges = 4 * stiffness.edge;
+  const double face_diagonals = 2 * stiffness.face_diagonal;
+  const double internal_diagonals = 4 * stiffness.internal_diagonal / 3;
+  const double c44 = (face_diagonals + internal_diagonals) / edge;
+  const double c11 = (edges + 2 * face_diagonals + internal_diagonals) / edge + stiffness.volume;
+  return cubic_moduli(c11, c44 + stiffness.volume, c44);
+}
+
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
+  Eigen::Matrix<double, 24, 6> strains;
+  for (int c = 0; c < 6; ++c) strains.col(c) = affine_displacement(vertices, c);
+  const Eigen::Matrix<double, 6, 6> elasticity = strains.transpose() *
+                                                 cell_stiffness_matrix(vertices, stiffness) * strains /
+                                                 cases::cell_volume(vertices);
+  return cubic_moduli(elasticity.diagonal().head<3>().mean(),
+                      (elasticity(0, 1) + elasticity(1, 2) + elasticity(0, 2)) / 3,
+                      elasticity.diagonal().tail<3>().mean());
+}
+
+CellVertices cube(double edge) {
+  CellVertices vertices;
+  for (int v = 0; v < 8; ++v)
+    vertices[static_cast<std::size_t>(v)] = edge * Eigen::Vector3d(v & 1, (v >> 1) & 1, (v >> 2) & 1);
+  return vertices;
+}
+
+double cube_edge(const CellVertices& vertices) {
+  const double edge = (vertices[1] - vertices[0]).norm();
+  const CellVertices ideal = cube(edge);
+  for (std::size_t v = 1; v < 8; ++v)
+    if (!((vertices[v] - vertices[0] - ideal[v]).norm() <= 1e-9 * edge)) return 0;
+  return edge;
+}
+
+} // namespace msm

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "msm/cell_volume.hpp"
+#include "msm/lattice.hpp"
+
+namespace msm {
+
+using CellVertices = CellPositions; ///< of a cell at rest
+
+/// Small-strain moduli of the infinite lattice of equal cells, MPa (ratios are plain numbers).
+struct LatticeModuli {
+  double c11 = 0, c12 = 0, c44 = 0;
+  double zener = 0;          ///< 2 C44 / (C11 - C12); 1 when isotropic
+  double youngs_modulus = 0; ///< along a lattice axis, C11 - 2 C12² / (C11 + C12)
+  double poissons_ratio = 0; ///< stretched along a lattice axis, C12 / (C11 + C12)
+  double shear_modulus = 0;  ///< between lattice axes, C44
+};
+
+/// Moduli of the lattice of cubes. With assembled stiffnesses K_e = 4 k_e, K_f = 2 k_f, K_d = k_d:
+///   C11 = (K_e + 2 K_f + 4 K_d/3)/h + k_v,  C44 = (K_f + 4 K_d/3)/h,  C12 = C44 + k_v.
+/// Exact: an affine displacement leaves every point of the lattice in equilibrium, each being a centre of
+/// symmetry.
+/// @param edge  h, mm, > 0
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
+
+/// The same from the cell's response to affine displacements: exact for a parallelepiped, whose C11, C12, C44
+/// are averaged over the three axes; for another hexahedron the affine (Voigt) estimate.
+/// @param vertices  mm
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices);
+
+/// Derived ratios from the three constants of a cubic solid (MPa).
+LatticeModuli cubic_moduli(double c11, double c12, double c44);
+
+/// Edge of a cubical cell aligned with the axes, mm; 0 when the cell is another hexahedron (to 1e-9 of its
+/// edge).
+double cube_edge(const CellVertices& vertices);
+
+/// Cube from the origin to (edge, edge, edge), mm.
+CellVertices cube(double edge);
+
+} // namespace msm

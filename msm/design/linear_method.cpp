@@ -1,0 +1,55 @@
+#include "msm/design/linear_method.hpp"
+
+#include <Eigen/QR>
+
+namespace msm {
+
+namespace {
+
+template<std::size_t n>
+void add_springs(CellMatrix& matrix, const CellVertices& vertices,
+                 const std::array<std::array<int, 2>, n>& springs, double stiffness) {
+  for (const auto& [i, j] : springs) {
+    const Eigen::Vector3d d = vertices[static_cast<std::size_t>(j)] - vertices[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d block = stiffness / d.squaredNorm() * d * d.transpose();
+    matrix.block<3, 3>(3 * i, 3 * i) += block;
+    matrix.block<3, 3>(3 * j, 3 * j) += block;
+    matrix.block<3, 3>(3 * i, 3 * j) -= block;
+    matrix.block<3, 3>(3 * j, 3 * i) -= block;
+  }
+}
+
+void add_volume_term(CellMatrix& matrix, const CellVertices& vertices, double stiffness) {
+  const CellGradient by_vertex = trilinear_volume_gradient(vertices);
+  Eigen::Matrix<double, 24, 1> gradient;
+  for (int v = 0; v < 8; ++v) gradient.segment<3>(3 * v) = by_vertex[static_cast<std::size_t>(v)];
+  matrix += stiffness / trilinear_volume(vertices) * gradient * gradient.transpose();
+}
+
+} // namespace
+
+CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness) {
+  CellMatrix matrix = CellMatrix::Zero();
+  add_springs(matrix, vertices, cases::cell_edges, stiffness.edge);
+  add_springs(matrix, vertices, cases::cell_face_diagonals, stiffness.face_diagonal);
+  add_springs(matrix, vertices, cases::cell_internal_diagonals, stiffness.internal_diagonal);
+  if (stiffness.volume != 0) add_volume_term(matrix, vertices, stiffness.volume);
+  return matrix;
+}
+
+LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertices) {
+  Eigen::Matrix<double, 576, 3> unit;
+  const std::array<CellStiffness, 3> units = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  for (int c = 0; c < 3; ++c)
+    unit.col(c) = cell_stiffness_matrix(vertices, units[static_cast<std::size_t>(c)]).reshaped();
+  const Eigen::Vector3d k = unit.colPivHouseholderQr().solve(reference.reshaped());
+  return {{k(0), k(1), k(2), 0}, (reference.reshaped() - unit * k).norm()};
+}
+
+CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_modulus, double edge) {
+  const double unit = youngs_modulus * edge / 2;
+  return {stiffness.edge / unit, stiffness.face_diagonal / unit, stiffness.internal_diagonal / unit,
+          stiffness.volume / youngs_modulus};
+}
+
+} // namespace msm

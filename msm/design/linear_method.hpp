@@ -1,0 +1,34 @@
+#pragma once
+
+#include "msm/design/lattice_moduli.hpp"
+#include "msm/lattice.hpp"
+
+#include <Eigen/Core>
+
+namespace msm {
+
+using CellMatrix =
+    Eigen::Matrix<double, 24, 24>; ///< degree of freedom 3*vertex + component, vertex v = i + 2j + 4k
+
+/// Stiffness matrix of one cell's springs, linearised at rest (N/mm):
+///   K_ii = sum_j k_ij n n^T,  K_ij = -k_ij n n^T,  n the unit vector along the spring,
+/// plus that of the volume term, (k_v/V0) g g^T with g = dV/dx.  Source: thesis eqs 4.12, 4.13.
+/// @param vertices  rest positions, mm
+CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness);
+
+struct LinearFit {
+  CellStiffness
+      stiffness;   ///< without a volume term; components may come out negative, the fit is unconstrained
+  double residual; ///< || K_FEM - K_MSM ||_F, N/mm
+};
+
+/// The linear method: the k_e, k_f, k_d whose K_MSM is nearest to a reference matrix in the Frobenius norm.
+/// @param reference  symmetric 24x24 stiffness matrix of the same cell, N/mm    @param vertices  any
+/// hexahedron, mm Source: thesis eq. 4.15, the same minimiser as eq. 4.19.
+LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertices);
+
+/// k' of thesis eq. 4.21, k = (L0/2) k' E: dimensionless, depends on Poisson's ratio alone.
+/// @param youngs_modulus  MPa    @param edge  L0, mm
+CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_modulus, double edge);
+
+} // namespace msm
