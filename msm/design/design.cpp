@@ -1,6 +1,7 @@
 #include "msm/design/design.hpp"
 
 #include "cases/error.hpp"
+#include "cases/names.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <array>
@@ -32,17 +33,16 @@ DesignResult from_given(const DesignRequest& request) {
 
 struct Method {
   cases::Design id;
-  const char* name;
   DesignResult (*run)(const DesignRequest&); ///< fills stiffness and residual; null: not available yet
 };
 
 constexpr std::array<Method, 6> methods = {{
-    {cases::Design::linear_method, "linear_method", from_linear_method},
-    {cases::Design::nonlinear_method, "nonlinear_method", nullptr},
-    {cases::Design::moduli, "moduli", nullptr},
-    {cases::Design::hybrid, "hybrid", nullptr},
-    {cases::Design::multi_load, "multi_load", nullptr},
-    {cases::Design::given, "given", from_given},
+    {cases::Design::linear_method, from_linear_method},
+    {cases::Design::nonlinear_method, nullptr},
+    {cases::Design::moduli, nullptr},
+    {cases::Design::hybrid, nullptr},
+    {cases::Design::multi_load, nullptr},
+    {cases::Design::given, from_given},
 }};
 
 const Method& find(cases::Design id) {
@@ -57,10 +57,6 @@ cases::LinearElastic with_shear_modulus(double shear, std::optional<double> bulk
 }
 
 } // namespace
-
-std::string method_name(cases::Design method) {
-  return find(method).name;
-}
 
 cases::LinearElastic small_strain_material(const cases::Material& material) {
   if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
@@ -79,8 +75,8 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
                                                " MPa: must be positive and finite");
   if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
     throw cases::InputError(options.where, "Poisson's ratio " + std::to_string(material.poissons_ratio) +
-                                               ": design = \"" + method_name(options.design) + "\" takes " +
-                                               std::to_string(lowest_poissons_ratio) +
+                                               ": design = \"" + cases::name_of(options.design) +
+                                               "\" takes " + std::to_string(lowest_poissons_ratio) +
                                                " <= nu < 0.5; msm.poissons_ratio designs from another one");
   return material;
 }
@@ -116,7 +112,7 @@ DesignResult design(const DesignRequest& request) {
   const Method& method = find(request.options.design);
   if (method.run == nullptr)
     throw cases::InputError(request.options.where,
-                            "not available yet: design = \"" + std::string(method.name) + "\"");
+                            "not available yet: design = \"" + cases::name_of(method.id) + "\"");
   DesignResult result = method.run(request);
   result.moduli = lattice_moduli(result.stiffness, request.cell);
   result.warnings = examine(result.stiffness, request.cell);

@@ -34,9 +34,6 @@ struct DesignResult {
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 
-/// Names as in case files: "linear_method", ...
-std::string method_name(cases::Design method);
-
 /// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
 /// a bulk modulus.
 cases::LinearElastic small_strain_material(const cases::Material& material);
