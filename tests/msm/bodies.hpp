@@ -1,0 +1,71 @@
+#pragma once
+
+#include "cases/scene.hpp"
+#include "msm/lattice.hpp"
+
+#include <random>
+#include <vector>
+
+/// Bodies and loads that several tests use.
+namespace bodies {
+
+inline cases::Region region(const std::string& name) {
+  cases::Region region;
+  region.name = name;
+  return region;
+}
+
+inline cases::Load nodal_force(const std::string& where, const Eigen::Vector3d& newtons) {
+  cases::Load load;
+  load.region = region(where);
+  load.kind = cases::LoadKind::nodal_force;
+  load.value = newtons;
+  return load;
+}
+
+/// A box of cubes of 1 mm, its face z- clamped.
+inline cases::Case clamped_box(const std::array<int, 3>& cells, std::vector<cases::Load> loads) {
+  cases::Case box;
+  box.name = "box";
+  box.body = cases::Box{{double(cells[0]), double(cells[1]), double(cells[2])}, cells};
+  box.material = cases::LinearElastic{0.3, 0.35};
+  box.fixed = {{region("z-")}};
+  box.loads = std::move(loads);
+  return box;
+}
+
+/// Thesis section 4.3: the cube's three load cases, N per node.
+inline std::vector<cases::Load> tensile(double f) {
+  return {nodal_force("z+", {0, 0, f})};
+}
+inline std::vector<cases::Load> shear(double f) {
+  return {nodal_force("z+", {f, 0, 0})};
+}
+inline std::vector<cases::Load> torsion(double f) {
+  return {nodal_force("z+ y-", {f, 0, 0}), nodal_force("z+ x+", {0, f, 0}), nodal_force("z+ y+", {-f, 0, 0}),
+          nodal_force("z+ x-", {0, -f, 0})};
+}
+
+/// k_e, k_f, k_d in N/m as the thesis prints them, k_v in MPa.
+inline msm::CellStiffness cell(double edge, double face, double internal, double volume = 0) {
+  return {1e-3 * edge, 1e-3 * face, 1e-3 * internal, volume};
+}
+
+/// Four of eight cells of a 2x2x2 grid: an edge and a face of some cells lie inside, others outside.
+inline cases::Grid masked_grid() {
+  cases::Grid grid;
+  grid.cells = {2, 2, 2};
+  grid.present = {true, true, true, false, false, true, false, false};
+  return grid;
+}
+
+/// Points moved by up to `size` mm, the same ones in every run.
+inline msm::Points disturbed(msm::Points points, double size) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> any(-size, size);
+  for (Eigen::Vector3d& point : points)
+    point += Eigen::Vector3d(any(generator), any(generator), any(generator));
+  return points;
+}
+
+} // namespace bodies

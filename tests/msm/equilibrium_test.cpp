@@ -1,0 +1,58 @@
+#include "msm/equilibrium.hpp"
+
+#include "cases/error.hpp"
+#include "tests/msm/bodies.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using Eigen::Vector3d;
+using msm::CellStiffness;
+using msm::Problem;
+
+namespace {
+
+Problem make_problem(const cases::Case& definition, const CellStiffness& stiffness) {
+  const cases::Scene scene = cases::make_scene(definition);
+  return {msm::make_lattice(scene.mesh, {stiffness}), cases::nodal_forces(scene),
+          cases::fixed_degrees_of_freedom(scene)};
+}
+
+/// Right side of eq. 5.3: the side for which the cell's vertices are balanced across the pull.
+double side(const CellStiffness& k, double width, double height) {
+  const double sin_a = width / std::hypot(width, height),
+               sin_b = std::sqrt(2.0) * width / std::hypot(std::sqrt(2.0) * width, height);
+  return (k.edge + (1 + std::sqrt(2.0) * sin_a) * k.face_diagonal +
+          std::sqrt(6.0) / 2 * sin_b * k.internal_diagonal) /
+         (k.edge + 2 * k.face_diagonal + k.internal_diagonal);
+}
+
+/// Eq. 5.4: pull on each vertex of the top face.
+double pull(const CellStiffness& k, double width, double height) {
+  const double cos_a = height / std::hypot(width, height),
+               cos_b = height / std::hypot(std::sqrt(2.0) * width, height);
+  return height * (k.edge + 2 * k.face_diagonal + k.internal_diagonal) -
+         (k.edge + 2 * std::sqrt(2.0) * k.face_diagonal * cos_a +
+          std::sqrt(3.0) * k.internal_diagonal * cos_b);
+}
+
+} // namespace
+
+TEST_CASE("one cell pulled along z takes the shape of thesis eqs 5.3 and 5.4", "[verification]") {
+  const CellStiffness k = bodies::cell(31, 47, 33);
+  for (double height : {0.8, 1.05, 1.3, 1.9}) {
+    double width = 1;
+    for (int n = 0; n < 400; ++n) width = side(k, width, height); // a contraction by less than 1/2
+    cases::Case cell = bodies::clamped_box({1, 1, 1}, bodies::tensile(pull(k, width, height)));
+    cell.fixed = {{bodies::region("x-"), {true, false, false}},
+                  {bodies::region("y-"), {false, true, false}},
+                  {bodies::region("z-"), {false, false, true}}};
+    const Problem problem = make_problem(cell, k);
+    msm::EquilibriumSettings settings;
+    settings.tolerance = 1e-12;
+    const msm::Equilibrium found = msm::EquilibriumSolver(problem, settings).solve(problem.lattice.rest);
+    CHECK(found.positions.back().x() == Approx(width).epsilon(1e-10)); // as asked; residual 1e-12
+    CHECK(found.positions.back().y() == Approx(width).epsilon(1e-10));
+    CHECK(found.positions.back().z() == Approx(height).epsilon(1e-10));
+  }
+}

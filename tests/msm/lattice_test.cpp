@@ -1,0 +1,100 @@
+#include "msm/lattice.hpp"
+
+#include "tests/msm/bodies.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+using Eigen::Vector3d;
+using msm::Lattice;
+using msm::Points;
+
+namespace {
+
+const msm::CellStiffness stiffness = bodies::cell(31, 47, 33, 0.14);
+
+/// Assembled stiffness (N/m) of the spring between the nodes at two places of the unit grid; 0 when there is
+/// none.
+double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
+  for (const msm::Link& link : lattice.links) {
+    const Vector3d &i = lattice.rest[static_cast<std::size_t>(link.i)],
+                   &j = lattice.rest[static_cast<std::size_t>(link.j)];
+    if ((i == a && j == b) || (i == b && j == a)) return 1e3 * link.spring.stiffness;
+  }
+  return 0;
+}
+
+Lattice masked_lattice() {
+  return msm::make_lattice(cases::make_grid_mesh(bodies::masked_grid()), {stiffness});
+}
+
+} // namespace
+
+TEST_CASE("springs shared by cells are one spring with the sum of their stiffnesses") {
+  const Lattice lattice = msm::make_lattice(cases::make_box_mesh({2, 2, 2}, {2, 2, 2}), {stiffness});
+  const double tolerance = 1e-14; // relative; a sum of at most four equal terms
+  const Vector3d centre(1, 1, 1);
+  SECTION("inside the body") {
+    CHECK(between(lattice, centre, {1, 1, 2}) == Approx(4 * 31).epsilon(tolerance));
+    CHECK(between(lattice, centre, {1, 2, 2}) == Approx(2 * 47).epsilon(tolerance));
+    CHECK(between(lattice, centre, {2, 2, 2}) == Approx(33).epsilon(tolerance));
+  }
+  SECTION("on the body's surface") {
+    CHECK(between(lattice, {1, 0, 0}, {2, 0, 0}) == Approx(31).epsilon(tolerance));
+    CHECK(between(lattice, {1, 1, 0}, {2, 1, 0}) == Approx(2 * 31).epsilon(tolerance));
+    CHECK(between(lattice, {1, 1, 0}, {2, 2, 0}) == Approx(47).epsilon(tolerance));
+  }
+  SECTION("springs of every kind, each once") {
+    const std::size_t edges = 3 * 2 * 9, face_diagonals = 2 * 3 * 4 * 3, internal_diagonals = 4 * 8;
+    CHECK(lattice.links.size() == edges + face_diagonals + internal_diagonals);
+    CHECK(lattice.volume_cells.size() == 8);
+  }
+}
+
+TEST_CASE("a lattice with cells missing has the springs of the present cells alone") {
+  // present: (0,0,0) (1,0,0) (0,1,0) (1,0,1)
+  const Lattice lattice = masked_lattice();
+  const double tolerance = 1e-14; // relative; a sum of at most four equal terms
+  CHECK(between(lattice, {1, 1, 0}, {1, 1, 1}) == Approx(3 * 31).epsilon(tolerance)); // three cells meet here
+  CHECK(between(lattice, {1, 0, 0}, {1, 1, 1}) == Approx(2 * 47).epsilon(tolerance));
+  CHECK(between(lattice, {1, 0, 1}, {1, 1, 2}) == Approx(47).epsilon(tolerance));
+  CHECK(between(lattice, {1, 1, 0}, {2, 1, 1}) == Approx(47).epsilon(tolerance));
+  CHECK(between(lattice, {1, 1, 0}, {2, 2, 1}) == 0); // the cell (1,1,0) is missing
+  CHECK(lattice.volume_cells.size() == 4);
+}
+
+TEST_CASE("cells of different stiffness add what each brings") {
+  const cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  const Lattice lattice = msm::make_lattice(mesh, {bodies::cell(1, 2, 3), bodies::cell(10, 20, 30)});
+  const double tolerance = 1e-14; // relative; a sum of two terms
+  CHECK(between(lattice, {1, 0, 0}, {1, 1, 0}) == Approx(11).epsilon(tolerance));
+  CHECK(between(lattice, {1, 0, 0}, {1, 1, 1}) == Approx(22).epsilon(tolerance));
+  CHECK(between(lattice, {0, 0, 0}, {1, 1, 1}) == Approx(3).epsilon(tolerance));
+  CHECK(between(lattice, {1, 0, 0}, {2, 1, 1}) == Approx(30).epsilon(tolerance));
+}
+
+TEST_CASE("a rigid motion of the lattice gives no force") {
+  const Lattice lattice = masked_lattice();
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(1.9, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  Points moved = lattice.rest;
+  for (Vector3d& point : moved) point = rotation * point + Vector3d(3, -8, 5);
+  for (const Vector3d& force : msm::internal_force(lattice, moved))
+    CHECK(force.norm() < 1e-14);              // N; rounding of k |x| = 0.1 N/mm 10 mm
+  CHECK(msm::energy(lattice, moved) < 1e-28); // N mm, quadratic in that
+}
+
+TEST_CASE("the internal force of a lattice is minus the gradient of its energy") {
+  const Lattice lattice = masked_lattice();
+  const Points at = bodies::disturbed(lattice.rest, 0.2);
+  const Points force = msm::internal_force(lattice, at);
+  const double h = 1e-6; // mm; the central difference then errs by about 1e-13, its rounding by 1e-10
+  for (std::size_t p = 0; p < at.size(); ++p)
+    for (int a = 0; a < 3; ++a) {
+      Points before = at, after = at;
+      before[p][a] -= h;
+      after[p][a] += h;
+      const double difference = (msm::energy(lattice, after) - msm::energy(lattice, before)) / (2 * h);
+      CHECK(force[p][a] == Approx(-difference).margin(1e-9)); // N, see h
+    }
+}

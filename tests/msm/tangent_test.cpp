@@ -1,0 +1,87 @@
+#include "msm/tangent.hpp"
+
+#include "tests/msm/bodies.hpp"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using msm::Lattice;
+using msm::Points;
+using msm::Tangent;
+using msm::TransverseTerm;
+
+namespace {
+
+Lattice masked_lattice() {
+  return msm::make_lattice(cases::make_grid_mesh(bodies::masked_grid()), {bodies::cell(31, 47, 33, 0.14)});
+}
+
+MatrixXd full(const Tangent::Matrix& lower) {
+  return MatrixXd(MatrixXd(lower).selfadjointView<Eigen::Lower>());
+}
+
+VectorXd flat(const Points& points) {
+  return Eigen::Map<const VectorXd>(points.front().data(), static_cast<Eigen::Index>(3 * points.size()));
+}
+
+} // namespace
+
+TEST_CASE("the tangent of a lattice is minus the derivative of its internal force") {
+  const Lattice lattice = masked_lattice();
+  const Points at = bodies::disturbed(lattice.rest, 0.2);
+  Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
+  const MatrixXd matrix = full(tangent.assemble(at, TransverseTerm::exact));
+  const double h = 1e-6; // mm; the central difference then errs by about 1e-12, its rounding by 1e-10
+  for (std::size_t p = 0; p < at.size(); ++p)
+    for (int a = 0; a < 3; ++a) {
+      Points before = at, after = at;
+      before[p][a] -= h;
+      after[p][a] += h;
+      const VectorXd difference =
+          (flat(msm::internal_force(lattice, after)) - flat(msm::internal_force(lattice, before))) / (2 * h);
+      const auto column = static_cast<Eigen::Index>(3 * p) + a;
+      CHECK((matrix.col(column) + difference).norm() < 1e-9); // N/mm, see h
+    }
+}
+
+TEST_CASE("held degrees of freedom have no row and no column in the tangent") {
+  const Lattice lattice = masked_lattice();
+  std::vector<bool> is_fixed(3 * lattice.rest.size(), false);
+  is_fixed[0] = is_fixed[4] = is_fixed[17] = true;
+  Tangent all(lattice, std::vector<bool>(is_fixed.size(), false)), held(lattice, is_fixed);
+  const Points at = bodies::disturbed(lattice.rest, 0.1);
+  const MatrixXd whole = full(all.assemble(at, TransverseTerm::exact)),
+                 part = full(held.assemble(at, TransverseTerm::exact));
+  REQUIRE(held.n_free() == all.n_free() - 3);
+  for (std::size_t i = 0; i < is_fixed.size(); ++i)
+    for (std::size_t j = 0; j < is_fixed.size(); ++j) {
+      const int row = held.free_number()[i], column = held.free_number()[j];
+      CHECK((row < 0) == is_fixed[i]);
+      if (row >= 0 && column >= 0)
+        CHECK(part(row, column) == whole(static_cast<int>(i), static_cast<int>(j))); // the same sum
+    }
+}
+
+TEST_CASE("the exact tangent of a compressed lattice may be indefinite, the clamped one never is") {
+  const Lattice lattice = masked_lattice();
+  Points at = lattice.rest;
+  for (Eigen::Vector3d& point : at) point *= 0.6;
+  Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
+  const auto lowest = [&](TransverseTerm term) {
+    return Eigen::SelfAdjointEigenSolver<MatrixXd>(full(tangent.assemble(at, term))).eigenvalues()[0];
+  };
+  CHECK(lowest(TransverseTerm::exact) < -0.01);    // N/mm, of the size of the springs' 0.03
+  CHECK(lowest(TransverseTerm::clamped) > -1e-14); // N/mm; rounding
+}
+
+TEST_CASE("an unloaded lattice has the six rigid motions as its only motions without stiffness") {
+  const Lattice lattice = masked_lattice();
+  Tangent tangent(lattice, std::vector<bool>(3 * lattice.rest.size(), false));
+  const VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(full(tangent.assemble(lattice.rest, TransverseTerm::exact)))
+          .eigenvalues();
+  CHECK(eigenvalues.head(6).cwiseAbs().maxCoeff() < 1e-14); // N/mm; rounding
+  CHECK(eigenvalues[6] > 1e-3);                             // N/mm, against springs of 0.03
+}
