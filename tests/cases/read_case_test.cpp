@@ -1,6 +1,7 @@
 #include "cases/read_case.hpp"
 
 #include "cases/names.hpp"
+#include "cases/scene.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -707,4 +708,15 @@ TEST_CASE("a mistake in a setting of the command line is told as such") {
     INFO(setting);
     CHECK_THROWS_WITH(read_text_as_case(good, {setting}), Catch::StartsWith(message));
   }
+}
+
+TEST_CASE("every case file of the project is read, and its regions exist") {
+  int n = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPRINGPROOF_SOURCE_DIR) / "cases")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path().string());
+    CHECK_NOTHROW(make_scene(read_case(entry.path().string())));
+    ++n;
+  }
+  CHECK(n >= 12); // the thesis's cube alone: two materials, three tests, two load sets
 }
