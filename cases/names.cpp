@@ -112,6 +112,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 } // namespace
 
+std::string alternatives(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "\"" : " | \"") + word + "\"";
+  return text;
+}
+
 std::optional<std::string> nearest_name(const std::string& written, const std::vector<std::string>& known) {
   std::optional<std::string> nearest;
   if (written.size() < 3) return nearest; // a single letter is one edit away from every other

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace cases {
 
@@ -55,14 +54,12 @@ Formulation read_formulation(Table& table, const Material& material) {
 Element read_element(Table& table, Formulation formulation, const Material& material) {
   const std::vector<Element>& allowed = elements_of(formulation);
   const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
-  const auto quoted = [](const std::vector<Element>& elements) {
+  if (std::find(allowed.begin(), allowed.end(), element) == allowed.end()) {
     std::vector<std::string> words;
-    for (Element e : elements) words.push_back(name_of(e));
-    return fmt::format("\"{}\"", fmt::join(words, "\" | \""));
-  };
-  if (std::find(allowed.begin(), allowed.end(), element) == allowed.end())
+    for (const Element e : allowed) words.push_back(name_of(e));
     table.entry("element").refuse(
-        fmt::format("{} with formulation = \"{}\"", quoted(allowed), name_of(formulation)));
+        fmt::format("{} with formulation = \"{}\"", alternatives(words), name_of(formulation)));
+  }
   const Ogden* ogden = std::get_if<Ogden>(&material);
   if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
     table.entry("element").refuse(

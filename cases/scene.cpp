@@ -1,5 +1,7 @@
 #include "cases/scene.hpp"
 
+#include "cases/read_mesh.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -164,7 +166,7 @@ Scene make_scene(const Case& definition) {
   if (const Box* box = std::get_if<Box>(&definition.body))
     scene.mesh = make_box_mesh(box->size, box->cells);
   else
-    throw InputError("not available yet: a body read from a mesh file");
+    scene.mesh = read_mesh(std::get<MeshFile>(definition.body));
   for (const auto* list : {&definition.fixed, &definition.symmetry})
     for (const Fixed& fixed : *list)
       scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});

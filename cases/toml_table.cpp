@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sstream>
 
 namespace cases {
@@ -14,9 +13,9 @@ std::string written(const toml::node& node) {
   if (const auto* number = node.as_floating_point())
     return fmt::format("{:#}", number->get()); // 0.7, not 0.69999999999999996
   if (const auto* array = node.as_array()) {
-    std::vector<std::string> elements;
-    for (const toml::node& element : *array) elements.push_back(written(element));
-    return fmt::format("[{}]", fmt::join(elements, ", "));
+    std::string elements;
+    for (const toml::node& element : *array) elements += (elements.empty() ? "" : ", ") + written(element);
+    return "[" + elements + "]";
   }
   if (node.is_table()) return "a table";
   std::ostringstream stream;
@@ -44,10 +43,6 @@ std::optional<double> finite_number(const toml::node* node) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::string quoted(const std::vector<std::string>& words) {
-  return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\" | \""));
-}
-
 } // namespace
 
 Where place_of(const toml::node& node, const std::string& key) {
@@ -61,7 +56,7 @@ void Entry::refuse(const std::string& allowed) const {
 void Entry::refuse_word(const std::vector<std::string>& allowed) const {
   const auto written = node ? node->value_exact<std::string>() : std::nullopt;
   const auto nearest = written ? nearest_name(*written, allowed) : std::nullopt;
-  refuse(quoted(allowed) + (nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
+  refuse(alternatives(allowed) + (nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
 }
 
 std::vector<Entry> Entry::elements(const std::string& allowed) const {
@@ -140,10 +135,11 @@ void Table::refuse_key(const toml::key& key, const toml::node& value, const std:
 void Table::refuse_unknown_keys() const {
   for (const auto& [key, value] : *table_) {
     if (asked_.count(std::string(key)) != 0) continue;
-    const auto nearest = nearest_name(std::string(key), {asked_.begin(), asked_.end()});
-    const std::string meant = nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "";
-    refuse_key(key, value,
-               fmt::format("is not a key here, allowed are {}{}", fmt::join(asked_, ", "), meant));
+    std::string problem = "is not a key here, allowed are";
+    for (const std::string& asked : asked_) problem += (asked == *asked_.begin() ? " " : ", ") + asked;
+    if (const auto nearest = nearest_name(std::string(key), {asked_.begin(), asked_.end()}))
+      problem += fmt::format("; did you mean \"{}\"?", *nearest);
+    refuse_key(key, value, problem);
   }
 }
 
