@@ -2,6 +2,7 @@
 
 #include "cases/error.hpp"
 #include "cases/names.hpp"
+#include "msm/design/moduli_method.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <array>
@@ -13,10 +14,61 @@ namespace {
 
 constexpr double newton_per_metre = 1e-3; // N/mm
 
+/// Internal diagonals carry this share of the shear stiffness when the case does not say.
+constexpr double default_split = 0.75;
+
+/// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
+/// method still converges in few steps.
+constexpr double incompressible_lambda_over_mu = 200;
+
 DesignResult from_linear_method(const DesignRequest& request) {
   const cases::LinearElastic material = designed_material(request, 0);
   const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
   return {fit.stiffness, fit.residual, {}, {}};
+}
+
+/// Edge of the request's cell.  @throws InputError when it is not a cube
+double required_cube_edge(const DesignRequest& request) {
+  const double edge = cube_edge(request.cell);
+  if (edge > 0) return edge;
+  throw cases::InputError(request.options.where, "design = \"" + cases::name_of(request.options.design) +
+                                                     "\" is for cubical cells aligned with the axes");
+}
+
+double split(const DesignRequest& request) {
+  const double t = request.options.split.value_or(default_split);
+  if (t >= 0 && t <= 1) return t;
+  throw cases::InputError(request.options.where, "split = " + std::to_string(t) + ": must lie in [0, 1]");
+}
+
+bool is_incompressible(const DesignRequest& request) {
+  return !request.options.poissons_ratio && small_strain_material(request.material).poissons_ratio == 0.5;
+}
+
+DesignResult from_moduli_method(const DesignRequest& request) {
+  // E = 3 mu, G = mu is the finite limit of incompressibility, which an Ogden material without bulk modulus
+  // means.
+  const cases::LinearElastic material =
+      is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
+  const double shear_modulus = material.youngs_modulus / (2 * (1 + material.poissons_ratio));
+  return {moduli_method(material.youngs_modulus, shear_modulus, split(request), required_cube_edge(request)),
+          std::nullopt,
+          {},
+          {}};
+}
+
+DesignResult from_hybrid_method(const DesignRequest& request) {
+  double lame_lambda = 0, lame_mu = 0;
+  if (is_incompressible(request)) {
+    lame_mu = small_strain_material(request.material).youngs_modulus / 3;
+    lame_lambda = incompressible_lambda_over_mu * lame_mu;
+  } else {
+    const auto [youngs_modulus, nu] = designed_material(request, 0.25);
+    lame_mu = youngs_modulus / (2 * (1 + nu));
+    lame_lambda = 2 * lame_mu * nu / (1 - 2 * nu);
+  }
+  return {
+      hybrid_method(lame_lambda, lame_mu, split(request), required_cube_edge(request)), std::nullopt, {}, {}};
 }
 
 DesignResult from_given(const DesignRequest& request) {
@@ -39,8 +91,8 @@ struct Method {
 constexpr std::array<Method, 6> methods = {{
     {cases::Design::linear_method, from_linear_method},
     {cases::Design::nonlinear_method, nullptr},
-    {cases::Design::moduli, nullptr},
-    {cases::Design::hybrid, nullptr},
+    {cases::Design::moduli, from_moduli_method},
+    {cases::Design::hybrid, from_hybrid_method},
     {cases::Design::multi_load, nullptr},
     {cases::Design::given, from_given},
 }};

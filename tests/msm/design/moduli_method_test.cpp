@@ -1,0 +1,75 @@
+#include "msm/design/moduli_method.hpp"
+
+#include "cases/error.hpp"
+#include "msm/design/design.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+msm::DesignRequest request(cases::Design method, const cases::Material& material, double edge = 1) {
+  msm::DesignRequest request;
+  request.options.design = method;
+  request.material = material;
+  request.cell = msm::cube(edge);
+  return request;
+}
+
+const double round_off = 1e-13; // a dozen arithmetic operations
+
+} // namespace
+
+TEST_CASE("the moduli method's lattice has the Young's and shear modulus asked for", "[verification]") {
+  const double nu = GENERATE(-0.2, 0.0, 0.2, 0.25, 0.35, 0.49);
+  const double split = GENERATE(0.0, 0.3, 0.7, 1.0);
+  const double shear = 0.3 / (2 * (1 + nu));
+  const msm::LatticeModuli moduli = msm::lattice_moduli(msm::moduli_method(0.3, shear, split, 1.7), 1.7);
+  CHECK(moduli.youngs_modulus == Approx(0.3).epsilon(round_off));
+  CHECK(moduli.shear_modulus == Approx(shear).epsilon(round_off));
+}
+
+TEST_CASE("the hybrid method's lattice is isotropic with the E and nu asked for", "[verification]") {
+  const double nu = GENERATE(0.25, 0.3, 0.35, 0.45, 0.49);
+  const double split = GENERATE(0.0, 0.3, 0.8, 1.0);
+  msm::DesignRequest hybrid = request(cases::Design::hybrid, cases::LinearElastic{0.3, nu}, 0.6);
+  hybrid.options.split = split;
+  const msm::DesignResult result = msm::design(hybrid);
+  CHECK(result.moduli.zener == Approx(1).epsilon(round_off));
+  CHECK(result.moduli.youngs_modulus ==
+        Approx(0.3).epsilon(100 * round_off)); // lambda/mu = 49 cancels two digits
+  CHECK(result.moduli.poissons_ratio == Approx(nu).epsilon(round_off));
+}
+
+TEST_CASE("at nu = 1/4 both closed forms are the same springs without a volume term", "[verification]") {
+  const msm::CellStiffness hybrid = msm::hybrid_method(0.12, 0.12, 0.7, 1);
+  const msm::CellStiffness springs = msm::moduli_method(0.3, 0.12, 0.7, 1);
+  CHECK(hybrid.edge == Approx(springs.edge).epsilon(round_off));
+  CHECK(hybrid.face_diagonal == Approx(springs.face_diagonal).epsilon(round_off));
+  CHECK(hybrid.internal_diagonal == Approx(springs.internal_diagonal).epsilon(round_off));
+  CHECK(hybrid.volume == 0);
+}
+
+TEST_CASE("an incompressible Ogden material has moduli E = 3 mu and G = mu") {
+  msm::DesignRequest moduli = request(cases::Design::moduli, cases::Ogden{{0.04332}, {5.7255}, std::nullopt});
+  const msm::DesignResult result = msm::design(moduli);
+  CHECK(result.moduli.youngs_modulus == Approx(3 * 0.04332).epsilon(round_off));
+  CHECK(result.moduli.shear_modulus == Approx(0.04332).epsilon(round_off));
+  CHECK(result.warnings.empty());
+}
+
+TEST_CASE("the hybrid method refuses Poisson's ratios below a quarter") {
+  CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.2})),
+                  cases::InputError);
+  CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.5})),
+                  cases::InputError);
+}
+
+TEST_CASE("closed forms refuse a cell that is no cube, and a split outside [0, 1]") {
+  const cases::Design method = GENERATE(cases::Design::moduli, cases::Design::hybrid);
+  msm::DesignRequest cuboid = request(method, cases::LinearElastic{0.3, 0.3});
+  for (Eigen::Vector3d& x : cuboid.cell) x.x() *= 2;
+  CHECK_THROWS_AS(msm::design(cuboid), cases::InputError);
+  msm::DesignRequest split = request(method, cases::LinearElastic{0.3, 0.3});
+  split.options.split = GENERATE(-0.1, 1.1, std::nan(""));
+  CHECK_THROWS_AS(msm::design(split), cases::InputError);
+}
