@@ -42,7 +42,8 @@ double split(const DesignRequest& request) {
 }
 
 bool is_incompressible(const DesignRequest& request) {
-  return !request.options.poissons_ratio && small_strain_material(request.material).poissons_ratio == 0.5;
+  const auto* ogden = std::get_if<cases::Ogden>(&request.material);
+  return ogden != nullptr && !ogden->bulk_modulus && !request.options.poissons_ratio;
 }
 
 DesignResult from_moduli_method(const DesignRequest& request) {
