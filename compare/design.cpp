@@ -6,9 +6,11 @@ namespace compare {
 
 msm::DesignRequest design_request(const cases::Material& material, const msm::CellVertices& cell,
                                   const cases::Msm& options, cases::Element element) {
-  return {material, cell, options, [cell, element](const cases::LinearElastic& elastic) {
+  return {material, cell, options,
+          [cell, element](const cases::LinearElastic& elastic) {
             return fem_reference::element_stiffness(cell, elastic, element);
-          }};
+          },
+          std::nullopt};
 }
 
 msm::DesignResult design_for(const cases::Scene& scene) {

@@ -3,6 +3,7 @@
 #include "cases/error.hpp"
 #include "cases/names.hpp"
 #include "msm/design/moduli_method.hpp"
+#include "msm/design/nonlinear_method.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <array>
@@ -16,6 +17,10 @@ constexpr double newton_per_metre = 1e-3; // N/mm
 
 /// Internal diagonals carry this share of the shear stiffness when the case does not say.
 constexpr double default_split = 0.75;
+
+/// Range of axial logarithmic strain in which the thesis fits its references (section 5.2.2).
+constexpr double largest_ogden_strain = 0.4;
+constexpr double largest_linear_strain = 0.1;
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
 /// method still converges in few steps.
@@ -72,6 +77,11 @@ DesignResult from_hybrid_method(const DesignRequest& request) {
       hybrid_method(lame_lambda, lame_mu, split(request), required_cube_edge(request)), std::nullopt, {}, {}};
 }
 
+DesignResult from_nonlinear_method(const DesignRequest& request) {
+  const NonlinearFit fit = nonlinear_method(uniaxial_reference(request), required_cube_edge(request));
+  return {fit.stiffness, fit.objective, {}, {}};
+}
+
 DesignResult from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   if (!options.stiffness)
@@ -91,7 +101,7 @@ struct Method {
 
 constexpr std::array<Method, 6> methods = {{
     {cases::Design::linear_method, from_linear_method},
-    {cases::Design::nonlinear_method, nullptr},
+    {cases::Design::nonlinear_method, from_nonlinear_method},
     {cases::Design::moduli, from_moduli_method},
     {cases::Design::hybrid, from_hybrid_method},
     {cases::Design::multi_load, nullptr},
@@ -132,6 +142,22 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
                                                "\" takes " + std::to_string(lowest_poissons_ratio) +
                                                " <= nu < 0.5; msm.poissons_ratio designs from another one");
   return material;
+}
+
+UniaxialCurve uniaxial_reference(const DesignRequest& request) {
+  if (request.uniaxial_reference) return *request.uniaxial_reference;
+  const double nu =
+      request.options.poissons_ratio.value_or(small_strain_material(request.material).poissons_ratio);
+  if (!(nu > 0 && nu <= 0.5))
+    throw cases::InputError(request.options.where, "Poisson's ratio " + std::to_string(nu) +
+                                                       ": the nonlinear method takes 0 < nu <= 0.5");
+  if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
+    return sample(ogden_law(*ogden), nu, {0, largest_ogden_strain});
+  const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
+  if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
+    throw cases::InputError(request.options.where, "Young's modulus: must be positive and finite");
+  return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu,
+                {0, largest_linear_strain});
 }
 
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {

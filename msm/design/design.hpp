@@ -3,6 +3,7 @@
 #include "cases/case.hpp"
 #include "msm/design/lattice_moduli.hpp"
 #include "msm/design/linear_method.hpp"
+#include "msm/design/uniaxial.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>
@@ -21,6 +22,7 @@ struct DesignRequest {
   cases::Msm options;          ///< the method and its settings, as in a case file's [msm]
   /// K_FEM of the cell for a small-strain material, N/mm; only the linear method asks for it.
   std::function<CellMatrix(const cases::LinearElastic&)> element_stiffness;
+  std::optional<UniaxialCurve> uniaxial_reference; ///< measured or given curve instead of the material's own
 };
 
 struct DesignResult {
@@ -42,6 +44,11 @@ cases::LinearElastic small_strain_material(const cases::Material& material);
 /// E stays.
 /// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
 cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio);
+
+/// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to a strain
+/// of 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.
+/// @throws InputError unless 0 < nu <= 0.5
+UniaxialCurve uniaxial_reference(const DesignRequest& request);
 
 /// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
 /// indefinite tangent at rest.  @param vertices  mm

@@ -75,3 +75,14 @@ TEST_CASE("a finite bulk modulus gives Young's modulus 9 kappa mu / (3 kappa + m
   CHECK(material.youngs_modulus == Approx(18.0 / 7).epsilon(1e-15)); // rational arithmetic
   CHECK(material.poissons_ratio == Approx(2.0 / 7).epsilon(1e-15));
 }
+
+TEST_CASE("the nonlinear method has its material's reference curve") {
+  msm::DesignRequest request;
+  request.material = cases::Ogden{{0.04332}, {5.7255}, std::nullopt};
+  request.options.design = cases::Design::nonlinear_method;
+  const msm::DesignResult result = msm::design(request);
+  REQUIRE(result.residual);
+  // Three equal terms are one with the sum of their moduli: the thesis's Ogden reference.
+  CHECK(*result.residual == Approx(3.80e-3).margin(0.005e-3)); // last digit given
+  CHECK(msm::uniaxial_reference(request).axial_strain.size() == 20);
+}

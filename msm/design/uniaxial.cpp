@@ -1,0 +1,134 @@
+#include "msm/design/uniaxial.hpp"
+
+#include "cases/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+namespace msm {
+
+namespace {
+
+/// Blank for a comment or a heading; otherwise the numbers of a line.
+std::vector<double> numbers_of(std::string line, const std::string& place) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string::npos || line[first] == '#' ||
+      std::isalpha(static_cast<unsigned char>(line[first])))
+    return {};
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream text(line);
+  std::vector<double> numbers;
+  for (double number = 0; text >> number;) numbers.push_back(number);
+  text.clear();
+  std::string rest;
+  if (text >> rest) throw cases::InputError(place + "\"" + rest + "\" is not a number");
+  return numbers;
+}
+
+void check_row(const std::vector<double>& row, const UniaxialCurve& curve, const std::string& place) {
+  if (row.size() != 2 && row.size() != 3)
+    throw cases::InputError(place + std::to_string(row.size()) +
+                            " columns; a curve has strain, stress and perhaps lateral strain");
+  if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); }))
+    throw cases::InputError(place + "not a finite number");
+  if (!curve.axial_strain.empty() && !(row[0] > curve.axial_strain.back()))
+    throw cases::InputError(place + "the strains must increase from line to line");
+}
+
+bool all_zero(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
+}
+
+} // namespace
+
+StressLaw ogden_law(const cases::Ogden& ogden) {
+  return [ogden](double stretch) {
+    double stress = 0;
+    for (std::size_t i = 0; i < ogden.mu.size(); ++i)
+      stress += 2 * ogden.mu[i] / ogden.alpha[i] *
+                (std::pow(stretch, ogden.alpha[i]) - std::pow(stretch, -ogden.alpha[i] / 2));
+    return stress;
+  };
+}
+
+StressLaw yeoh_law(const std::vector<double>& coefficients) {
+  return [coefficients](double stretch) {
+    const double invariant = stretch * stretch + 2 / stretch - 3;
+    double slope = 0;
+    for (std::size_t i = 0; i < coefficients.size(); ++i)
+      slope += static_cast<double>(i + 1) * coefficients[i] * std::pow(invariant, static_cast<double>(i));
+    return 2 * (stretch * stretch - 1 / stretch) * slope;
+  };
+}
+
+UniaxialCurve sample(const StressLaw& law, double poissons_ratio, const StrainRange& range) {
+  if (!(range.highest > range.lowest) || range.n_values < 2)
+    throw cases::InputError("strain range: needs at least two values and an upper end above the lower one");
+  UniaxialCurve curve;
+  for (int i = 0; i < range.n_values; ++i) {
+    const double strain = range.lowest + (range.highest - range.lowest) * i / (range.n_values - 1);
+    curve.axial_strain.push_back(strain);
+    curve.stress.push_back(law(std::exp(strain)));
+    curve.lateral_strain.push_back(-poissons_ratio * strain);
+  }
+  return curve;
+}
+
+UniaxialCurve read_curve(const std::string& text, const std::string& name) {
+  UniaxialCurve curve;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::string place = name + ":" + std::to_string(number) + ": ";
+    const std::vector<double> row = numbers_of(line, place);
+    if (row.empty()) continue;
+    check_row(row, curve, place);
+    curve.axial_strain.push_back(row[0]);
+    curve.stress.push_back(row[1]);
+    curve.lateral_strain.push_back(row.size() == 3 ? row[2] : -0.5 * row[0]);
+  }
+  if (curve.axial_strain.size() < 2)
+    throw cases::InputError(name + ": a curve needs at least two strains, this one has " +
+                            std::to_string(curve.axial_strain.size()));
+  if (all_zero(curve.stress)) throw cases::InputError(name + ": every stress is zero");
+  if (all_zero(curve.lateral_strain)) throw cases::InputError(name + ": every lateral strain is zero");
+  return curve;
+}
+
+double lateral_stretch(const CellStiffness& stiffness, double stretch) {
+  const double k[] = {stiffness.edge, stiffness.face_diagonal, stiffness.internal_diagonal};
+  // The imbalance grows from below zero to above it; next to x = 0 it may vanish too, without edges and face
+  // diagonals.
+  double low = 1e-6, high = 4 * std::max(1.0, stretch);
+  if (!(lateral_imbalance(k, low, stretch) < 0 && lateral_imbalance(k, high, stretch) > 0))
+    throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses", 0,
+                            0);
+  double x = 1 / std::sqrt(stretch);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const double imbalance = lateral_imbalance(k, x, stretch);
+    (imbalance < 0 ? low : high) = x;
+    double next = x - imbalance / lateral_imbalance_slope(k, x, stretch);
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    if (std::abs(next - x) <= 1e-15 * x) return next;
+    x = next;
+  }
+  return x;
+}
+
+UniaxialCurve uniaxial_response(const CellStiffness& stiffness, double edge,
+                                const std::vector<double>& axial_strain) {
+  const double k[] = {stiffness.edge, stiffness.face_diagonal, stiffness.internal_diagonal};
+  UniaxialCurve curve;
+  curve.axial_strain = axial_strain;
+  for (const double strain : axial_strain) {
+    const double z = std::exp(strain);
+    const double x = lateral_stretch(stiffness, z);
+    curve.stress.push_back(axial_stress(k, x, z, edge));
+    curve.lateral_strain.push_back(std::log(x));
+  }
+  return curve;
+}
+
+} // namespace msm
