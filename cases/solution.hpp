@@ -23,6 +23,7 @@ struct Solution {
   long linear_iterations = 0;
   std::optional<double>
       lowest_eigenvalue;  ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  std::optional<int> negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
   int inverted_cells = 0; ///< cells with a corner Jacobian <= 0
 };
 

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "fem_reference/formulation.hpp"
+
+#include <vector>
+
+namespace fem_reference {
+
+/// How an element takes the pressure of a formulation's volumetric law.
+enum class Pressure {
+  pointwise, ///< p(J) at every quadrature point
+  mean,      ///< p(v/V0), one value per cell, eliminated: B-bar, mean dilatation
+  modes      ///< an unknown of its own per cell, condensed in the linear solve: u-p
+};
+
+/// One row of the table of elements.
+struct ElementType {
+  cases::Element name;
+  int degree; ///< of the displacement, per direction
+  Pressure pressure;
+  int n_pressure_modes; ///< 1: constant; 4: linear in the reference coordinates, discontinuous
+};
+
+/// @throws InputError when the formulation has no volumetric law and the element needs one
+ElementType element_type(const cases::Fem& fem, const Formulation& formulation);
+
+/// Rest geometry of one cell. Degree of freedom i*n_nodes + a is component i of node a.
+struct CellGeometry {
+  int n_nodes;
+  int n_points;
+  const double* gradients; ///< dN_a/dX_J at point q: [(3*q + J)*n_nodes + a], 1/mm
+  const double* weights;   ///< quadrature weight times Jacobian, mm³
+  const double* modes;     ///< pressure shape functions: [q*n_pressure_modes + m]
+};
+
+/// What a cell contributes, and what the condensed pressure needs afterwards.
+struct CellResult {
+  bool valid;             ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
+  double volume;          ///< deformed, mm³
+  double volume_mismatch; ///< largest |integral of mode (J - J(p))| / rest volume
+  std::vector<double>
+      force; ///< internal force, N; with the condensed pressure imbalance when a tangent is wanted
+  std::vector<double> tangent;           ///< row major, N/mm
+  std::vector<double> volume_residual;   ///< R, mm³, one per mode
+  std::vector<double> pressure_residual; ///< C^-1 R_p, MPa: pressure change at fixed displacement
+  std::vector<double> pressure_slope;    ///< C^-1 B, MPa/mm, [m*n_dofs + dof]
+  std::vector<double> plain_force;       ///< internal force without the condensed imbalance
+};
+
+/// Element loop of every formulation and element, its buffers kept between cells.
+///
+/// Internal force f = sum w (P + p cof F) . grad N. With pressure modes phi_m the cell also balances
+/// R_m = sum w phi_m (J - J(p)), whose linearisation  R + B du - C dp = 0, C_mn = sum w phi_m phi_n J'(p), is
+/// solved for dp, which leaves K + B^T C^-1 B and f + B^T C^-1 R for the displacement.
+class CellKernel {
+ public:
+  CellKernel(const ElementType& element, const Formulation& formulation);
+
+  /// @param displacement  mm, [3*a + i]     @param pressure  MPa, one per mode; ignored without modes
+  /// @return valid until the next call
+  const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* pressure,
+                             Wanted wanted);
+
+ private:
+  void kinematics(const CellGeometry& geometry, const double* displacement);
+  void pressures(const CellGeometry& geometry, const double* pressure);
+  void stresses(const CellGeometry& geometry, Wanted wanted);
+  void volume_gradients(const CellGeometry& geometry);
+  void add_stiffness(const CellGeometry& geometry);
+  void add_mean_pressure_stiffness(double rest_volume);
+  void condense(const CellGeometry& geometry, Wanted wanted);
+
+  ElementType element_;
+  Formulation formulation_;
+  CellResult result_;
+  PointStress point_;
+  std::vector<Matrix3, Eigen::aligned_allocator<Matrix3>> deformation_gradient_, cofactor_;
+  std::vector<double> volume_ratio_;
+  std::vector<ValueAndSlope> pressure_; ///< at each point: p and, pointwise or mean, dp/dJ
+  std::vector<ValueAndSlope> target_;   ///< with modes: J(p) and its slope
+  std::vector<double> volume_gradient_; ///< [m*n_dofs + dof]: B
+  std::vector<double> right_factor_;    ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
+};
+
+} // namespace fem_reference

@@ -1,0 +1,23 @@
+#include "fem_reference/petsc.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace fem_reference {
+
+void check(PetscErrorCode code) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  PetscErrorMessage(code, &text, nullptr);
+  throw std::runtime_error(std::string("PETSc: ") + (text != nullptr ? text : "unknown error"));
+}
+
+Vector like(const Vector& vector) {
+  Vec copy = nullptr;
+  check(VecDuplicate(vector.get(), &copy));
+  Vector owned(copy);
+  check(VecSet(copy, 0));
+  return owned;
+}
+
+} // namespace fem_reference

@@ -1,0 +1,115 @@
+#include "scenes.hpp"
+
+#include <cmath>
+
+namespace scenes {
+
+using Eigen::Vector3d;
+
+namespace {
+
+cases::Region region(const std::string& name) {
+  cases::Region r;
+  r.name = name;
+  return r;
+}
+
+void push(cases::Case& definition, const std::string& where, const Vector3d& force) {
+  cases::Load load;
+  load.region = region(where);
+  load.kind = cases::LoadKind::nodal_force;
+  load.value = force;
+  definition.loads.push_back(load);
+}
+
+int nearest(const cases::HexMesh& mesh, const Vector3d& point) {
+  cases::Region r;
+  r.near = point;
+  return cases::select_node(mesh, r);
+}
+
+double degrees(double radians) {
+  return radians * 180 / std::acos(-1.);
+}
+
+} // namespace
+
+cases::LinearElastic thesis_elastic(double poissons_ratio) {
+  return {0.3, poissons_ratio};
+}
+
+cases::Ogden thesis_ogden() {
+  return {{0.01444, 0.01444, 0.01444}, {5.7255, 5.7255, 5.7255}, std::nullopt};
+}
+
+cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases::Formulation formulation,
+                 cases::Element element, int cells) {
+  cases::Case c;
+  c.name = "cube";
+  c.body = cases::Box{Vector3d(10, 10, 10), {cells, cells, cells}};
+  c.material = material;
+  cases::Fixed clamp;
+  clamp.region = region("z-");
+  c.fixed.push_back(clamp);
+  const double scale = set == LoadSet::large ? 5 : 1;
+  if (test == Test::tensile) push(c, "z+", {0, 0, 0.010 * scale});
+  if (test == Test::shear) push(c, "z+", {0.002 * scale, 0, 0});
+  if (test == Test::torsion) {
+    push(c, "z+ y-", {0.005 * scale, 0, 0});
+    push(c, "z+ x+", {0, 0.005 * scale, 0});
+    push(c, "z+ y+", {-0.005 * scale, 0, 0});
+    push(c, "z+ x-", {0, -0.005 * scale, 0});
+  }
+  c.fem.formulation = formulation;
+  c.fem.element = element;
+  return c;
+}
+
+std::array<double, 2> cube_measures(Test test, const cases::HexMesh& mesh,
+                                    const std::vector<Vector3d>& displacement) {
+  const auto deformed = [&](double x, double y, double z) -> Vector3d {
+    const auto n = static_cast<std::size_t>(nearest(mesh, {x, y, z}));
+    return mesh.nodes[n] + displacement[n];
+  };
+  if (test == Test::tensile) return {deformed(5, 5, 10).z(), deformed(0, 0, 10).z()};
+  if (test == Test::shear) {
+    const Vector3d left = deformed(0, 0, 10) - deformed(0, 0, 0),
+                   right = deformed(10, 0, 10) - deformed(10, 0, 0);
+    return {degrees(std::atan2(left.x(), left.z())), degrees(std::atan2(right.x(), right.z()))};
+  }
+  const Vector3d centre = deformed(5, 5, 10);
+  const auto turned = [&](double x, double y) {
+    const Vector3d now = deformed(x, y, 10) - centre;
+    return degrees(
+        std::remainder(std::atan2(now.y(), now.x()) - std::atan2(y - 5, x - 5), 2 * std::acos(-1.)));
+  };
+  return {turned(5, 0), turned(0, 0)};
+}
+
+cases::Scene distorted_box(int cells, Surface surface, const cases::Material& material,
+                           cases::Formulation formulation, cases::Element element) {
+  cases::Scene scene;
+  scene.definition.name = "distorted box";
+  scene.definition.material = material;
+  scene.definition.fem.formulation = formulation;
+  scene.definition.fem.element = element;
+  scene.mesh = cases::make_box_mesh(Vector3d::Ones(), {cells, cells, cells});
+  scene.mesh.grid.reset();
+  std::vector<bool> on_surface(scene.mesh.nodes.size());
+  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
+    Vector3d& x = scene.mesh.nodes[n];
+    on_surface[n] = x.minCoeff() < 1e-12 || x.maxCoeff() > 1 - 1e-12;
+    if (on_surface[n]) continue;
+    const auto k = static_cast<double>(n); // as good as random, and the same on every machine
+    x += 0.2 / cells * Vector3d(std::sin(12.9 * k), std::sin(78.2 * k), std::sin(37.7 * k));
+  }
+  if (surface == Surface::free) return scene;
+  cases::Selection selection;
+  for (std::size_t n = 0; n < on_surface.size(); ++n)
+    if (on_surface[n]) selection.nodes.push_back(static_cast<int>(n));
+  selection.faces = cases::boundary_faces(scene.mesh);
+  scene.fixed.push_back({selection, {true, true, true}});
+  return scene;
+}
+
+} // namespace scenes

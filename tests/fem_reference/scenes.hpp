@@ -1,0 +1,32 @@
+#pragma once
+
+#include "cases/names.hpp"
+#include "cases/scene.hpp"
+
+#include <functional>
+
+/// Scenes that the tests of the finite-element side share.
+namespace scenes {
+
+enum class Test { tensile, shear, torsion };
+enum class LoadSet { small, large };
+
+/// The thesis's cube: 10 x 10 x 10 mm, as many cells unless asked otherwise, z = 0 clamped, one load set on
+/// its top.
+cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases::Formulation formulation,
+                 cases::Element element, int cells = 10);
+
+cases::LinearElastic thesis_elastic(double poissons_ratio = 0.35);
+cases::Ogden thesis_ogden();
+
+/// The two measures of a test, by their definition in the thesis: heights (mm), tilts or twists (degrees).
+std::array<double, 2> cube_measures(Test test, const cases::HexMesh& mesh,
+                                    const std::vector<Eigen::Vector3d>& displacement);
+
+/// A box whose interior nodes have been moved, so that no two cells are alike; every node of its surface is
+/// fixed unless free_surface says otherwise.
+enum class Surface { fixed, free };
+cases::Scene distorted_box(int cells, Surface surface, const cases::Material& material,
+                           cases::Formulation formulation, cases::Element element);
+
+} // namespace scenes
