@@ -22,7 +22,7 @@ double number(const std::string& text, const std::string& path) {
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
-  std::istringstream stream(line);
+  std::istringstream stream(line.substr(0, line.find('\r'))); // a file from Windows is read too
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
   return fields;
 }
