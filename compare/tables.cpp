@@ -1,11 +1,13 @@
 #include "compare/tables.hpp"
 
 #include "cases/read_case.hpp"
+#include "compare/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 
 namespace compare {
 
@@ -23,9 +25,13 @@ struct ErrorTable {
 };
 
 const std::vector<ErrorTable>& error_tables() {
-  static const std::vector<ErrorTable> tables{
-      {"4.5", {{"small_strain", "q1_bbar"}}},
-  };
+  // The first reference of a table is the declared one. Print mixes two for the linear elastic material, so
+  // both are computed.
+  const std::vector<Reference> linear_elastic{{"log_strain", "q1_bbar"}, {"small_strain", "q1_bbar"}};
+  const std::vector<Reference> ogden{{"hyperelastic", "q1_p0"}};
+  static const std::vector<ErrorTable> tables{{"4.5", linear_elastic}, {"4.6", linear_elastic},
+                                              {"4.7", linear_elastic}, {"5.1", ogden},
+                                              {"5.3", linear_elastic}, {"5.4", linear_elastic}};
   return tables;
 }
 
@@ -36,34 +42,58 @@ const ErrorTable& find_table(const std::string& number) {
       fmt::format("table '{}' is not known; there are {}", number, fmt::join(known_tables(), ", ")));
 }
 
-/// What turns the test's case file into the one behind a printed figure. Stiffnesses that the thesis prints
-/// are used as printed.
-std::vector<std::string> settings_for(const PublishedError& entry, const Reference& reference) {
+/// One side of a case: what one solve depends on.
+struct Solve {
+  std::string case_file;
+  std::vector<std::string> settings;
+  Only side;
+  bool operator<(const Solve& other) const {
+    return std::tie(case_file, settings, side) < std::tie(other.case_file, other.settings, other.side);
+  }
+};
+
+std::string case_file_of(const PublishedError& entry) {
+  return fmt::format("thesis/{}/cube_{}_{}.toml", entry.material, entry.test, entry.load_set);
+}
+
+Solve fem_solve(const PublishedError& entry, const Reference& reference) {
   std::vector<std::string> settings{"fem.formulation=" + reference.formulation,
                                     "fem.element=" + reference.element};
   if (entry.material == "linear_elastic")
     settings.push_back(fmt::format("material.poissons_ratio={}", entry.poissons_ratio));
-  if (const auto k = published_stiffness(entry.design, entry.material, entry.design_poissons_ratio)) {
-    settings.push_back("msm.design=given");
-    settings.push_back(fmt::format("msm.stiffness=[{}, {}, {}]", (*k)[0], (*k)[1], (*k)[2]));
-  } else {
-    settings.push_back("msm.design=" + entry.design);
-    settings.push_back(fmt::format("msm.poissons_ratio={}", entry.design_poissons_ratio));
-  }
-  return settings;
+  return {case_file_of(entry), settings, Only::fem};
 }
 
-ComputedError take(const Comparison& comparison, const std::string& measure, ComputedError entry) {
-  const auto found = std::find_if(comparison.measures.begin(), comparison.measures.end(),
-                                  [&](const MeasuredValue& m) { return m.name == measure; });
-  if (found == comparison.measures.end()) {
+/// Stiffnesses that the thesis prints are used as printed.
+Solve msm_solve(const PublishedError& entry) {
+  const auto k = published_stiffness(entry.design, entry.material, entry.design_poissons_ratio);
+  if (k)
+    return {case_file_of(entry),
+            {"msm.design=given", fmt::format("msm.stiffness=[{}, {}, {}]", (*k)[0], (*k)[1], (*k)[2])},
+            Only::msm};
+  return {case_file_of(entry),
+          {"msm.design=" + entry.design, fmt::format("msm.poissons_ratio={}", entry.design_poissons_ratio)},
+          Only::msm};
+}
+
+const MeasuredValue* find_measure(const Comparison& comparison, const std::string& name) {
+  for (const MeasuredValue& measured : comparison.measures)
+    if (measured.name == name) return &measured;
+  return nullptr;
+}
+
+/// The error of one entry from the two solves behind it.
+ComputedError combine(const Comparison& fem, const Comparison& msm, const std::string& measure,
+                      ComputedError entry) {
+  const MeasuredValue *on_fem = find_measure(fem, measure), *on_msm = find_measure(msm, measure);
+  if (!on_fem || !on_msm) {
     entry.reason = "the case has no measure " + measure;
     return entry;
   }
-  entry.fem = found->fem;
-  entry.msm = found->msm;
-  entry.error_percent = found->error_percent;
-  if (!entry.error_percent) entry.reason = comparison.fem.solution.message + comparison.msm.solution.message;
+  entry.fem = on_fem->fem;
+  entry.msm = on_msm->msm;
+  if (entry.fem && entry.msm) entry.error_percent = error_percent(*entry.fem, *entry.msm);
+  if (!entry.error_percent) entry.reason = fem.fem.solution.message + msm.msm.solution.message;
   return entry;
 }
 
@@ -87,31 +117,36 @@ std::vector<std::string> known_tables() {
 
 std::vector<TableEntry> regenerate(const std::vector<std::string>& tables,
                                    const std::function<void(int done, int all)>& progress) {
-  using Key = std::pair<std::string,
-                        std::vector<std::string>>; // case file and settings: what a comparison depends on
-  std::vector<TableEntry> entries;
-  std::map<Key, std::optional<Comparison>> comparisons;
+  std::vector<PublishedError> wanted;
   for (const std::string& number : tables) find_table(number);
-  for (const PublishedError& published : read_published_errors()) {
-    if (std::find(tables.begin(), tables.end(), published.table) == tables.end()) continue;
+  for (const PublishedError& published : read_published_errors())
+    if (std::find(tables.begin(), tables.end(), published.table) != tables.end()) wanted.push_back(published);
+
+  std::map<Solve, Comparison> solves; // a solve that several tables stand on is done once
+  for (const PublishedError& published : wanted) {
+    solves[msm_solve(published)];
+    for (const Reference& reference : find_table(published.table).references)
+      solves[fem_solve(published, reference)];
+  }
+  int done = 0;
+  for (auto& [solve, comparison] : solves) {
+    comparison =
+        compare_case(cases::read_case(cases_folder() + "/" + solve.case_file, solve.settings), solve.side);
+    progress(++done, static_cast<int>(solves.size()));
+  }
+
+  std::vector<TableEntry> entries;
+  for (const PublishedError& published : wanted) {
     TableEntry entry{published, {}};
+    const Solve msm = msm_solve(published);
     for (const Reference& reference : find_table(published.table).references) {
-      const std::string file =
-          fmt::format("thesis/{}/cube_{}_{}.toml", published.material, published.test, published.load_set);
-      entry.computed.push_back({reference.name(), {}, {}, {}, "", file, settings_for(published, reference)});
-      comparisons[{file, entry.computed.back().settings}] = std::nullopt;
+      const Solve fem = fem_solve(published, reference);
+      ComputedError computed{reference.name(), {}, {}, {}, "", fem.case_file, fem.settings};
+      computed.settings.insert(computed.settings.end(), msm.settings.begin(), msm.settings.end());
+      entry.computed.push_back(combine(solves.at(fem), solves.at(msm), published.measure, computed));
     }
     entries.push_back(std::move(entry));
   }
-  int done = 0;
-  for (auto& [key, comparison] : comparisons) {
-    comparison = compare_case(cases::read_case(cases_folder() + "/" + key.first, key.second));
-    progress(++done, static_cast<int>(comparisons.size()));
-  }
-  for (TableEntry& entry : entries)
-    for (ComputedError& computed : entry.computed)
-      computed =
-          take(*comparisons.at({computed.case_file, computed.settings}), entry.published.measure, computed);
   return entries;
 }
 
