@@ -23,7 +23,12 @@ struct Outcome {
 };
 
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof-command-" + std::to_string(::getpid()));
+  fs::path path = fs::temp_directory_path() /
+                  ("springproof-command-" + std::to_string(::getpid()) + "-" + std::to_string(count()++));
+  static int& count() {
+    static int n = 0;
+    return n;
+  }
   Folder() { fs::create_directories(path); }
   ~Folder() { fs::remove_all(path); }
 };

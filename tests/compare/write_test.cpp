@@ -18,7 +18,12 @@ namespace {
 
 /// A fresh folder that goes away with the test.
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof-write-" + std::to_string(::getpid()));
+  fs::path path = fs::temp_directory_path() /
+                  ("springproof-write-" + std::to_string(::getpid()) + "-" + std::to_string(count()++));
+  static int& count() {
+    static int n = 0;
+    return n;
+  }
   Folder() { fs::create_directories(path); }
   ~Folder() { fs::remove_all(path); }
 };
