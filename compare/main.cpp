@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   compare::Action chosen;
   compare::add_run_command(program, chosen);
+  compare::add_design_command(program, chosen);
+  compare::add_eigen_command(program, chosen);
   compare::add_tables_command(program, chosen);
   try {
     program.parse(argc, argv);

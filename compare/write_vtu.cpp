@@ -53,6 +53,22 @@ std::string mesh_arrays(const cases::HexMesh& mesh, AppendedData& data) {
          data.array("UInt8", "types", 1, types) + "</Cells>\n";
 }
 
+/// The whole file. @param points, cells  descriptions of the arrays that are in data already
+void write_grid(std::ostream& out, const cases::HexMesh& mesh, AppendedData& data, const std::string& points,
+                const std::string& cells) {
+  const std::string mesh_text = mesh_arrays(mesh, data);
+  fmt::print(
+      out,
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+      "{}<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n</Piece>\n</UnstructuredGrid>\n"
+      "<AppendedData encoding=\"raw\">\n_",
+      mesh.nodes.size(), mesh.cells.size(), mesh_text, points, cells);
+  out.write(data.bytes().data(), static_cast<std::streamsize>(data.bytes().size()));
+  fmt::print(out, "\n</AppendedData>\n</VTKFile>\n");
+}
+
 } // namespace
 
 void write_vtu(std::ostream& out, const Comparison& comparison) {
@@ -73,17 +89,14 @@ void write_vtu(std::ostream& out, const Comparison& comparison) {
       difference.push_back(msm.displacement[n] - fem.displacement[n]);
     points += data.vectors("difference", difference);
   }
-  const std::string mesh_text = mesh_arrays(mesh, data);
-  fmt::print(
-      out,
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-      "{}<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n</Piece>\n</UnstructuredGrid>\n"
-      "<AppendedData encoding=\"raw\">\n_",
-      mesh.nodes.size(), mesh.cells.size(), mesh_text, points, cells);
-  out.write(data.bytes().data(), static_cast<std::streamsize>(data.bytes().size()));
-  fmt::print(out, "\n</AppendedData>\n</VTKFile>\n");
+  write_grid(out, mesh, data, points, cells);
+}
+
+void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<PointField>& fields) {
+  AppendedData data;
+  std::string points;
+  for (const PointField& field : fields) points += data.vectors(field.name, field.values);
+  write_grid(out, mesh, data, points, "");
 }
 
 } // namespace compare

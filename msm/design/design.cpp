@@ -144,7 +144,7 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
   return material;
 }
 
-UniaxialCurve uniaxial_reference(const DesignRequest& request) {
+UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<double> largest_strain) {
   if (request.uniaxial_reference) return *request.uniaxial_reference;
   const double nu =
       request.options.poissons_ratio.value_or(small_strain_material(request.material).poissons_ratio);
@@ -152,12 +152,12 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request) {
     throw cases::InputError(request.options.where, "Poisson's ratio " + std::to_string(nu) +
                                                        ": the nonlinear method takes 0 < nu <= 0.5");
   if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
-    return sample(ogden_law(*ogden), nu, {0, largest_ogden_strain});
+    return sample(ogden_law(*ogden), nu, {0, largest_strain.value_or(largest_ogden_strain)});
   const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
   if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
     throw cases::InputError(request.options.where, "Young's modulus: must be positive and finite");
   return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu,
-                {0, largest_linear_strain});
+                {0, largest_strain.value_or(largest_linear_strain)});
 }
 
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {

@@ -48,7 +48,9 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
 /// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to a strain
 /// of 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.
 /// @throws InputError unless 0 < nu <= 0.5
-UniaxialCurve uniaxial_reference(const DesignRequest& request);
+/// @param largest_strain  instead of those ends
+UniaxialCurve uniaxial_reference(const DesignRequest& request,
+                                 std::optional<double> largest_strain = std::nullopt);
 
 /// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
 /// indefinite tangent at rest.  @param vertices  mm

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace compare {
+
+/// Draws a figure twice, as NAME.svg and NAME.png, with gnuplot; the script stays beside them as NAME.gp.
+/// @param folder  where the files go; the script finds its data there by bare name
+/// @param script  gnuplot commands, without terminal and output
+/// @param width, height  of the picture, pixels
+/// @throws InputError if the folder cannot be written or gnuplot fails
+void draw(const std::string& folder, const std::string& name, const std::string& script, int width = 800,
+          int height = 600);
+
+} // namespace compare
