@@ -16,7 +16,8 @@ namespace msm {
 
 namespace {
 
-/// One of the 13 springs that a node of the lattice owns: its rest vector in edges, and its assembled stiffness.
+/// One of the 13 springs that a node of the lattice owns: its rest vector in edges, and its assembled
+/// stiffness.
 struct NodeSpring {
   Eigen::Vector3d d;
   double stiffness;
@@ -69,7 +70,8 @@ struct DynamicalMatrix {
   }
 };
 
-/// Every node is vertex a of one cell and vertex b of another: the second derivatives of one cell's energy, gathered by X_b - X_a.
+/// Every node is vertex a of one cell and vertex b of another: the second derivatives of one cell's energy,
+/// gathered by X_b - X_a.
 void add_volume_terms(DynamicalMatrix& matrix, double stiffness, double edge, const Eigen::Matrix3d& f) {
   CellPositions x;
   for (int v = 0; v < 8; ++v) x[static_cast<std::size_t>(v)] = edge * f * vertex(v);
@@ -90,8 +92,8 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
     matrix.blocks[static_cast<std::size_t>(n)].setZero();
   }
   for (const NodeSpring& spring : node_springs(stiffness)) {
-    const Eigen::Matrix3d block =
-        spring_stiffness(edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}, TransverseTerm::exact);
+    const Eigen::Matrix3d block = spring_stiffness(
+        edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}, TransverseTerm::exact);
     matrix.block(Eigen::Vector3d::Zero()) += 2 * block;
     matrix.block(spring.d) -= block;
     matrix.block(-spring.d) -= block;
@@ -100,8 +102,8 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
   return matrix;
 }
 
-/// Wave vectors: half of the zone (D(-q) is the conjugate of D(q)) on a grid of pi/4, and long waves along the
-/// same directions, which tell whether the continuum loses ellipticity.
+/// Wave vectors: half of the zone (D(-q) is the conjugate of D(q)) on a grid of pi/4, and long waves along
+/// the same directions, which tell whether the continuum loses ellipticity.
 const std::vector<Eigen::Vector3d>& wave_vectors() {
   static const std::vector<Eigen::Vector3d> all = [] {
     std::vector<Eigen::Vector3d> list;
@@ -161,8 +163,8 @@ double lattice_energy_density(const CellStiffness& stiffness, double edge, const
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   Eigen::Matrix3d stress = stiffness.volume * (f.determinant() - 1) * cofactor(f);
   for (const NodeSpring& spring : node_springs(stiffness))
-    stress += spring_force(edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}) * spring.d.transpose() /
-              (edge * edge);
+    stress += spring_force(edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}) *
+              spring.d.transpose() / (edge * edge);
   return stress;
 }
 
@@ -174,7 +176,9 @@ double smallest_wave_stiffness(const CellStiffness& stiffness, double edge, cons
 }
 
 double free_lateral_stretch(const CellStiffness& stiffness, double edge, double axial_stretch) {
-  const auto stress = [&](double lateral) { return lattice_stress(stiffness, edge, uniaxial(lateral, axial_stretch))(0, 0); };
+  const auto stress = [&](double lateral) {
+    return lattice_stress(stiffness, edge, uniaxial(lateral, axial_stretch))(0, 0);
+  };
   double low = 0.05, high = 20; // the sides' stress goes from pressing outwards to pulling inwards
   if (!(stress(low) < 0 && stress(high) > 0))
     throw cases::SolveError("homogeneous lattice: no lateral stretch is free of stress", 0, 0);
@@ -187,7 +191,9 @@ double free_lateral_stretch(const CellStiffness& stiffness, double edge, double 
 }
 
 StabilityRange stability_range(const CellStiffness& stiffness, double edge) {
-  const auto stable = [&](const Eigen::Matrix3d& f) { return smallest_wave_stiffness(stiffness, edge, f) > 0; };
+  const auto stable = [&](const Eigen::Matrix3d& f) {
+    return smallest_wave_stiffness(stiffness, edge, f) > 0;
+  };
   const auto stable_stretch = [&](double stretch) {
     try {
       return stable(uniaxial(free_lateral_stretch(stiffness, edge, stretch), stretch));
@@ -195,7 +201,8 @@ StabilityRange stability_range(const CellStiffness& stiffness, double edge) {
       return false; // nothing to be stable about
     }
   };
-  return {last_stable(1, search_ends.stretch, stable_stretch), last_stable(1, search_ends.compression, stable_stretch),
+  return {last_stable(1, search_ends.stretch, stable_stretch),
+          last_stable(1, search_ends.compression, stable_stretch),
           last_stable(0, search_ends.shear, [&](double amount) { return stable(simple_shear(amount)); })};
 }
 

@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 
-/// The infinite cubical lattice under a homogeneous deformation gradient F: thirteen springs per node and the volume term.
-/// Every node is a centre of symmetry, so that an affine deformation is in equilibrium and the energy is a closed form.
+/// The infinite cubical lattice under a homogeneous deformation gradient F: thirteen springs per node and the
+/// volume term. Every node is a centre of symmetry, so that an affine deformation is in equilibrium and the
+/// energy is a closed form.
 namespace msm {
 
 /// Energy per rest volume, MPa:
@@ -16,13 +17,15 @@ double lattice_energy_density(const CellStiffness& stiffness, double edge, const
 /// First Piola-Kirchhoff stress dW/dF, MPa.
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
 
-/// Over wave vectors q of the first Brillouin zone, the smallest eigenvalue of the dynamical matrix D(q) divided by |q h|², N/mm.
-/// Positive: no small displacement of the infinite lattice, of any wavelength, lowers its energy.
+/// Over wave vectors q of the first Brillouin zone, the smallest eigenvalue of the dynamical matrix D(q)
+/// divided by |q h|², N/mm. Positive: no small displacement of the infinite lattice, of any wavelength,
+/// lowers its energy.
 double smallest_wave_stiffness(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
 
 /// How far a homogeneous lattice can be deformed before some wave loses its stiffness.
 struct StabilityRange {
-  double stretch;     ///< largest stable l of uniaxial stretch with free sides; the search's end when stable to there
+  double stretch; ///< largest stable l of uniaxial stretch with free sides; the search's end when stable to
+                  ///< there
   double compression; ///< smallest stable l
   double shear;       ///< largest stable simple shear
 };

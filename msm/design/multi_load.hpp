@@ -1,0 +1,54 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "msm/lattice.hpp"
+
+#include <Eigen/Core>
+#include <vector>
+
+/// The multi-load method: springs, and a volume term if wanted, fitted to a material's stresses along several
+/// homogeneous deformations at once. The lattice's stress is linear in its stiffnesses at a given
+/// deformation, so that the fit is a bounded linear least-squares problem with one minimum.
+namespace msm {
+
+/// A homogeneous state of the reference material.
+struct MaterialState {
+  Eigen::Matrix3d deformation_gradient;
+  Eigen::Matrix3d cauchy_stress; ///< MPa
+};
+
+/// The material on a path at a logarithmic strain (simple shear: the amount of shear). Linear elasticity is s
+/// = lambda tr(e) I + 2 mu e with e = ln V; Ogden's is taken as incompressible, its pressure such that the
+/// free direction has no stress (simple shear: the direction across the plane of shear).
+/// @throws InputError for E <= 0 or nu outside (-1, 0.5)
+MaterialState material_state(const cases::Material& material, cases::LoadPath path, double strain);
+
+struct PathFit {
+  cases::LoadPath path;
+  double weight;
+  double error; ///< |s_lattice - s_material| / |s_material| over the path's states; with a volume term and an
+                ///< incompressible material, of the deviators, for the pressure is then the volume term's
+};
+
+struct MultiLoadSettings {
+  std::vector<cases::LoadPath> paths; ///< at least one
+  std::vector<double> weights;        ///< one per path, >= 0, not all 0
+  double lowest_strain, highest_strain;
+  bool has_volume_term;
+  double incompressible_lambda; ///< MPa: Lame's constant that an incompressible material's volume term gives
+                                ///< the lattice
+};
+
+struct MultiLoadFit {
+  CellStiffness stiffness;
+  double objective; ///< sum of weight * error² over the paths
+  std::vector<PathFit> paths;
+};
+
+/// Minimises sum of weight * error² over stiffnesses >= 0 with Ceres.
+/// @param edge  of the cubical cell, mm
+/// @throws InputError for settings without a meaning    @throws SolveError when the minimisation fails
+MultiLoadFit multi_load_method(const cases::Material& material, double edge,
+                               const MultiLoadSettings& settings);
+
+} // namespace msm

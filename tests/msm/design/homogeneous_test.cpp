@@ -1,0 +1,102 @@
+#include "msm/design/homogeneous.hpp"
+
+#include "msm/design/lattice_moduli.hpp"
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+namespace {
+
+const msm::CellStiffness springs = {0.031, 0.047, 0.033, 0};
+const msm::CellStiffness hybrid = {0.05, 0.01, 0.04, 0.3};
+const double edge = 1.3;
+
+Eigen::Matrix3d some_deformation() {
+  Eigen::Matrix3d f;
+  f << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, 0.1, -0.15, 1.1;
+  return f;
+}
+
+} // namespace
+
+TEST_CASE("a lattice block's energy per volume is the closed form", "[verification]") {
+  for (const msm::CellStiffness& stiffness : {springs, hybrid}) {
+    const int n = 3;
+    const msm::Lattice lattice = msm::make_lattice(
+        cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {{n, n, n}}), {stiffness});
+    msm::Points positions = lattice.rest;
+    for (Eigen::Vector3d& x : positions) x = some_deformation() * x;
+    const double expected = msm::energy(lattice, positions) / std::pow(n * edge, 3);
+    const double energy = msm::lattice_energy_density(stiffness, edge, some_deformation());
+    CHECK(energy == Approx(expected).epsilon(1e-13)); // the same sums in another order
+  }
+}
+
+TEST_CASE("the lattice's stress is the derivative of its energy", "[verification]") {
+  const Eigen::Matrix3d f = some_deformation();
+  for (const msm::CellStiffness& stiffness : {springs, hybrid}) {
+    const Eigen::Matrix3d stress = msm::lattice_stress(stiffness, edge, f);
+    const double h = 1e-5;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        Eigen::Matrix3d above = f, below = f;
+        above(i, j) += h;
+        below(i, j) -= h;
+        const double slope = (msm::lattice_energy_density(stiffness, edge, above) -
+                              msm::lattice_energy_density(stiffness, edge, below)) /
+                             (2 * h);
+        CHECK(slope == Approx(stress(i, j)).margin(1e-8)); // h² and round-off / h of energies near 0.1 MPa
+      }
+  }
+}
+
+TEST_CASE("sides are free of stress at the free lateral stretch") {
+  const double lateral = msm::free_lateral_stretch(hybrid, edge, 1.3);
+  const Eigen::Matrix3d f = Eigen::Vector3d(lateral, lateral, 1.3).asDiagonal();
+  CHECK(std::abs(msm::lattice_stress(hybrid, edge, f)(0, 0)) <=
+        1e-12); // MPa, of stresses near 0.1: bisected to round-off
+}
+
+TEST_CASE("long waves at rest have the stiffness of the softest acoustic wave of the moduli",
+          "[verification]") {
+  // An isotropic lattice: the shear waves, mu |q|² per volume: times h³/h² = mu h. Shorter waves are softer:
+  // 4 sin²(q/2) < q².
+  const double mu = 0.1, split = 0.6;
+  const msm::CellStiffness isotropic = {(1 - split) * mu / 4 + 2 * 0.75 * split * mu * 2 / 3 / 2,
+                                        (1 - split) * mu / 2, 0.75 * split * mu, 0.2};
+  REQUIRE(msm::lattice_moduli(isotropic, 1).zener == Approx(1));
+  const double smallest = msm::smallest_wave_stiffness(isotropic, 1, Eigen::Matrix3d::Identity());
+  CHECK(smallest > 0);
+  CHECK(smallest < mu); // the zone's boundary
+  CHECK(smallest > 0.05 * mu);
+}
+
+TEST_CASE("a lattice without diagonals has waves without stiffness, and none of its deformations is stable") {
+  const msm::CellStiffness edges_only = {0.05, 0, 0, 0};
+  CHECK(std::abs(msm::smallest_wave_stiffness(edges_only, 1, Eigen::Matrix3d::Identity())) <=
+        1e-12); // exactly none
+  const msm::StabilityRange range = msm::stability_range(edges_only, 1);
+  CHECK(range.shear == 0);
+}
+
+TEST_CASE("at the end of the stability range a wave has just no stiffness left") {
+  const msm::StabilityRange range = msm::stability_range(springs, 1);
+  CHECK(range.stretch > 1);
+  CHECK(range.compression < 1);
+  CHECK(range.shear > 0);
+  const auto smallest = [](double stretch) {
+    const double lateral = msm::free_lateral_stretch(springs, 1, stretch);
+    return msm::smallest_wave_stiffness(springs, 1, Eigen::Vector3d(lateral, lateral, stretch).asDiagonal());
+  };
+  if (range.compression > msm::search_ends.compression) {
+    CHECK(smallest(range.compression + 2e-4) > 0); // bisected to 1e-4
+    CHECK_FALSE(smallest(range.compression - 2e-4) > 0);
+  }
+}
+
+TEST_CASE("a volume term widens the range of stable compression") {
+  const msm::CellStiffness soft = {0.0233, 0.0065, 0.0227, 0};
+  msm::CellStiffness with_volume = soft;
+  with_volume.volume = 5;
+  CHECK(msm::stability_range(with_volume, 1).shear > msm::stability_range(soft, 1).shear);
+}
