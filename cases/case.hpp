@@ -80,12 +80,24 @@ struct Fem {
 
 enum class Design { linear_method, nonlinear_method, moduli, hybrid, multi_load, given };
 
+/// Homogeneous deformations that the multi-load design is fitted to.
+enum class LoadPath {
+  uniaxial,     ///< along a lattice axis, free sides
+  equibiaxial,  ///< along two lattice axes, the third free
+  pure_shear,   ///< planar tension: one axis stretched, one held, the third free
+  simple_shear, ///< between two lattice axes
+};
+
 struct Msm {
   Design design = Design::linear_method;
   std::optional<double> poissons_ratio;           ///< design from another nu than the material's
   std::optional<double> split;                    ///< t of the moduli and hybrid designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
+  std::vector<LoadPath> paths;                    ///< multi_load; empty: all
+  std::vector<double> weights;                    ///< multi_load; one per path, >= 0; empty: all 1
+  std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
+  bool has_volume_term = true;                    ///< multi_load: springs and k_v, or springs alone
   Where where;
 };
 

@@ -44,6 +44,14 @@ const NameTable<Design>& names() {
 }
 
 template<>
+const NameTable<LoadPath>& names() {
+  static const NameTable<LoadPath> table{{LoadPath::uniaxial, "uniaxial"},
+                                         {LoadPath::equibiaxial, "equibiaxial"},
+                                         {LoadPath::pure_shear, "pure_shear"},
+                                         {LoadPath::simple_shear, "simple_shear"}};
+  return table;
+}
+template<>
 const NameTable<MeasureKind>& names() {
   static const NameTable<MeasureKind> table{{MeasureKind::coordinate, "coordinate"},
                                             {MeasureKind::displacement, "displacement"},

@@ -28,6 +28,8 @@ const NameTable<Element>& names();
 template<>
 const NameTable<Design>& names();
 template<>
+const NameTable<LoadPath>& names();
+template<>
 const NameTable<MeasureKind>& names();
 template<>
 const NameTable<Axis>& names();

@@ -1,6 +1,7 @@
 #include "msm/design/multi_load.hpp"
 
 #include "cases/error.hpp"
+#include "cases/names.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
 
