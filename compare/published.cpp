@@ -50,13 +50,25 @@ std::vector<std::vector<std::string>> read_csv(const std::string& path) {
   return rows;
 }
 
-std::vector<PublishedError> read_published_errors() {
-  const std::string path = cases_folder() + "/published/errors.csv";
-  std::vector<PublishedError> errors;
-  for (const auto& row : read_csv(path))
-    errors.push_back({row.at(0), row.at(1), number(row.at(2), path), row.at(3), number(row.at(4), path),
-                      row.at(5), row.at(6), row.at(7), number(row.at(8), path)});
-  return errors;
+std::vector<PublishedFigure> read_published_figures() {
+  const std::string folder = cases_folder() + "/published/";
+  const std::string nonlinear = "nonlinear_method";
+  std::vector<PublishedFigure> figures;
+  const std::string errors = folder + "errors.csv", volumes = folder + "volumes.csv",
+                    bar = folder + "bar_deflection.csv";
+  for (const auto& row : read_csv(errors))
+    figures.push_back({row.at(0), row.at(1), number(row.at(2), errors), row.at(3), number(row.at(4), errors),
+                       row.at(5), row.at(6), row.at(7), "%", number(row.at(8), errors)});
+  // Table 5.2 and figure 5.12 are of the Ogden material and its nonlinear design (thesis sections 5.3.1.3
+  // and 5.3.3).
+  for (const auto& row : read_csv(volumes))
+    figures.push_back({row.at(0), "ogden", 0.5, nonlinear, 0.5, row.at(1), row.at(2), "volume", "mm3",
+                       number(row.at(3), volumes)});
+  for (const auto& row : read_csv(bar))
+    figures.push_back({row.at(0), "ogden", 0.5, nonlinear, 0.5, "",
+                       "bar_" + row.at(1) + "x" + row.at(2) + "x" + row.at(3), "deflection", "%",
+                       number(row.at(4), bar)});
+  return figures;
 }
 
 std::optional<std::array<double, 3>>

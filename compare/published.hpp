@@ -15,10 +15,11 @@ struct PublishedError {
   double poissons_ratio; ///< of the finite-element reference
   std::string design;    ///< "linear_method" or "nonlinear_method"
   double design_poissons_ratio;
-  std::string load_set; ///< "small" or "large"
-  std::string test;     ///< "tensile", "shear" or "torsion"
-  std::string measure;  ///< "L_1" ... "beta_2"
-  double error_percent;
+  std::string load_set; ///< "small" or "large"; empty for the bar
+  std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ...
+  std::string measure;  ///< "L_1" ... "beta_2", "volume", "deflection"
+  std::string unit;     ///< "%" for an error, "mm3" for the springs' volume
+  double value;
 };
 
 /// Folder of the case files and data that come with the program; the environment variable SPRINGPROOF_CASES

@@ -29,9 +29,10 @@ const std::vector<ErrorTable>& error_tables() {
   // both are computed.
   const std::vector<Reference> linear_elastic{{"log_strain", "q1_bbar"}, {"small_strain", "q1_bbar"}};
   const std::vector<Reference> ogden{{"hyperelastic", "q1_p0"}};
-  static const std::vector<ErrorTable> tables{{"4.5", linear_elastic}, {"4.6", linear_elastic},
-                                              {"4.7", linear_elastic}, {"5.1", ogden},
-                                              {"5.3", linear_elastic}, {"5.4", linear_elastic}};
+  static const std::vector<ErrorTable> tables{
+      {"4.5", linear_elastic}, {"4.6", linear_elastic}, {"4.7", linear_elastic},
+      {"5.1", ogden},          {"5.2", ogden},          {"5.3", linear_elastic},
+      {"5.4", linear_elastic}, {"5.12", ogden}}; // 5.12 is a figure: the bar
   return tables;
 }
 
@@ -52,11 +53,12 @@ struct Solve {
   }
 };
 
-std::string case_file_of(const PublishedError& entry) {
+std::string case_file_of(const PublishedFigure& entry) {
+  if (entry.load_set.empty()) return fmt::format("thesis/{}/{}.toml", entry.material, entry.test);
   return fmt::format("thesis/{}/cube_{}_{}.toml", entry.material, entry.test, entry.load_set);
 }
 
-Solve fem_solve(const PublishedError& entry, const Reference& reference) {
+Solve fem_solve(const PublishedFigure& entry, const Reference& reference) {
   std::vector<std::string> settings{"fem.formulation=" + reference.formulation,
                                     "fem.element=" + reference.element};
   if (entry.material == "linear_elastic")
@@ -64,8 +66,10 @@ Solve fem_solve(const PublishedError& entry, const Reference& reference) {
   return {case_file_of(entry), settings, Only::fem};
 }
 
-/// Stiffnesses that the thesis prints are used as printed.
-Solve msm_solve(const PublishedError& entry) {
+/// Stiffnesses that the thesis prints are used as printed; the bar's case files scale them to their cells.
+Solve msm_solve(const PublishedFigure& entry) {
+  if (entry.load_set.empty()) return {case_file_of(entry), {}, Only::msm};
+
   const auto k = published_stiffness(entry.design, entry.material, entry.design_poissons_ratio);
   if (k)
     return {case_file_of(entry),
@@ -82,9 +86,10 @@ const MeasuredValue* find_measure(const Comparison& comparison, const std::strin
   return nullptr;
 }
 
-/// The error of one entry from the two solves behind it.
-ComputedError combine(const Comparison& fem, const Comparison& msm, const std::string& measure,
-                      ComputedError entry) {
+/// The figure of one entry from the two solves behind it.
+ComputedFigure combine(const Comparison& fem, const Comparison& msm, const PublishedFigure& published,
+                       ComputedFigure entry) {
+  const std::string& measure = published.measure;
   const MeasuredValue *on_fem = find_measure(fem, measure), *on_msm = find_measure(msm, measure);
   if (!on_fem || !on_msm) {
     entry.reason = "the case has no measure " + measure;
@@ -92,20 +97,21 @@ ComputedError combine(const Comparison& fem, const Comparison& msm, const std::s
   }
   entry.fem = on_fem->fem;
   entry.msm = on_msm->msm;
-  if (entry.fem && entry.msm) entry.error_percent = error_percent(*entry.fem, *entry.msm);
-  if (!entry.error_percent) entry.reason = fem.fem.solution.message + msm.msm.solution.message;
+  if (published.unit == "mm3")
+    entry.value = entry.msm;
+  else if (entry.fem && entry.msm)
+    entry.value = error_percent(*entry.fem, *entry.msm);
+  if (!entry.value) entry.reason = fem.fem.solution.message + msm.msm.solution.message;
   return entry;
 }
 
 } // namespace
 
-const ComputedError* TableEntry::nearest() const {
-  const ComputedError* best = nullptr;
-  const auto distance = [&](const ComputedError& c) {
-    return std::abs(*c.error_percent - published.error_percent);
-  };
-  for (const ComputedError& candidate : computed)
-    if (candidate.error_percent && (!best || distance(candidate) < distance(*best))) best = &candidate;
+const ComputedFigure* TableEntry::nearest() const {
+  const ComputedFigure* best = nullptr;
+  const auto distance = [&](const ComputedFigure& c) { return std::abs(*c.value - published.value); };
+  for (const ComputedFigure& candidate : computed)
+    if (candidate.value && (!best || distance(candidate) < distance(*best))) best = &candidate;
   return best;
 }
 
@@ -117,13 +123,13 @@ std::vector<std::string> known_tables() {
 
 std::vector<TableEntry> regenerate(const std::vector<std::string>& tables,
                                    const std::function<void(int done, int all)>& progress) {
-  std::vector<PublishedError> wanted;
+  std::vector<PublishedFigure> wanted;
   for (const std::string& number : tables) find_table(number);
-  for (const PublishedError& published : read_published_errors())
+  for (const PublishedFigure& published : read_published_figures())
     if (std::find(tables.begin(), tables.end(), published.table) != tables.end()) wanted.push_back(published);
 
   std::map<Solve, Comparison> solves; // a solve that several tables stand on is done once
-  for (const PublishedError& published : wanted) {
+  for (const PublishedFigure& published : wanted) {
     solves[msm_solve(published)];
     for (const Reference& reference : find_table(published.table).references)
       solves[fem_solve(published, reference)];
@@ -136,14 +142,14 @@ std::vector<TableEntry> regenerate(const std::vector<std::string>& tables,
   }
 
   std::vector<TableEntry> entries;
-  for (const PublishedError& published : wanted) {
+  for (const PublishedFigure& published : wanted) {
     TableEntry entry{published, {}};
     const Solve msm = msm_solve(published);
     for (const Reference& reference : find_table(published.table).references) {
       const Solve fem = fem_solve(published, reference);
-      ComputedError computed{reference.name(), {}, {}, {}, "", fem.case_file, fem.settings};
+      ComputedFigure computed{reference.name(), {}, {}, {}, "", fem.case_file, fem.settings};
       computed.settings.insert(computed.settings.end(), msm.settings.begin(), msm.settings.end());
-      entry.computed.push_back(combine(solves.at(fem), solves.at(msm), published.measure, computed));
+      entry.computed.push_back(combine(solves.at(fem), solves.at(msm), published, computed));
     }
     entries.push_back(std::move(entry));
   }

@@ -11,22 +11,22 @@
 
 namespace compare {
 
-/// An error computed against one finite-element reference, and how to compute it again.
-struct ComputedError {
-  std::string reference; ///< formulation and element, "small_strain q1_bbar"
-  std::optional<double> error_percent;
+/// A figure computed against one finite-element reference, and how to compute it again.
+struct ComputedFigure {
+  std::string reference;             ///< formulation and element, "small_strain q1_bbar"
+  std::optional<double> value;       ///< in the unit of the published one
   std::optional<double> fem, msm;    ///< the measure itself
-  std::string reason;                ///< why there is no error; empty when there is one
+  std::string reason;                ///< why there is no value; empty when there is one
   std::string case_file;             ///< relative to cases_folder()
   std::vector<std::string> settings; ///< for `run CASE --set ...`
 };
 
 /// One printed figure with what the declared references give.
 struct TableEntry {
-  PublishedError published;
-  std::vector<ComputedError> computed; ///< one per reference, at least one
+  PublishedFigure published;
+  std::vector<ComputedFigure> computed; ///< one per reference, at least one
   /// Of the computed ones that nearest to print; null when none has a value.
-  const ComputedError* nearest() const;
+  const ComputedFigure* nearest() const;
 };
 
 /// Numbers of the tables that can be regenerated, in order.

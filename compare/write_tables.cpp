@@ -16,12 +16,12 @@ std::string number(const std::optional<double>& value) {
 }
 
 std::optional<double> difference(const TableEntry& entry) {
-  const ComputedError* nearest = entry.nearest();
-  return nearest ? std::optional(*nearest->error_percent - entry.published.error_percent) : std::nullopt;
+  const ComputedFigure* nearest = entry.nearest();
+  return nearest ? std::optional(*nearest->value - entry.published.value) : std::nullopt;
 }
 
 /// What a column of a table stands for: the parts that tell its entries from those of other columns.
-std::array<std::string, 3> column_of(const PublishedError& p) {
+std::array<std::string, 3> column_of(const PublishedFigure& p) {
   return {p.design, fmt::format("nu = {:g}", p.poissons_ratio), p.load_set};
 }
 
@@ -69,11 +69,11 @@ void write_sheet(std::ostream& out, const Sheet& sheet) {
         const TableEntry* entry = sheet.find(r, c);
         if (!entry) return std::string();
         const bool mark = references.size() > 1 && entry->nearest() == &entry->computed[k];
-        return number(entry->computed[k].error_percent) + (mark ? "*" : "");
+        return number(entry->computed[k].value) + (mark ? "*" : "");
       });
     line("", "", "published", [&](std::size_t c) {
       const TableEntry* entry = sheet.find(r, c);
-      return entry ? number(entry->published.error_percent) : std::string();
+      return entry ? number(entry->published.value) : std::string();
     });
     line("", "", "difference", [&](std::size_t c) {
       const TableEntry* entry = sheet.find(r, c);
@@ -106,16 +106,18 @@ void write_tables_text(std::ostream& out, const std::vector<TableEntry>& entries
     std::vector<const TableEntry*> of_table;
     for (const TableEntry& entry : entries)
       if (entry.published.table == table) of_table.push_back(&entry);
-    fmt::print(out, "\nTable {}: error r = (MSM - FEM)/FEM x 100 %{}\n", table,
+    fmt::print(out, "\n{} {}: {}{}\n", table == "5.12" ? "Figure" : "Table", table,
+               of_table.front()->published.unit == "%" ? "error r = (MSM - FEM)/FEM x 100 %"
+                                                       : "volume of the springs' body, mm3",
                of_table.front()->computed.size() > 1 ? "; * the reference nearer to print" : "");
     write_sheet(out, Sheet(of_table));
     fmt::print(out, "  of {} entries", of_table.size());
     for (const Count& count : count_reproduced(of_table))
       fmt::print(out, ", {} within {:g}", count.entries, count.points);
-    fmt::print(out, " points of print\n");
+    fmt::print(out, " {} of print\n", of_table.front()->published.unit == "%" ? "points" : "mm3");
     for (const TableEntry* entry : of_table)
-      for (const ComputedError& computed : entry->computed)
-        if (!computed.error_percent)
+      for (const ComputedFigure& computed : entry->computed)
+        if (!computed.value)
           fmt::print(out, "  no value: {} {} nu = {:g} ({}): {}\n", entry->published.test,
                      entry->published.measure, entry->published.poissons_ratio, computed.reference,
                      computed.reason);
@@ -126,17 +128,16 @@ void write_tables_csv(std::ostream& out, const std::vector<TableEntry>& entries)
   const auto field = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.6f}", *value) : "";
   };
-  fmt::print(out,
-             "table,material,poissons_ratio,design,design_poissons_ratio,load_set,test,measure,published,"
-             "reference,computed,fem,msm,difference\n");
+  fmt::print(
+      out, "table,material,poissons_ratio,design,design_poissons_ratio,load_set,test,measure,published,unit,"
+           "reference,computed,fem,msm,difference\n");
   for (const TableEntry& entry : entries)
-    for (const ComputedError& c : entry.computed) {
-      const PublishedError& p = entry.published;
-      const auto off = c.error_percent ? std::optional(*c.error_percent - p.error_percent) : std::nullopt;
-      fmt::print(out, "{},{},{:g},{},{:g},{},{},{},{:g},{},{},{},{},{}\n", p.table, p.material,
-                 p.poissons_ratio, p.design, p.design_poissons_ratio, p.load_set, p.test, p.measure,
-                 p.error_percent, c.reference, field(c.error_percent), field(c.fem), field(c.msm),
-                 field(off));
+    for (const ComputedFigure& c : entry.computed) {
+      const PublishedFigure& p = entry.published;
+      const auto off = c.value ? std::optional(*c.value - p.value) : std::nullopt;
+      fmt::print(out, "{},{},{:g},{},{:g},{},{},{},{:g},{},{},{},{},{},{}\n", p.table, p.material,
+                 p.poissons_ratio, p.design, p.design_poissons_ratio, p.load_set, p.test, p.measure, p.value,
+                 p.unit, c.reference, field(c.value), field(c.fem), field(c.msm), field(off));
     }
 }
 
@@ -147,12 +148,12 @@ Json tables_to_json(const std::vector<TableEntry>& entries) {
   Json rows = Json::array();
   std::vector<const TableEntry*> all;
   for (const TableEntry& entry : entries) {
-    all.push_back(&entry);
-    const PublishedError& p = entry.published;
-    const ComputedError& declared = entry.computed.front();
+    if (entry.published.unit == "%") all.push_back(&entry);
+    const PublishedFigure& p = entry.published;
+    const ComputedFigure& declared = entry.computed.front();
     Json other = Json::object();
     for (std::size_t k = 1; k < entry.computed.size(); ++k)
-      other[entry.computed[k].reference] = or_null(entry.computed[k].error_percent);
+      other[entry.computed[k].reference] = or_null(entry.computed[k].value);
     rows.push_back({{"table", p.table},
                     {"material", p.material},
                     {"poissons_ratio", p.poissons_ratio},
@@ -160,9 +161,9 @@ Json tables_to_json(const std::vector<TableEntry>& entries) {
                     {"load_set", p.load_set},
                     {"test", p.test},
                     {"measure", p.measure},
-                    {"unit", "%"},
-                    {"published", p.error_percent},
-                    {"computed", or_null(declared.error_percent)},
+                    {"unit", p.unit},
+                    {"published", p.value},
+                    {"computed", or_null(declared.value)},
                     {"reference", declared.reference},
                     {"other", other},
                     {"case", declared.case_file},
