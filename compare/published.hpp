@@ -8,8 +8,8 @@
 /// The thesis's printed figures, read from cases/published/.
 namespace compare {
 
-/// One printed error of tables 4.5 to 5.4.
-struct PublishedError {
+/// One printed figure: an error of tables 4.5 to 5.4 or of figure 5.12, or a volume of table 5.2.
+struct PublishedFigure {
   std::string table;     ///< "4.5"
   std::string material;  ///< "linear_elastic" or "ogden"
   double poissons_ratio; ///< of the finite-element reference
@@ -18,7 +18,7 @@ struct PublishedError {
   std::string load_set; ///< "small" or "large"; empty for the bar
   std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ...
   std::string measure;  ///< "L_1" ... "beta_2", "volume", "deflection"
-  std::string unit;     ///< "%" for an error, "mm3" for the springs' volume
+  std::string unit;     ///< "%" for an error, "mm3" for the volume of the springs' body
   double value;
 };
 
@@ -26,9 +26,9 @@ struct PublishedError {
 /// moves it.
 std::string cases_folder();
 
-/// All rows of errors.csv, in the order of print.  @throws InputError naming file and line when a row is
-/// broken
-std::vector<PublishedError> read_published_errors();
+/// All figures of errors.csv, volumes.csv and bar_deflection.csv.
+/// @throws InputError naming the file when a row is broken
+std::vector<PublishedFigure> read_published_figures();
 
 /// k_e, k_f, k_d in whole N/m where the thesis prints them for this design of the 1 mm cell, else nothing.
 std::optional<std::array<double, 3>>
