@@ -71,7 +71,9 @@ int rank() {
 } // namespace
 
 bool Comparison::failed() const {
-  return fem.solution.status == cases::Status::failed || msm.solution.status == cases::Status::failed;
+  const bool peer_failed = peer && peer->side.solution.status == cases::Status::failed;
+  return fem.solution.status == cases::Status::failed || msm.solution.status == cases::Status::failed ||
+         peer_failed;
 }
 
 Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {

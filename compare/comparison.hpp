@@ -2,6 +2,7 @@
 
 #include "cases/scene.hpp"
 #include "cases/solution.hpp"
+#include "compare/mesh_study.hpp"
 #include "msm/design/design.hpp"
 
 #include <optional>
@@ -24,6 +25,16 @@ struct MeasuredValue {
   std::optional<double> fem;
   std::optional<double> msm;
   std::optional<double> error_percent;
+  std::optional<double> peer = std::nullopt; ///< by another program, when it was asked
+};
+
+/// Another program's answer to the finite elements' question.
+struct Peer {
+  std::string program;
+  Side side; ///< skipped when the program is absent or cannot express the case
+  /// Largest distance of a node's two displaced positions (finite elements, peer) over the largest
+  /// displacement.
+  std::optional<double> largest_difference;
 };
 
 enum class Verdict { met, missed };
@@ -45,7 +56,9 @@ struct Comparison {
       design; ///< absent when the mass-spring side was skipped or could not be designed
   std::vector<MeasuredValue> measures;
   std::vector<Judgement> judgements;
-  bool failed() const; ///< a side that was asked for did not converge
+  std::optional<MeshStudy> mesh_study; ///< when asked for
+  std::optional<Peer> peer;            ///< when asked for
+  bool failed() const;                 ///< a side that was asked for did not converge
 };
 
 enum class Only { both, fem, msm };
@@ -54,6 +67,9 @@ enum class Only { both, fem, msm };
 /// Collective over MPI_COMM_WORLD; the mass-spring side is solved on rank 0 alone.
 /// @throws InputError
 Comparison compare_case(const cases::Case& definition, Only only = Only::both);
+
+/// Asks CalculiX about a comparison's case, and puts its answers beside the others.
+void ask_calculix(Comparison& comparison);
 
 /// @param measures  of the same case
 Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);

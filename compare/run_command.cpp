@@ -18,6 +18,8 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
+  int meshes = 0;   ///< of the study of the finite elements' own error; 0: none
+  std::string peer; ///< a program that is asked too; empty: none
   bool json = false;
 };
 
@@ -47,6 +49,9 @@ int run(const RunOptions& options) {
   bool failed = false;
   for (const cases::Case& definition : definitions) {
     done.push_back(compare_case(definition, parse_only(options.only)));
+    if (options.meshes > 0)
+      done.back().mesh_study = study_meshes(done.back().scene, done.back().fem.solution, options.meshes);
+    if (!options.peer.empty() && rank == 0) ask_calculix(done.back());
     failed = failed || done.back().failed();
     if (rank != 0) continue;
     if (!options.json) write_text(std::cout, done.back());
@@ -68,6 +73,13 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->allow_extra_args(false);
   command->add_option("--only", options->only, "solve one side")
       ->check(CLI::IsMember({"both", "fem", "msm"}));
+  command
+      ->add_flag(
+          "--converge{3}", options->meshes,
+          "solve the finite elements on N uniformly refined meshes (--converge=4; 3 by itself): error bars")
+      ->check(CLI::Range(3, 6));
+  command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
+      ->check(CLI::IsMember({"ccx"}));
   command->add_option("--out", options->out, "folder for results.json, comparison.csv and fields as .vtu");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

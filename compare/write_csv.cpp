@@ -7,16 +7,38 @@
 
 namespace compare {
 
+namespace {
+
+std::string field(const std::optional<double>& value) {
+  return value ? fmt::format("{:.10g}", *value) : "";
+}
+
+/// RFC 4180: a text with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::optional<double> discretisation_error(const Comparison& comparison, std::size_t measure) {
+  return comparison.mesh_study ? comparison.mesh_study->measures[measure].discretisation_error_percent
+                               : std::nullopt;
+}
+
+} // namespace
+
 void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
-  const auto field = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.10g}", *value) : "";
-  };
-  fmt::print(out, "case,measure,unit,fem,msm,error_percent,fem_status,msm_status\n");
+  fmt::print(out, "case,measure,unit,fem,msm,error_percent,fem_status,msm_status,fem_discretisation_error_"
+                  "percent,peer\n");
   for (const Comparison& c : comparisons)
-    for (const MeasuredValue& m : c.measures)
-      fmt::print(out, "{},{},{},{},{},{},{},{}\n", c.scene.definition.name, m.name, m.unit, field(m.fem),
-                 field(m.msm), field(m.error_percent), cases::name_of(c.fem.solution.status),
-                 cases::name_of(c.msm.solution.status));
+    for (std::size_t i = 0; i < c.measures.size(); ++i) {
+      const MeasuredValue& m = c.measures[i];
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", field(c.scene.definition.name), field(m.name),
+                 m.unit, field(m.fem), field(m.msm), field(m.error_percent),
+                 cases::name_of(c.fem.solution.status), cases::name_of(c.msm.solution.status),
+                 field(discretisation_error(c, i)), field(m.peer));
+    }
 }
 
 } // namespace compare

@@ -31,6 +31,12 @@ Json side_to_json(const Side& side) {
           {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
 }
 
+Json fem_to_json(const Comparison& comparison) {
+  Json side = side_to_json(comparison.fem);
+  if (comparison.mesh_study) add_mesh_study(side, *comparison.mesh_study);
+  return side;
+}
+
 Json msm_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.msm);
   if (comparison.design) {
@@ -44,12 +50,14 @@ Json msm_to_json(const Comparison& comparison) {
 
 Json comparison_to_json(const Comparison& comparison) {
   Json measures = Json::array();
-  for (const MeasuredValue& m : comparison.measures)
+  for (const MeasuredValue& m : comparison.measures) {
     measures.push_back({{"name", m.name},
                         {"unit", m.unit},
                         {"fem", or_null(m.fem)},
                         {"msm", or_null(m.msm)},
                         {"error_percent", or_null(m.error_percent)}});
+    if (comparison.peer) measures.back()["peer"] = or_null(m.peer);
+  }
   Json expectations = Json::array();
   for (const Judgement& j : comparison.judgements)
     expectations.push_back({{"measure", j.expectation.measure},
@@ -60,13 +68,15 @@ Json comparison_to_json(const Comparison& comparison) {
                             {"met", j.verdict == Verdict::met},
                             {"reason", j.reason}});
   const cases::Case& definition = comparison.scene.definition;
-  return {{"name", definition.name},
-          {"description", definition.description},
-          {"fem", side_to_json(comparison.fem)},
-          {"msm", msm_to_json(comparison)},
-          {"measures", measures},
-          {"expectations", expectations},
-          {"status", comparison.failed() ? "failed" : "converged"}};
+  Json document{{"name", definition.name},
+                {"description", definition.description},
+                {"fem", fem_to_json(comparison)},
+                {"msm", msm_to_json(comparison)},
+                {"measures", measures},
+                {"expectations", expectations},
+                {"status", comparison.failed() ? "failed" : "converged"}};
+  if (comparison.peer) document["peer"] = to_json(*comparison.peer);
+  return document;
 }
 
 } // namespace

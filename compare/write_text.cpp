@@ -50,10 +50,15 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   if (comparison.design)
     for (const std::string& warning : comparison.design->warnings)
       fmt::print(out, "  warning: {}\n", warning);
-  fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}\n", "measure", "unit", "fem", "msm", "error %");
+  if (comparison.peer) write_text(out, *comparison.peer);
+  const std::string peer = comparison.peer ? fmt::format(" {:>14}", comparison.peer->program) : "";
+  fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", "measure", "unit", "fem", "msm", "error %",
+             peer);
   for (const MeasuredValue& m : comparison.measures)
-    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}\n", m.name, m.unit, number(m.fem, "{:.6g}"),
-               number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"));
+    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", m.name, m.unit, number(m.fem, "{:.6g}"),
+               number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"),
+               comparison.peer ? fmt::format(" {:>14}", number(m.peer, "{:.6g}")) : "");
+  if (comparison.mesh_study) write_text(out, *comparison.mesh_study);
   for (const Judgement& j : comparison.judgements)
     fmt::print(out, "  {} {} ({}): {}\n", j.verdict == Verdict::met ? "met   " : "MISSED",
                j.expectation.measure, cases::name_of(j.expectation.reference),

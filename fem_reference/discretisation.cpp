@@ -280,7 +280,8 @@ class LoadAssembly {
 void DiscretisationBuilder::add_tractions() {
   LoadAssembly assembly(out);
   const dealii::QGauss<2> quadrature(static_cast<unsigned>(out.element.degree) + 2);
-  dealii::FEFaceValues<3> values(dealii::MappingQ1<3>(), node_element, quadrature,
+  const dealii::MappingQ1<3> mapping;
+  dealii::FEFaceValues<3> values(mapping, node_element, quadrature,
                                  dealii::update_values | dealii::update_quadrature_points |
                                      dealii::update_JxW_values);
   for (const auto& applied : scene.loads) {

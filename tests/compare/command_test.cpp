@@ -115,6 +115,34 @@ TEST_CASE("--out leaves results, a comparison and both models' fields, and nothi
     CHECK(vtu.find(field) != std::string::npos);
 }
 
+TEST_CASE("--converge gives each measure an error bar, or the reason why there is none") {
+  const Outcome study =
+      springproof("run --json --only fem --converge " + cases_folder + "/studies/clamped_block_shear.toml");
+  REQUIRE(study.status == 0);
+  const auto side = nlohmann::json::parse(study.out)["cases"][0]["fem"];
+  for (const char* measure : {"u_x", "u_z", "alpha"}) {
+    CHECK(side["discretisation_error_percent"][measure].get<double>() > 0);
+    CHECK(side["discretisation_error_percent"][measure].get<double>() < 20); // four cells across, first order
+  }
+  CHECK(side["mesh_study"]["refine"] == std::vector<int>{0, 1, 2});
+  const Outcome point_forces = springproof("run --json --only fem --converge " + shear);
+  REQUIRE(point_forces.status == 0);
+  const auto none = nlohmann::json::parse(point_forces.out)["cases"][0]["fem"];
+  CHECK(none["discretisation_error_percent"]["alpha_1"].is_null());
+  CHECK_THAT(none["mesh_study"]["measures"][0]["reason"].get<std::string>(),
+             Catch::Contains("no continuum limit"));
+}
+
+TEST_CASE("--peer ccx is a third column, and says why when it stays empty") {
+  const Outcome outcome =
+      springproof("run --json --only fem --peer ccx " + shear + " --set fem.element=q1_bbar");
+  REQUIRE(outcome.status == 0);
+  const auto result = nlohmann::json::parse(outcome.out)["cases"][0];
+  CHECK(result["peer"]["status"] == "skipped");
+  CHECK_THAT(result["peer"]["message"].get<std::string>(), Catch::Contains("q1_bbar"));
+  CHECK(result["measures"][0]["peer"].is_null());
+}
+
 TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unknown table") {
   for (const char* words : {"", "run", "run --no-such-option x", "tables 9.9", "run /no/such/file.toml"}) {
     INFO(words);

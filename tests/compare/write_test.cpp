@@ -87,8 +87,9 @@ TEST_CASE("a failed side is a failed row with its reason, and its values are nul
   CHECK(row["measures"][0]["msm"] == 2.5);
   std::ostringstream csv;
   compare::write_csv(csv, {one_cell_comparison()});
-  CHECK(csv.str() == "case,measure,unit,fem,msm,error_percent,fem_status,msm_status\n"
-                     "cell,L,mm,,2.5,,failed,converged\n");
+  CHECK(csv.str() == "case,measure,unit,fem,msm,error_percent,fem_status,msm_status,"
+                     "fem_discretisation_error_percent,peer\n"
+                     "cell,L,mm,,2.5,,failed,converged,,\n");
 }
 
 TEST_CASE("a file is written whole or not at all") {
