@@ -56,7 +56,9 @@ std::vector<MeasuredValue> measure_all(const Comparison& comparison) {
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     MeasuredValue value{measure.name, unit_of(measure), value_on(measure, comparison.scene, comparison.fem),
                         value_on(measure, comparison.scene, comparison.msm), std::nullopt};
-    if (value.fem && value.msm) value.error_percent = error_percent(*value.fem, *value.msm);
+    if (value.fem && value.msm)
+      value.error_percent =
+          measure_error_percent(measure, comparison.scene, comparison.fem.solution, comparison.msm.solution);
     values.push_back(value);
   }
   return values;

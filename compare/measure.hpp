@@ -10,10 +10,15 @@ namespace compare {
 /// Value of a measure on a converged solution, in unit_of(measure).
 ///   coordinate, displacement: of the node; tilt: atan2(d_toward, d_up) of the vector from bottom to top;
 ///   twist: rotation of the segment from centre to node about the axis against its rest direction, in (-180,
-///   180]; volume: of all cells of the body's mesh.
-/// @throws InputError for a measure of the two solutions' difference, which one side does not have
-/// Source: thesis sections 4.3.3 and 5.3.1.3.
+///   180]; volume: of all cells of the body's mesh; displacement_field_l2: root of the mean of |u|² over the
+///   body at rest (trilinear between nodes); displacement_field_max: the largest |u| of a node.
+/// Source: thesis sections 4.3.3 and 5.3.1.3 but for the two norms.
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
+
+/// Error of the springs in a measure, percent. For a field norm that of the difference of both fields over
+/// that of the finite elements', never negative; otherwise error_percent() of the two values.
+std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
+                                            const cases::Solution& fem, const cases::Solution& msm);
 
 /// "mm", "deg" or "mm3".
 std::string unit_of(const cases::Measure& measure);

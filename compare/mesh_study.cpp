@@ -27,12 +27,6 @@ MeshStudy without_values(const cases::Scene& scene, const std::string& reason) {
   return study;
 }
 
-std::string of_both_models(const cases::Measure& measure) {
-  const bool is_difference = measure.kind == cases::MeasureKind::displacement_field_l2 ||
-                             measure.kind == cases::MeasureKind::displacement_field_max;
-  return is_difference ? "it measures the difference of both models" : "";
-}
-
 void judge(StudiedMeasure& measure, std::size_t own) {
   const MeshVerdict verdict = judge_refinement(measure.values, 2);
   if (const auto* limit = std::get_if<MeshLimit>(&verdict)) {
@@ -82,14 +76,10 @@ MeshStudy study_meshes(const cases::Scene& scene, const cases::Solution& own, in
     study.refine.push_back(refine);
     study.unknowns.push_back(solution.unknowns);
     for (std::size_t m = 0; m < measures.size(); ++m)
-      if (of_both_models(measures[m]).empty())
-        study.measures[m].values.push_back(evaluate(measures[m], scene, solution));
+      study.measures[m].values.push_back(evaluate(measures[m], scene, solution));
   }
   const auto own_mesh = static_cast<std::size_t>(own_refine - study.refine.front());
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    study.measures[m].reason = of_both_models(measures[m]);
-    if (study.measures[m].reason.empty()) judge(study.measures[m], own_mesh);
-  }
+  for (StudiedMeasure& measure : study.measures) judge(measure, own_mesh);
   return study;
 }
 

@@ -18,11 +18,6 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   return difference / size;
 }
 
-bool is_of_one_model(const cases::Measure& measure) {
-  return measure.kind != cases::MeasureKind::displacement_field_l2 &&
-         measure.kind != cases::MeasureKind::displacement_field_max;
-}
-
 } // namespace
 
 void ask_calculix(Comparison& comparison) {
@@ -40,8 +35,7 @@ void ask_calculix(Comparison& comparison) {
   if (peer.side.solution.status == cases::Status::converged) {
     const auto& measures = comparison.scene.definition.measures;
     for (std::size_t m = 0; m < measures.size(); ++m)
-      if (is_of_one_model(measures[m]))
-        comparison.measures[m].peer = evaluate(measures[m], comparison.scene, peer.side.solution);
+      comparison.measures[m].peer = evaluate(measures[m], comparison.scene, peer.side.solution);
     if (comparison.fem.solution.status == cases::Status::converged)
       peer.largest_difference = largest_difference(comparison.fem.solution, peer.side.solution);
   }

@@ -91,6 +91,24 @@ TEST_CASE("a coordinate is a place, a displacement a change, and the volume foll
   CHECK(compare::evaluate(measure(MeasureKind::volume), scene, stretched) == Approx(12).epsilon(rounding));
 }
 
+TEST_CASE("field norms: a stretch along z has the root mean square of a linear field, and errors are of the "
+          "difference") {
+  const cases::Scene scene = cube(); // 2 mm
+  const auto along_z = [&](double strain) {
+    return moved(scene, [=](const Vector3d& x) { return Vector3d(x.x(), x.y(), (1 + strain) * x.z()); });
+  };
+  const auto fem = along_z(0.3), msm = along_z(0.2);
+  const cases::Measure l2 = measure(MeasureKind::displacement_field_l2);
+  const cases::Measure largest = measure(MeasureKind::displacement_field_max);
+  CHECK(compare::evaluate(l2, scene, fem) ==
+        Approx(0.3 * 2 / std::sqrt(3.0)).epsilon(rounding)); // mean of z² is 4/3
+  CHECK(compare::evaluate(largest, scene, fem) == Approx(0.6).epsilon(rounding));
+  for (const cases::Measure& norm : {l2, largest})
+    CHECK(*compare::measure_error_percent(norm, scene, fem, msm) == Approx(100 / 3.0).epsilon(rounding));
+  const auto rest = along_z(0);
+  CHECK_FALSE(compare::measure_error_percent(l2, scene, rest, msm));
+}
+
 TEST_CASE("the relative error has no value where the reference is zero or a side is not a number") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
