@@ -1,6 +1,7 @@
 #include "fem_reference/discretisation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -71,6 +72,7 @@ struct DiscretisationBuilder {
   void create_mesh();
   void distribute_nodes();
   void compute_geometry();
+  void add_pressure_modes();
   void apply_fixed_regions(const Prescribed& prescribed);
   void fix(const Cell& cell, const SelectedParts& parts, const std::array<bool, 3>& components);
   void create_tangent();
@@ -153,8 +155,6 @@ void DiscretisationBuilder::compute_geometry() {
   for (unsigned q = 0; q < quadrature.size(); ++q) {
     for (unsigned a = 0; a < n; ++a)
       out.shape_values.push_back(node_element.shape_value(a, quadrature.point(q)));
-    for (int m = 0; m < out.element.n_pressure_modes; ++m)
-      out.modes_.push_back(m == 0 ? 1 : quadrature.point(q)[static_cast<unsigned>(m - 1)] - 0.5);
   }
   const auto n_local_nodes = index(out.n_owned_nodes) + out.ghost_nodes.size();
   out.node_point.resize(n_local_nodes);
@@ -173,9 +173,30 @@ void DiscretisationBuilder::compute_geometry() {
     for (unsigned a = 0; a < n; ++a)
       out.node_point[index(node[a])] =
           to_eigen(mapping.transform_unit_to_real_cell(cell, node_element.unit_support_point(a)));
+    add_pressure_modes();
     for (unsigned v = 0; v < 8; ++v) // the vertices come first
       out.mesh_node[index(node[v])] = static_cast<int>(cell->vertex_index(v));
     node += n;
+  }
+}
+
+/// 1 and the coordinates from the cell's centre over its edge length. Coordinates of the reference cell would
+/// lose an order of accuracy on cells that are no parallelepipeds (Arnold, Boffi and Falk, Math. Comp. 71,
+/// 2002).
+void DiscretisationBuilder::add_pressure_modes() {
+  if (out.element.n_pressure_modes == 0) return;
+  const auto cell = static_cast<int>(out.weights_.size()) / out.points_per_cell - 1;
+  const double* weights = out.weights_.data() + cell * out.points_per_cell;
+  Vector3d centre = Vector3d::Zero();
+  double volume = 0;
+  for (int q = 0; q < out.points_per_cell; ++q) {
+    centre += weights[q] * out.quadrature_point(cell, q);
+    volume += weights[q];
+  }
+  centre /= volume;
+  for (int q = 0; q < out.points_per_cell; ++q) {
+    const Vector3d offset = (out.quadrature_point(cell, q) - centre) / std::cbrt(volume);
+    for (int m = 0; m < out.element.n_pressure_modes; ++m) out.modes_.push_back(m == 0 ? 1 : offset[m - 1]);
   }
 }
 
@@ -343,7 +364,7 @@ Discretisation::~Discretisation() = default;
 CellGeometry Discretisation::geometry(int cell) const {
   const auto c = index(cell), points = index(points_per_cell), nodes = index(nodes_per_cell);
   return {nodes_per_cell, points_per_cell, gradients_.data() + c * points * 3 * nodes,
-          weights_.data() + c * points, modes_.data()};
+          weights_.data() + c * points, modes_.data() + c * points * index(element.n_pressure_modes)};
 }
 
 Eigen::Vector3d Discretisation::quadrature_point(int cell, int point) const {

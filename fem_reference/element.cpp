@@ -14,7 +14,7 @@ namespace fem_reference {
 namespace {
 
 constexpr std::array<ElementType, 5> table{{{cases::Element::q1, 1, Pressure::pointwise, 0},
-                                            {cases::Element::q1_bbar, 1, Pressure::mean, 0},
+                                            {cases::Element::q1_bbar, 1, Pressure::modes, 1},
                                             {cases::Element::q1_p0, 1, Pressure::modes, 1},
                                             {cases::Element::q2, 2, Pressure::pointwise, 0},
                                             {cases::Element::q2_p1, 2, Pressure::modes, 4}}};
@@ -48,7 +48,7 @@ CellKernel::CellKernel(const ElementType& element, const Formulation& formulatio
   result_.volume_residual.resize(n_modes);
   result_.pressure_residual.resize(n_modes);
   result_.pressure_slope.resize(n_modes * n_dofs);
-  volume_gradient_.resize(std::max<std::size_t>(n_modes, 1) * n_dofs);
+  volume_gradient_.resize(n_modes * n_dofs);
   right_factor_.resize(9 * n_points * n_dofs);
 }
 
@@ -74,17 +74,13 @@ void CellKernel::kinematics(const CellGeometry& g, const double* displacement) {
 
 /// Pressure at every point: value, and slope dp/dJ where the law is followed rather than interpolated.
 void CellKernel::pressures(const CellGeometry& g, const double* pressure) {
-  double rest_volume = 0;
-  for (int q = 0; q < g.n_points; ++q) rest_volume += g.weights[q];
   const VolumetricLaw& law = *formulation_.volumetric;
-  ValueAndSlope mean{0, 0};
-  if (element_.pressure == Pressure::mean) mean = law.pressure(result_.volume / rest_volume);
-  result_.volume_mismatch = 0;
   for (int q = 0; q < g.n_points; ++q) {
     const auto point = static_cast<std::size_t>(q);
-    if (element_.pressure == Pressure::pointwise) pressure_[point] = law.pressure(volume_ratio_[point]);
-    if (element_.pressure == Pressure::mean) pressure_[point] = mean;
-    if (element_.pressure != Pressure::modes) continue;
+    if (element_.pressure == Pressure::pointwise) {
+      pressure_[point] = law.pressure(volume_ratio_[point]);
+      continue;
+    }
     double p = 0;
     for (int m = 0; m < element_.n_pressure_modes; ++m)
       p += g.modes[q * element_.n_pressure_modes + m] * pressure[m];
@@ -142,29 +138,19 @@ void CellKernel::add_stiffness(const CellGeometry& g) {
               g.gradients, &rows, &zero, result_.tangent.data() + i * rows * columns, &columns);
 }
 
-/// B_m = sum w phi_m cof F . grad N (phi_0 = 1 without modes): the gradient of the cell's volume (moments).
+/// B_m = sum w phi_m cof F . grad N: the gradient of the moments of the cell's volume.
 void CellKernel::volume_gradients(const CellGeometry& g) {
-  const int n = g.n_nodes, n_modes = std::max(element_.n_pressure_modes, 1);
+  const int n = g.n_nodes, n_modes = element_.n_pressure_modes;
   std::fill(volume_gradient_.begin(), volume_gradient_.end(), 0.);
   for (int q = 0; q < g.n_points; ++q)
     for (int m = 0; m < n_modes; ++m) {
-      const double mode = element_.pressure == Pressure::modes ? g.modes[q * n_modes + m] : 1;
-      const Matrix3 area = g.weights[q] * mode * cofactor_[static_cast<std::size_t>(q)];
+      const Matrix3 area = g.weights[q] * g.modes[q * n_modes + m] * cofactor_[static_cast<std::size_t>(q)];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           for (int a = 0; a < n; ++a)
             volume_gradient_[static_cast<std::size_t>((m * 3 + i) * n + a)] +=
                 area(i, j) * g.gradients[(3 * q + j) * n + a];
     }
-}
-
-/// (dp/dJ)/V0 B B^T.
-void CellKernel::add_mean_pressure_stiffness(double rest_volume) {
-  const std::size_t n_dofs = result_.force.size();
-  const double factor = pressure_.front().slope / rest_volume;
-  for (std::size_t a = 0; a < n_dofs; ++a)
-    for (std::size_t b = 0; b < n_dofs; ++b)
-      result_.tangent[a * n_dofs + b] += factor * volume_gradient_[a] * volume_gradient_[b];
 }
 
 void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
@@ -204,12 +190,7 @@ const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* disp
   result_.plain_force = result_.force;
   if (wanted == Wanted::stress_and_tangent) {
     add_stiffness(g);
-    if (element_.pressure != Pressure::pointwise) volume_gradients(g);
-  }
-  if (element_.pressure == Pressure::mean && wanted == Wanted::stress_and_tangent) {
-    double rest_volume = 0;
-    for (int q = 0; q < g.n_points; ++q) rest_volume += g.weights[q];
-    add_mean_pressure_stiffness(rest_volume);
+    if (element_.pressure == Pressure::modes) volume_gradients(g);
   }
   if (element_.pressure == Pressure::modes) condense(g, wanted);
   return result_;

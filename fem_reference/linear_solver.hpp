@@ -6,9 +6,11 @@
 
 namespace fem_reference {
 
-/// Most unknowns that MUMPS factorises by default; above it an iterative method runs. A cube of 10x10x10
-/// cells has 3630 and of 20x20x20 26,460; fill grows with the power 4/3 and time with the square.
-constexpr long direct_solver_limit = 60000;
+/// Most unknowns that MUMPS factorises by default; above it multigrid-preconditioned Krylov methods run.
+/// Cubes of 26,460 and 86,490 unknowns (compressible, one thread) were measured to take 1.0 and 1.5 times as
+/// long with MUMPS as with multigrid, the larger one 1.3 GB; below the limit the factorisation's indifference
+/// to near incompressibility, and its count of negative eigenvalues, are worth that.
+constexpr long direct_solver_limit = 120000;
 
 /// Newton's linear systems. PETSc's options database overrides every choice under the prefix "fem_".
 class LinearSolver {
@@ -22,12 +24,17 @@ class LinearSolver {
   /// Solves with the discretisation's tangent as it is now.
   Outcome solve(Vec right_hand_side, Vec solution);
 
-  /// Negative pivots of the last factorisation, when it was symmetric and direct.
-  std::optional<int> negative_pivots() const;
+  /// Negative eigenvalues of the symmetric part of the tangent last solved with, counted by MUMPS as negative
+  /// pivots; nothing when that solve was iterative. An unsymmetric tangent is factorised once more for it.
+  /// Zero: the equilibrium is stable.
+  std::optional<int> negative_eigenvalues() const;
 
  private:
+  bool is_direct() const;
+
   Solver solver_;
   Mat tangent_;
+  TangentSymmetry symmetry_;
 };
 
 } // namespace fem_reference

@@ -83,7 +83,7 @@ cases::Solution Model::solve() {
   solution.load_reached = 1;
   solution.newton_iterations = report.iterations;
   solution.linear_iterations = report.linear_iterations;
-  solution.negative_eigenvalues = m.solver.negative_pivots();
+  solution.negative_eigenvalues = m.solver.negative_eigenvalues();
   for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
     if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
           0))

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fem_reference/load_path.hpp"
+
+/// A scene solved under body forces and prescribed displacements, with its degrees of freedom in view.
+struct Solved {
+  fem_reference::Formulation formulation;
+  fem_reference::Discretisation discretisation;
+  fem_reference::Equilibrium equilibrium;
+  fem_reference::State state;
+  fem_reference::NewtonReport report;
+
+  /// @throws SolveError
+  Solved(const cases::Scene& scene, const fem_reference::Prescribed& prescribed);
+
+  using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d& rest_point)>;
+
+  /// Displacement of each local node (one rank: of every node), mm.
+  std::vector<Eigen::Vector3d> displacement() const;
+  /// Largest distance of a node's displacement from a field, mm.
+  double largest_error(const Field& exact) const;
+  /// L2 norm of the displacement's error over the rest body by the element's own quadrature, mm^(5/2).
+  double l2_error(const Field& exact) const;
+  /// Sum of internal forces on the nodes at which `selected` holds, N: what supports and loads there add up
+  /// to.
+  Eigen::Vector3d force_on(const std::function<bool(const Eigen::Vector3d& rest_point)>& selected) const;
+};
