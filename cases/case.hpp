@@ -91,7 +91,7 @@ enum class LoadPath {
 struct Msm {
   Design design = Design::linear_method;
   std::optional<double> poissons_ratio;           ///< design from another nu than the material's
-  std::optional<double> split;                    ///< t of the moduli and hybrid designs, 0 to 1
+  std::optional<double> split;                    ///< t of the moduli, hybrid and multi_load designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
   std::vector<LoadPath> paths;                    ///< multi_load; empty: all

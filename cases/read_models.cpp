@@ -119,6 +119,42 @@ void check_design_ratio(Table& table, const Msm& msm, const Material& material) 
                     *ratio));
 }
 
+std::vector<LoadPath> read_paths(const Entry& entry) {
+  std::vector<LoadPath> paths;
+  for (const Entry& element : entry.elements(alternatives(all_names<LoadPath>()))) {
+    paths.push_back(read_name<LoadPath>(element));
+    if (std::count(paths.begin(), paths.end(), paths.back()) > 1)
+      element.refuse("a path that is not in the list yet");
+  }
+  if (paths.empty()) entry.refuse("one path or more of " + alternatives(all_names<LoadPath>()));
+  return paths;
+}
+
+/// What the designs that are fitted to curves are fitted to.
+void read_fit(Table& table, Msm& msm) {
+  msm.paths = table.optional("paths", read_paths).value_or(std::vector<LoadPath>{});
+  const std::size_t n_paths = msm.paths.empty() ? all_names<LoadPath>().size() : msm.paths.size();
+  const std::string per_path = fmt::format("{} numbers, none below 0 and not all 0: one per path", n_paths);
+  if (const auto weights = table.optional("weights", Numbers{per_path, n_paths, is_not_negative})) {
+    if (std::all_of(weights->begin(), weights->end(), [](double w) { return w == 0; }))
+      table.entry("weights").refuse(per_path);
+    msm.weights = *weights;
+  }
+  if (const auto range =
+          table.optional("strain_range", Numbers{"two numbers from -2 to 2, the smaller first", 2,
+                                                 [](double e) { return e >= -2 && e <= 2; }})) {
+    if (!((*range)[0] < (*range)[1]))
+      table.entry("strain_range").refuse("two numbers from -2 to 2, the smaller first");
+    msm.strain_range = {(*range)[0], (*range)[1]};
+  }
+  const auto volume_term = table.optional("volume_term", [](const Entry& entry) {
+    const std::string word = read_text(entry);
+    if (word != "fitted" && word != "none") entry.refuse_word({"fitted", "none"});
+    return word;
+  });
+  msm.has_volume_term = volume_term.value_or("fitted") == "fitted";
+}
+
 } // namespace
 
 Msm read_msm(Table& table, const Material& material) {
@@ -128,11 +164,16 @@ Msm read_msm(Table& table, const Material& material) {
                    .value_or(std::holds_alternative<Ogden>(material) ? Design::nonlinear_method
                                                                      : Design::linear_method);
   const bool is_given = msm.design == Design::given;
-  const bool has_split = msm.design == Design::moduli || msm.design == Design::hybrid;
+  const bool is_multi_load = msm.design == Design::multi_load;
+  const bool has_split = msm.design == Design::moduli || msm.design == Design::hybrid || is_multi_load;
   const std::string belongs = " belongs to design = ";
   refuse_unless(!is_given, table, "poissons_ratio",
                 "a given stiffness is not designed from a Poisson's ratio");
-  refuse_unless(has_split, table, "split", "it" + belongs + "\"moduli\" | \"hybrid\"");
+  refuse_unless(has_split, table, "split", "it" + belongs + "\"moduli\" | \"hybrid\" | \"multi_load\"");
+  for (const char* key : {"paths", "weights", "volume_term"})
+    refuse_unless(is_multi_load, table, key, "it" + belongs + "\"multi_load\"");
+  refuse_unless(is_multi_load || msm.design == Design::nonlinear_method, table, "strain_range",
+                "it" + belongs + "\"multi_load\" | \"nonlinear_method\"");
   refuse_unless(is_given, table, "stiffness", "it" + belongs + "\"given\"");
   refuse_unless(is_given, table, "volume_stiffness", "it" + belongs + "\"given\"");
 
@@ -150,6 +191,7 @@ Msm read_msm(Table& table, const Material& material) {
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
+  read_fit(table, msm);
   check_design_ratio(table, msm, material);
   return msm;
 }

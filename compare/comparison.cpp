@@ -112,7 +112,7 @@ Comparison compare_case(const cases::Case& definition, Only only) {
   if (only != Only::fem && rank() == 0)
     comparison.msm = solve_side([&] {
       comparison.design = design_for(comparison.scene);
-      return msm::Model(comparison.scene, {comparison.design->stiffness});
+      return msm::Model(comparison.scene, stiffness_of_cells(*comparison.design));
     });
   comparison.measures = measure_all(comparison);
   for (const cases::Expectation& expectation : definition.expectations)

@@ -2,7 +2,10 @@
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
 #include "compare/design_options.hpp"
+#include "compare/gnuplot.hpp"
+#include "compare/plot_design.hpp"
 #include "compare/write_design.hpp"
+#include "msm/design/nonlinear_method.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -19,83 +22,74 @@ using Json = nlohmann::ordered_json;
 
 struct CommandOptions {
   DesignOptions design;
-  bool compare = false;
-  bool json = false;
+  bool compare = false, pareto = false, measure = false, json = false;
+  std::string out;
 };
 
-/// A method's answer to the request, or why it has none.
-struct Attempt {
-  std::string method;
-  std::optional<msm::DesignResult> design;
-  std::string refusal;
-};
+std::vector<DesignAttempt> attempts_of(const CommandOptions& options, const msm::DesignRequest& request) {
+  if (options.pareto) return attempt_springs(request);
+  if (options.compare) return attempt_all(request);
+  return {attempt_one(request)};
+}
 
-Attempt attempt(msm::DesignRequest request, cases::Design method) {
-  request.options.design = method;
-  try {
-    return {cases::name_of(method), msm::design(request), ""};
-  } catch (const cases::InputError& error) {
-    return {cases::name_of(method), std::nullopt, error.what()};
-  } catch (const cases::SolveError& error) {
-    return {cases::name_of(method), std::nullopt, error.what()};
+Json to_json(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+  Json document{{"schema", 1}};
+  if (options.compare || options.pareto) {
+    document["methods"] = Json::array();
+    for (const DesignAttempt& a : attempts) document["methods"].push_back(attempt_to_json(a));
+  } else {
+    document.update(attempt_to_json(attempts.front()));
   }
+  return document;
 }
 
-std::vector<Attempt> attempt_all(const msm::DesignRequest& request) {
-  std::vector<Attempt> attempts;
-  for (const auto& [method, name] : cases::names<cases::Design>())
-    if (method != cases::Design::given) attempts.push_back(attempt(request, method));
-  return attempts;
+void write_text(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+  if (options.compare || options.pareto)
+    write_comparison_text(std::cout, attempts);
+  else
+    write_design_text(std::cout, attempts.front());
 }
 
-void write_comparison(const std::vector<Attempt>& attempts) {
-  fmt::print(std::cout, "{:<17}{:>9}{:>9}{:>9}{:>10}{:>10}{:>9}{:>8}{:>9}{:>12}\n", "method", "k_e N/m",
-             "k_f", "k_d", "k_v MPa", "E MPa", "nu", "G MPa", "Zener", "residual");
-  for (const Attempt& a : attempts) {
-    if (!a.design) {
-      fmt::print(std::cout, "{:<17}refused: {}\n", a.method, a.refusal);
-      continue;
-    }
-    const msm::CellStiffness& k = a.design->stiffness;
-    const msm::LatticeModuli& m = a.design->moduli;
-    fmt::print(std::cout, "{:<17}{:>9.4g}{:>9.4g}{:>9.4g}{:>10.4g}{:>10.4g}{:>9.4f}{:>8.4f}{:>9.3f}{:>12}\n",
-               a.method, 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal, k.volume,
-               m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
-               a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-");
-    for (const std::string& warning : a.design->warnings) fmt::print(std::cout, "  WARNING: {}\n", warning);
-  }
+/// The stiffnesses that the thesis prints for its Ogden reference (eq. 5.12), of a 1 mm cell.
+constexpr msm::CellStiffness published_ogden = {0.014, 0.017, 0.063, 0};
+
+void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest& request,
+                             const msm::CellStiffness& design) {
+  const double edge = msm::cube_edge(request.cell);
+  const msm::UniaxialCurve reference = msm::uniaxial_reference(request);
+  plot_uniaxial(folder, design, edge, reference);
+  plot_incompressible_family(folder);
+  std::vector<msm::CellStiffness> others;
+  if (std::holds_alternative<cases::Ogden>(request.material))
+    others.push_back({edge * published_ogden.edge, edge * published_ogden.face_diagonal,
+                      edge * published_ogden.internal_diagonal, 0});
+  plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
 }
 
-Json to_json(const std::vector<Attempt>& attempts) {
-  Json methods = Json::array();
-  for (const Attempt& a : attempts)
-    methods.push_back(a.design ? design_to_json(a.method, *a.design)
-                               : Json{{"method", a.method}, {"refused", a.refusal}});
-  return {{"schema", 1}, {"methods", methods}};
+void write_files(const CommandOptions& options, const msm::DesignRequest& request,
+                 const std::vector<DesignAttempt>& attempts) {
+  write_file(options.out + "/design.json",
+             [&](std::ostream& out) { out << to_json(options, attempts).dump(2) << '\n'; });
+  if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
+  if (options.compare || options.pareto) return;
+  if (request.options.design == cases::Design::linear_method)
+    plot_linear_method(options.out, *cases::value_of<cases::Element>(options.design.element));
+  if (request.options.design == cases::Design::nonlinear_method)
+    write_nonlinear_figures(options.out, request, attempts.front().design->stiffness);
 }
 
 int run(const CommandOptions& options) {
   const msm::DesignRequest request = request_from(options.design);
-  const std::string method = cases::name_of(request.options.design);
+  std::vector<DesignAttempt> attempts = attempts_of(options, request);
+  if (options.measure) measure_on_cube(attempts, request);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank != 0) return 0;
-  if (options.compare) {
-    const std::vector<Attempt> attempts = attempt_all(request);
-    if (options.json)
-      std::cout << to_json(attempts).dump(2) << '\n';
-    else
-      write_comparison(attempts);
-    return 0;
-  }
-  const msm::DesignResult design = msm::design(request);
-  if (options.json) {
-    Json document{{"schema", 1}};
-    document.update(design_to_json(method, design));
-    std::cout << document.dump(2) << '\n';
-  } else {
-    write_design_text(std::cout, method, design);
-  }
+  if (options.json)
+    std::cout << to_json(options, attempts).dump(2) << '\n';
+  else
+    write_text(options, attempts);
+  if (!options.out.empty()) write_files(options, request, attempts);
   return 0;
 }
 
@@ -107,6 +101,11 @@ void add_design_command(CLI::App& program, Action& chosen) {
       program.add_subcommand("design", "stiffnesses of a cell for a material, and the lattice's moduli");
   add_design_options(*command, options->design);
   command->add_flag("--compare", options->compare, "every method side by side");
+  command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
+      ->excludes("--compare");
+  command->add_flag("--measure", options->measure,
+                    "the errors of the thesis's cube with these designs (solves both models)");
+  command->add_option("--out", options->out, "folder for design.json and the method's figures");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -16,9 +16,10 @@ namespace {
 
 constexpr double newton_per_metre = 1e-3; // N/mm
 
-/// The share of the shear stiffness that the internal diagonals carry when the case does not say. Small-strain accuracy in
-/// torsion asks for much of it (0.8); but the lattice loses its stability the sooner, the more they carry: with 0.8
-/// at a stretch of about 1.4, with 0.5 at 2.7. So a material for large strains gets less.
+/// The share of the shear stiffness that the internal diagonals carry when the case does not say.
+/// Small-strain accuracy in torsion asks for much of it (0.8); but the lattice loses its stability the
+/// sooner, the more they carry: with 0.8 at a stretch of about 1.4, with 0.5 at 2.7. So a material for large
+/// strains gets less.
 constexpr double small_strain_split = 0.8;
 constexpr double large_strain_split = 0.5;
 
@@ -26,9 +27,10 @@ constexpr double large_strain_split = 0.5;
 constexpr double largest_ogden_strain = 0.4;
 constexpr double largest_linear_strain = 0.1;
 
-/// Logarithmic strains (simple shear: amounts) of the multi-load fit when the case does not say: where soft
-/// tissue works, and small ones.
-constexpr std::array<double, 2> ogden_strain_range = {-0.2, 0.4};
+/// Logarithmic strains (simple shear: amounts) of the multi-load fit when the case does not say. Hookean
+/// springs stiffen less than soft tissue: a wider range buys accuracy at large strains with a lattice too
+/// stiff at small ones; with this one both errors on the thesis's cube are alike.
+constexpr std::array<double, 2> ogden_strain_range = {-0.15, 0.15};
 constexpr std::array<double, 2> linear_strain_range = {-0.1, 0.1};
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
@@ -67,7 +69,7 @@ DesignResult from_moduli_method(const DesignRequest& request) {
   const cases::LinearElastic material =
       is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
   const double shear_modulus = material.youngs_modulus / (2 * (1 + material.poissons_ratio));
-  return {moduli_method(material.youngs_modulus, shear_modulus, split(request), required_cube_edge(request)),
+  return {moduli_method(material.youngs_modulus, shear_modulus, split(request), request.cell),
           std::nullopt,
           {},
           {}};
@@ -90,7 +92,7 @@ LameConstants lame_constants(const DesignRequest& request) {
 DesignResult from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0.25); // below, k_v would be negative
   const auto [lambda, mu] = lame_constants(request);
-  return {hybrid_method(lambda, mu, split(request), required_cube_edge(request)), std::nullopt, {}, {}};
+  return {hybrid_method(lambda, mu, split(request), request.cell), std::nullopt, {}, {}};
 }
 
 DesignResult from_nonlinear_method(const DesignRequest& request) {
@@ -113,6 +115,8 @@ MultiLoadSettings multi_load_settings(const DesignRequest& request) {
   settings.highest_strain = highest;
   settings.has_volume_term = options.has_volume_term;
   settings.incompressible_lambda = lame_constants(request).lambda;
+  settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
+                                   // states hardly tell them apart
   return settings;
 }
 
@@ -194,13 +198,17 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
   if (!(nu > 0 && nu <= 0.5))
     throw cases::InputError(request.options.where, "Poisson's ratio " + std::to_string(nu) +
                                                        ": the nonlinear method takes 0 < nu <= 0.5");
+  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
+  StrainRange range = {0, is_ogden ? largest_ogden_strain : largest_linear_strain};
+  if (request.options.strain_range)
+    range = {(*request.options.strain_range)[0], (*request.options.strain_range)[1]};
+  if (largest_strain) range.highest = *largest_strain;
   if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
-    return sample(ogden_law(*ogden), nu, {0, largest_strain.value_or(largest_ogden_strain)});
+    return sample(ogden_law(*ogden), nu, range);
   const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
   if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
     throw cases::InputError(request.options.where, "Young's modulus: must be positive and finite");
-  return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu,
-                {0, largest_strain.value_or(largest_linear_strain)});
+  return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu, range);
 }
 
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {

@@ -34,12 +34,15 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge) {
   return cubic_moduli(c11, c44 + stiffness.volume, c44);
 }
 
-LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
+Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
   Eigen::Matrix<double, 24, 6> strains;
   for (int c = 0; c < 6; ++c) strains.col(c) = affine_displacement(vertices, c);
-  const Eigen::Matrix<double, 6, 6> elasticity = strains.transpose() *
-                                                 cell_stiffness_matrix(vertices, stiffness) * strains /
-                                                 cases::cell_volume(vertices);
+  return strains.transpose() * cell_stiffness_matrix(vertices, stiffness) * strains /
+         cases::cell_volume(vertices);
+}
+
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
+  const Elasticity elasticity = cell_elasticity(stiffness, vertices);
   return cubic_moduli(elasticity.diagonal().head<3>().mean(),
                       (elasticity(0, 1) + elasticity(1, 2) + elasticity(0, 2)) / 3,
                       elasticity.diagonal().tail<3>().mean());

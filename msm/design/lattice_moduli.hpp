@@ -3,6 +3,8 @@
 #include "msm/cell_volume.hpp"
 #include "msm/lattice.hpp"
 
+#include <Eigen/Core>
+
 namespace msm {
 
 using CellVertices = CellPositions; ///< of a cell at rest
@@ -27,6 +29,13 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
 /// are averaged over the three axes; for another hexahedron the affine (Voigt) estimate.
 /// @param vertices  mm
 LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices);
+
+using Elasticity =
+    Eigen::Matrix<double, 6, 6>; ///< MPa; engineering strains in the order xx, yy, zz, yz, xz, xy
+
+/// Energy of a cell under affine displacements as an elasticity matrix: twice the energy per rest volume is
+/// e^T C e.
+Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices);
 
 /// Derived ratios from the three constants of a cubic solid (MPa).
 LatticeModuli cubic_moduli(double c11, double c12, double c44);

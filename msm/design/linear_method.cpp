@@ -1,6 +1,6 @@
 #include "msm/design/linear_method.hpp"
 
-#include <Eigen/QR>
+#include "msm/design/bounded_least_squares.hpp"
 
 namespace msm {
 
@@ -38,11 +38,12 @@ CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffne
 }
 
 LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertices) {
-  Eigen::Matrix<double, 576, 3> unit;
+  Eigen::MatrixXd unit(576, 3);
   const std::array<CellStiffness, 3> units = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   for (int c = 0; c < 3; ++c)
     unit.col(c) = cell_stiffness_matrix(vertices, units[static_cast<std::size_t>(c)]).reshaped();
-  const Eigen::Vector3d k = unit.colPivHouseholderQr().solve(reference.reshaped());
+  const double size = reference.diagonal().mean(); // of a spring's stiffness, roughly
+  const Eigen::Vector3d k = bounded_least_squares(unit, reference.reshaped(), size);
   return {{k(0), k(1), k(2), 0}, (reference.reshaped() - unit * k).norm()};
 }
 

@@ -1,5 +1,7 @@
 #include "msm/design/moduli_method.hpp"
 
+#include "msm/design/bounded_least_squares.hpp"
+
 #include <cmath>
 
 namespace msm {
@@ -11,12 +13,42 @@ CellStiffness cell_share(double edges, double face_diagonals, double internal_di
   return {edges / 4, face_diagonals / 2, internal_diagonals, volume};
 }
 
-} // namespace
-
-CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split, double edge) {
+/// C11 of the lattice with C12 = C44 = G whose Young's modulus along the axes is E.
+double axial_modulus(double youngs_modulus, double shear_modulus) {
   const double difference = youngs_modulus - shear_modulus;
   const double sum = youngs_modulus + shear_modulus;
-  const double c11 = (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
+  return (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
+}
+
+/// Springs nearest to the cubic elasticity with C12 = C44.
+CellStiffness nearest_springs(double c11, double c44, double split, const CellVertices& vertices) {
+  Elasticity target = Elasticity::Zero();
+  target.topLeftCorner<3, 3>().setConstant(c44);
+  target.diagonal() << Eigen::Vector3d::Constant(c11), Eigen::Vector3d::Constant(c44);
+  const CellStiffness unit_shear = {0, (1 - split) / 2, 0.75 * split, 0};
+  Eigen::MatrixXd unit(36, 2);
+  unit.col(0) = cell_elasticity({1, 0, 0, 0}, vertices).reshaped();
+  unit.col(1) = cell_elasticity(unit_shear, vertices).reshaped();
+  const double size = c11 * std::cbrt(cases::cell_volume(vertices));
+  const Eigen::VectorXd k = bounded_least_squares(unit, target.reshaped(), size);
+  return {k(0), k(1) * unit_shear.face_diagonal, k(1) * unit_shear.internal_diagonal, 0};
+}
+
+} // namespace
+
+CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
+                            const CellVertices& vertices) {
+  return nearest_springs(axial_modulus(youngs_modulus, shear_modulus), shear_modulus, split, vertices);
+}
+
+CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, const CellVertices& vertices) {
+  CellStiffness stiffness = nearest_springs(3 * lame_mu, lame_mu, split, vertices);
+  stiffness.volume = lame_lambda - lame_mu;
+  return stiffness;
+}
+
+CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split, double edge) {
+  const double c11 = axial_modulus(youngs_modulus, shear_modulus);
   const double internal_diagonals = 0.75 * split * shear_modulus * edge;
   const double face_diagonals = (1 - split) * shear_modulus * edge;
   return cell_share(c11 * edge - 2 * face_diagonals - 4 * internal_diagonals / 3, face_diagonals,

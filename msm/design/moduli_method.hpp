@@ -1,5 +1,6 @@
 #pragma once
 
+#include "msm/design/lattice_moduli.hpp"
 #include "msm/lattice.hpp"
 
 namespace msm {
@@ -18,5 +19,13 @@ CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double 
 /// k_v is negative below nu = 1/4, where lambda < mu.
 /// @param lame_lambda, lame_mu  MPa, lame_mu > 0    @param split, edge  as for moduli_method()
 CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, double edge);
+
+/// The two methods for a cell that is no cube: the k_e and the shear stiffness m >= 0, divided by the split
+/// into k_f = (1 - t) m/2 and k_d = 3 t m/4, whose elasticity matrix is nearest (Frobenius norm) to the cubic
+/// one with C11 and C12 = C44 = G of the closed form. In a cube that is the closed form itself.
+/// @param vertices  any hexahedron, mm
+CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
+                            const CellVertices& vertices);
+CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, const CellVertices& vertices);
 
 } // namespace msm

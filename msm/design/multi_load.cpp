@@ -2,12 +2,12 @@
 
 #include "cases/error.hpp"
 #include "cases/names.hpp"
+#include "msm/design/bounded_least_squares.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <ceres/ceres.h>
 #include <cmath>
 
 namespace msm {
@@ -89,8 +89,8 @@ struct LinearProblem {
 };
 
 LinearProblem path_problem(const cases::Material& material, double edge, LoadPath path, Part part,
-                           const MultiLoadSettings& settings, int n_unknowns) {
-  LinearProblem problem{Eigen::MatrixXd(6 * n_states, n_unknowns), Eigen::VectorXd(6 * n_states)};
+                           const MultiLoadSettings& settings) {
+  LinearProblem problem{Eigen::MatrixXd(6 * n_states, 4), Eigen::VectorXd(6 * n_states)};
   const std::array<CellStiffness, 4> units = {
       {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1 / edge}}};
   for (int i = 0; i < n_states; ++i) {
@@ -98,7 +98,7 @@ LinearProblem path_problem(const cases::Material& material, double edge, LoadPat
     const double strain = settings.lowest_strain + t * (settings.highest_strain - settings.lowest_strain);
     const MaterialState state = material_state(material, path, strain);
     problem.target.segment<6>(6 * i) = part_of(state.cauchy_stress, part);
-    for (int c = 0; c < n_unknowns; ++c)
+    for (int c = 0; c < 4; ++c)
       problem.matrix.block<6, 1>(6 * i, c) =
           part_of(cauchy_stress(units[static_cast<std::size_t>(c)], edge, state.deformation_gradient), part);
   }
@@ -110,46 +110,17 @@ LinearProblem path_problem(const cases::Material& material, double edge, LoadPat
   return problem;
 }
 
-/// |matrix k - target| with its constant Jacobian.
-class LinearCost : public ceres::CostFunction {
- public:
-  LinearCost(LinearProblem problem) : problem_(std::move(problem)) {
-    set_num_residuals(static_cast<int>(problem_.target.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem_.matrix.cols()));
-  }
-  bool Evaluate(double const* const* k, double* residuals, double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> unknowns(k[0], problem_.matrix.cols());
-    Eigen::Map<Eigen::VectorXd>(residuals, problem_.target.size()) =
-        problem_.matrix * unknowns - problem_.target;
-    if (jacobians != nullptr && jacobians[0] != nullptr)
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], problem_.matrix.rows(), problem_.matrix.cols()) = problem_.matrix;
-    return true;
-  }
-
- private:
-  LinearProblem problem_;
-};
-
-/// argmin |matrix k - target| over k >= 0, in units of `unit`.
-Eigen::VectorXd bounded_least_squares(LinearProblem problem, double unit) {
-  problem.matrix *= unit;
-  Eigen::VectorXd scaled = Eigen::VectorXd::Constant(problem.matrix.cols(), 0.3);
-  ceres::Problem ceres_problem;
-  ceres_problem.AddResidualBlock(new LinearCost(problem), nullptr, scaled.data());
-  for (int c = 0; c < scaled.size(); ++c) ceres_problem.SetParameterLowerBound(scaled.data(), c, 0);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 500;
-  options.function_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-  if (!summary.IsSolutionUsable())
-    throw cases::SolveError("multi-load design: the minimisation failed: " + summary.message, 0, 0);
-  return unit * scaled;
+/// Columns k = T x of the stiffnesses in terms of the unknowns. With a split t these are k_e, the shear
+/// stiffness m = K_f + 4 K_d/3 of the lattice [and k_v edge]; without, the stiffnesses themselves.
+Eigen::MatrixXd unknowns_to_stiffness(const std::optional<double>& split, bool fits_volume) {
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(4, fits_volume ? 4 : 3);
+  if (!split) return all;
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(4, fits_volume ? 3 : 2);
+  shared(0, 0) = 1;
+  shared(1, 1) = (1 - *split) / 2;
+  shared(2, 1) = 0.75 * *split;
+  if (fits_volume) shared(3, 2) = 1;
+  return shared;
 }
 
 void check(const MultiLoadSettings& settings) {
@@ -161,6 +132,8 @@ void check(const MultiLoadSettings& settings) {
   if (!(settings.highest_strain > settings.lowest_strain))
     throw cases::InputError(
         "multi-load design: the strain range must have its upper end above its lower one");
+  if (settings.split && !(*settings.split >= 0 && *settings.split <= 1))
+    throw cases::InputError("multi-load design: split must lie in [0, 1]");
 }
 
 /// All paths below each other, each with the square root of its weight.
@@ -197,10 +170,12 @@ MultiLoadFit multi_load_method(const cases::Material& material, double edge,
   const Part part = settings.has_volume_term && is_incompressible ? Part::deviator : Part::all;
   std::vector<LinearProblem> problems;
   for (const LoadPath path : settings.paths)
-    problems.push_back(path_problem(material, edge, path, part, settings, fits_volume ? 4 : 3));
+    problems.push_back(path_problem(material, edge, path, part, settings));
   const double unit = small_strain_material(material).youngs_modulus * edge;
-  const Eigen::VectorXd k = bounded_least_squares(stack(problems, settings.weights), unit);
-  MultiLoadFit fit{{k(0), k(1), k(2), fits_volume ? k(3) / edge : 0}, 0, {}};
+  const LinearProblem all = stack(problems, settings.weights);
+  const Eigen::MatrixXd to_stiffness = unknowns_to_stiffness(settings.split, fits_volume);
+  const Eigen::VectorXd k = to_stiffness * bounded_least_squares(all.matrix * to_stiffness, all.target, unit);
+  MultiLoadFit fit{{k(0), k(1), k(2), k(3) / edge}, 0, {}};
   for (std::size_t p = 0; p < problems.size(); ++p) {
     const double error = (problems[p].matrix * k - problems[p].target).norm();
     fit.objective += settings.weights[p] * error * error;

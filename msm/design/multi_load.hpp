@@ -4,6 +4,7 @@
 #include "msm/lattice.hpp"
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 /// The multi-load method: springs, and a volume term if wanted, fitted to a material's stresses along several
@@ -37,6 +38,7 @@ struct MultiLoadSettings {
   bool has_volume_term;
   double incompressible_lambda; ///< MPa: Lame's constant that an incompressible material's volume term gives
                                 ///< the lattice
+  std::optional<double> split = std::nullopt; ///< t = (4K_d/3)/(K_f + 4K_d/3), held; nothing: fitted
 };
 
 struct MultiLoadFit {

@@ -152,3 +152,89 @@ TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unkno
   }
   CHECK(springproof("--help").status == 0);
 }
+
+TEST_CASE("design --json is one document with the keys that were promised") {
+  const Outcome outcome = springproof("design --young 0.3 --poisson 0.35 --edge 1 --method hybrid --json");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["schema"] == 1);
+  CHECK(document["method"] == "hybrid");
+  CHECK(document["stiffness_N_per_m"].size() == 3);
+  CHECK(document["volume_stiffness_MPa"].get<double>() > 0);
+  CHECK(document["residual"].is_null()); // a closed form minimises nothing
+  CHECK(document["moduli"]["poissons_ratio"].get<double>() ==
+        Approx(0.35).epsilon(1e-12)); // isotropic exactly
+  CHECK(document["warnings"].empty());
+  CHECK(document["stability"]["compression"].get<double>() < 1);
+}
+
+TEST_CASE("design --compare shows every method, and why one refuses") {
+  const Outcome outcome = springproof("design --young 0.3 --poisson 0.2 --compare --json");
+  REQUIRE(outcome.status == 0);
+  const auto methods = nlohmann::json::parse(outcome.out)["methods"];
+  REQUIRE(methods.size() == 5);
+  CHECK(methods[3]["method"] == "hybrid");
+  CHECK(methods[3]["refused"].get<std::string>().find("0.25") != std::string::npos);
+}
+
+TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
+  const auto [words, reason] = GENERATE(table<std::string, std::string>({
+      {"--poisson 0.3", "one material"},
+      {"--young 0.3", "--poisson"},
+      {"--young 0.3 --poisson 0.5", "nu < 0.5"},
+      {"--young 0.3 --poisson -0.1", "nu < 0.5"},
+      {"--young -1 --poisson 0.3", "Young's modulus"},
+      {"--young 0.3 --poisson 0.2 --method hybrid", "0.25"},
+      {"--young 0.3 --poisson 0.3 --edge 0", "--edge"},
+      {"--young 0.3 --poisson 0.3 --neo-hookean 0.1", "one material"},
+      {"--ogden-mu 0.1 0.2 --ogden-alpha 2", "equally many"},
+      {"--neo-hookean -0.1 --method moduli", "must be positive"},
+      {"--curve /nonexistent.csv --method nonlinear_method", "cannot be read"},
+  }));
+  CAPTURE(words);
+  const Outcome outcome = springproof("design " + words);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK_THAT(outcome.error, Catch::Contains(reason));
+}
+
+TEST_CASE("a negative Poisson's ratio is allowed for the moduli") {
+  CHECK(springproof("design --young 0.3 --poisson -0.1 --method moduli").status == 0);
+}
+
+TEST_CASE("eigen --json numbers the spaces from 1 as the thesis does") {
+  const Outcome outcome = springproof("eigen --poisson 0 --json --body 2 --modes 6");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["poissons_ratio"] == 0);
+  CHECK(document["fem"].size() == 6);
+  CHECK(document["msm"].size() == 9);
+  CHECK(document["equivalent"][2]["fem_space"] == 5);
+  CHECK(document["equivalent"][2]["msm_space"] == 8);
+  CHECK(document["equivalent"][2]["distance"] == 5);
+  CHECK(document["free_body"].size() > 0);
+}
+
+TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
+  const Folder folder;
+  const std::string out = (folder.path / "eigen").string();
+  REQUIRE(springproof("eigen --poisson 0.35 --out " + out).status == 0);
+  for (const char* name : {"dot_diagram.csv", "dot_diagram.svg", "dot_diagram.png", "coupling.csv",
+                           "fem_modes.vtu", "fem_modes.png", "msm_modes.vtu", "msm_modes.svg"}) {
+    CAPTURE(name);
+    CHECK(fs::file_size(fs::path(out) / name) > 100);
+  }
+}
+
+TEST_CASE("design --out draws the figures of its method") {
+  const Folder folder;
+  const std::string out = (folder.path / "design").string();
+  REQUIRE(springproof("design --neo-hookean 0.04 --method nonlinear_method --out " + out).status == 0);
+  for (const char* name : {"design.json", "uniaxial.csv", "uniaxial.svg", "contributions.svg",
+                           "figure_5_5.svg", "valley.csv", "valley.png"}) {
+    CAPTURE(name);
+    CHECK(fs::file_size(fs::path(out) / name) > 100);
+  }
+}

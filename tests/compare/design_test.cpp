@@ -69,3 +69,22 @@ TEST_CASE("a box's design is that of its cell") {
   CHECK(std::lround(1000 * result.stiffness.face_diagonal) == 47);
   CHECK(std::lround(1000 * result.stiffness.internal_diagonal) == 33);
 }
+
+TEST_CASE("every cell of an irregular mesh gets springs of its own, near those of a cube") {
+  cases::Case definition;
+  definition.body = cases::Box{{2, 2, 2}, {{2, 2, 2}}};
+  definition.material = cases::LinearElastic{0.3, 0.35};
+  definition.msm.design = GENERATE(cases::Design::linear_method, cases::Design::hybrid);
+  cases::Scene scene = cases::make_scene(definition);
+  const msm::CellStiffness cube = compare::design_for(scene).stiffness;
+  scene.mesh.grid.reset();
+  for (Eigen::Vector3d& x : scene.mesh.nodes)
+    x += 0.03 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
+  const msm::DesignResult design = compare::design_for(scene);
+  REQUIRE(compare::stiffness_of_cells(design).size() == 8);
+  CHECK(design.warnings.empty());
+  for (const msm::CellStiffness& k : design.cells) {
+    CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
+    CHECK(k.edge != cube.edge);
+  }
+}

@@ -64,12 +64,41 @@ TEST_CASE("the hybrid method refuses Poisson's ratios below a quarter") {
                   cases::InputError);
 }
 
-TEST_CASE("closed forms refuse a cell that is no cube, and a split outside [0, 1]") {
+TEST_CASE("fitted to a cube, both methods are their closed forms", "[verification]") {
+  const double split = GENERATE(0.3, 0.8);
+  const msm::CellStiffness closed = msm::hybrid_method(0.3, 0.1, split, 1.4);
+  const msm::CellStiffness fitted = msm::hybrid_method(0.3, 0.1, split, msm::cube(1.4));
+  CHECK(fitted.edge == Approx(closed.edge).epsilon(1e-12)); // a 36x2 least-squares problem: round-off
+  CHECK(fitted.face_diagonal == Approx(closed.face_diagonal).epsilon(1e-12));
+  CHECK(fitted.internal_diagonal == Approx(closed.internal_diagonal).epsilon(1e-12));
+  CHECK(fitted.volume == Approx(closed.volume).epsilon(1e-12));
+  const msm::CellStiffness springs = msm::moduli_method(0.3, 0.11, split, 1.4);
+  CHECK(msm::moduli_method(0.3, 0.11, split, msm::cube(1.4)).edge == Approx(springs.edge).epsilon(1e-12));
+}
+
+TEST_CASE("a slightly distorted cell is given slightly different springs") {
+  msm::DesignRequest distorted = request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.4});
+  const msm::DesignResult cube = msm::design(distorted);
+  for (std::size_t v = 0; v < 8; ++v)
+    distorted.cell[v] += 0.02 * Eigen::Vector3d::Unit(static_cast<int>(v % 3));
+  const msm::DesignResult result = msm::design(distorted);
+  CHECK(result.warnings.empty());
+  CHECK(result.stiffness.edge ==
+        Approx(cube.stiffness.edge).epsilon(0.1)); // vertices moved by 2 %, spring by a few times that
+  CHECK(result.stiffness.edge != cube.stiffness.edge);
+  CHECK(result.moduli.poissons_ratio == Approx(0.4).epsilon(0.05)); // likewise
+}
+
+TEST_CASE("closed forms refuse a split outside [0, 1]") {
   const cases::Design method = GENERATE(cases::Design::moduli, cases::Design::hybrid);
-  msm::DesignRequest cuboid = request(method, cases::LinearElastic{0.3, 0.3});
-  for (Eigen::Vector3d& x : cuboid.cell) x.x() *= 2;
-  CHECK_THROWS_AS(msm::design(cuboid), cases::InputError);
   msm::DesignRequest split = request(method, cases::LinearElastic{0.3, 0.3});
   split.options.split = GENERATE(-0.1, 1.1, std::nan(""));
   CHECK_THROWS_AS(msm::design(split), cases::InputError);
+}
+
+TEST_CASE("designs that are fitted to homogeneous tests of a cube refuse another cell") {
+  const cases::Design method = GENERATE(cases::Design::nonlinear_method, cases::Design::multi_load);
+  msm::DesignRequest cuboid = request(method, cases::LinearElastic{0.3, 0.3});
+  for (Eigen::Vector3d& x : cuboid.cell) x.x() *= 2;
+  CHECK_THROWS_AS(msm::design(cuboid), cases::InputError);
 }

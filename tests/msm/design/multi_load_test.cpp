@@ -89,6 +89,14 @@ TEST_CASE("a fit without a volume term has none, and no negative spring") {
   CHECK(fit.stiffness.internal_diagonal >= 0);
 }
 
+TEST_CASE("a split that is given is kept") {
+  msm::MultiLoadSettings held = settings(-0.1, 0.3, true);
+  held.split = 0.6;
+  const msm::CellStiffness k = msm::multi_load_method(martins, 1, held).stiffness;
+  const double internal = 4 * k.internal_diagonal / 3, face = 2 * k.face_diagonal;
+  CHECK(internal / (internal + face) == Approx(0.6).epsilon(1e-12)); // two products
+}
+
 TEST_CASE("multi-load settings without a meaning are refused") {
   msm::MultiLoadSettings broken = settings(-0.1, 0.1, true);
   SECTION("no paths") {
@@ -102,6 +110,9 @@ TEST_CASE("multi-load settings without a meaning are refused") {
   }
   SECTION("weights that are all zero") {
     broken.weights = {0, 0, 0, 0};
+  }
+  SECTION("a split above 1") {
+    broken.split = 1.5;
   }
   SECTION("an empty strain range") {
     broken.highest_strain = broken.lowest_strain;

@@ -1,0 +1,66 @@
+#include "msm/design/bounded_least_squares.hpp"
+
+#include "cases/error.hpp"
+
+#include <Eigen/QR>
+#include <ceres/ceres.h>
+
+namespace msm {
+
+namespace {
+
+/// matrix x - target with its constant Jacobian.
+class LinearCost : public ceres::CostFunction {
+ public:
+  LinearCost(Eigen::MatrixXd matrix, Eigen::VectorXd target)
+      : matrix_(std::move(matrix)), target_(std::move(target)) {
+    set_num_residuals(static_cast<int>(target_.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(matrix_.cols()));
+  }
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> unknowns(x[0], matrix_.cols());
+    Eigen::Map<Eigen::VectorXd>(residuals, target_.size()) = matrix_ * unknowns - target_;
+    if (jacobians != nullptr && jacobians[0] != nullptr)
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          jacobians[0], matrix_.rows(), matrix_.cols()) = matrix_;
+    return true;
+  }
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd target_;
+};
+
+} // namespace
+
+Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target,
+                                      double unit) {
+  const Eigen::Index n = matrix.cols();
+  // Where no bound matters, the answer is direct and exact; otherwise Q^T turns many rows into as many as
+  // there are unknowns.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
+  const Eigen::VectorXd reduced = (qr.householderQ().adjoint() * target).head(n);
+  const Eigen::MatrixXd triangle = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  const Eigen::VectorXd unbounded = triangle.triangularView<Eigen::Upper>().solve(reduced);
+  if (unbounded.minCoeff() >= 0) return unbounded;
+
+  Eigen::VectorXd scaled = (unbounded / unit).cwiseMax(0.1);
+  const double size = reduced.norm();
+  ceres::Problem problem;
+  problem.AddResidualBlock(new LinearCost(triangle * unit / size, reduced / size), nullptr, scaled.data());
+  for (int c = 0; c < n; ++c) problem.SetParameterLowerBound(scaled.data(), c, 0);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = 500;
+  options.function_tolerance = 1e-15;
+  options.gradient_tolerance = 1e-13;
+  options.parameter_tolerance = 1e-13;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable())
+    throw cases::SolveError("bounded least squares: the minimisation failed: " + summary.message, 0, 0);
+  return unit * scaled;
+}
+
+} // namespace msm
