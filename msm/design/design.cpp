@@ -31,7 +31,7 @@ constexpr double largest_linear_strain = 0.1;
 /// springs stiffen less than soft tissue: a wider range buys accuracy at large strains with a lattice too
 /// stiff at small ones; with this one both errors on the thesis's cube are alike.
 constexpr std::array<double, 2> ogden_strain_range = {-0.15, 0.15};
-constexpr std::array<double, 2> linear_strain_range = {-0.1, 0.1};
+constexpr std::array<double, 2> linear_strain_range = {-0.05, 0.05};
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
 /// method still converges in few steps.
