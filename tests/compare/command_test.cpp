@@ -101,7 +101,7 @@ TEST_CASE("a region that selects nothing is refused before any solve, with its p
   CHECK(outcome.error.find("no node within") != std::string::npos);
 }
 
-TEST_CASE("--out leaves results, a comparison and both models' fields, and nothing temporary") {
+TEST_CASE("run --out leaves results, a comparison and both models' fields, and nothing temporary") {
   const Folder folder;
   const fs::path out = folder.path / "out";
   REQUIRE(springproof("run " + shear + " --out " + out.string()).status == 0);
@@ -115,7 +115,7 @@ TEST_CASE("--out leaves results, a comparison and both models' fields, and nothi
     CHECK(vtu.find(field) != std::string::npos);
 }
 
-TEST_CASE("--converge gives each measure an error bar, or the reason why there is none") {
+TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none") {
   const Outcome study =
       springproof("run --json --only fem --converge " + cases_folder + "/studies/clamped_block_shear.toml");
   REQUIRE(study.status == 0);
@@ -133,7 +133,7 @@ TEST_CASE("--converge gives each measure an error bar, or the reason why there i
              Catch::Contains("no continuum limit"));
 }
 
-TEST_CASE("--peer ccx is a third column, and says why when it stays empty") {
+TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") {
   const Outcome outcome =
       springproof("run --json --only fem --peer ccx " + shear + " --set fem.element=q1_bbar");
   REQUIRE(outcome.status == 0);
