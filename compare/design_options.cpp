@@ -113,6 +113,11 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
                      "measured uniaxial curve, CSV: log strain, Cauchy stress (MPa) [, lateral strain]");
   command.add_option("--largest-strain", o.largest_strain,
                      "end of the reference curve's logarithmic strains");
+  command.add_option("--paths", o.paths, "deformations that the multi-load method fits; all when left out")
+      ->check(CLI::IsMember(cases::all_names<cases::LoadPath>()));
+  command.add_option("--strain-range", o.strain_range, "logarithmic strains that the fits cover")
+      ->expected(2);
+  command.add_flag("--springs-only", o.springs_only, "the multi-load method without its volume term");
 }
 
 msm::DesignRequest request_from(const DesignOptions& o) {
@@ -120,6 +125,10 @@ msm::DesignRequest request_from(const DesignOptions& o) {
   msm::DesignRequest request = o.case_file.empty() ? from_command_line(o, element) : from_case(o, element);
   if (!o.method.empty()) request.options.design = *cases::value_of<cases::Design>(o.method);
   if (o.split != -1) request.options.split = o.split;
+  for (const std::string& path : o.paths)
+    request.options.paths.push_back(*cases::value_of<cases::LoadPath>(path));
+  if (!o.strain_range.empty()) request.options.strain_range = {o.strain_range.at(0), o.strain_range.at(1)};
+  if (o.springs_only) request.options.has_volume_term = false;
   return request;
 }
 

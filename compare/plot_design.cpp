@@ -177,15 +177,18 @@ void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, d
     return fmt::format("along ({:.2f}, {:.2f}, {:.2f}), N/m; singular value {:.3g}", v.x(), v.y(), v.z(),
                        found.singular_values(c));
   };
-  draw(folder, "valley",
-       fmt::format("set datafile missing '?'\nset title 'log_{{10}} phi; condition number {:.3g}'\nset "
-                   "xlabel '{}'\nset ylabel '{}'\n"
-                   "set view map\nset contour base\nset cntrparam levels 12\nunset key\nset pm3d map\nset "
-                   "palette rgb 33,13,10\n"
-                   "splot 'valley.csv' using 1:2:(log10($3)) with pm3d, 'valley_sets.csv' using "
-                   "1:2:(log10($3)) with points pt 2 ps 2 lc rgb 'white' nocontour\n",
-                   found.condition, label(0), label(1)),
-       800, 700);
+  draw(
+      folder, "valley",
+      fmt::format(
+          "set datafile missing '?'\nset title 'log_{{10}} phi; condition number {:.3g}'\nset "
+          "xlabel '{}'\nset ylabel '{}'\n"
+          "set view map\nset contour base\nset cntrparam levels 12\nunset key\nset pm3d map\nset "
+          "palette rgb 33,13,10\n"
+          "splot 'valley.csv' using 1:2:(log10($3)) with pm3d nocontour, '' using 1:2:(log10($3)) with lines "
+          "nosurface lc rgb '#555555', 'valley_sets.csv' using 1:2:(log10($3)) with points pt 7 ps 1.2 "
+          "lc rgb 'black' nocontour\n",
+          found.condition, label(0), label(1)),
+      800, 700);
 }
 
 } // namespace compare
