@@ -256,6 +256,7 @@ void DiscretisationBuilder::create_tangent() {
   out.matrix_ = std::make_unique<dealii::PETScWrappers::MPI::SparseMatrix>();
   out.matrix_->reinit(owned, owned, pattern, out.communicator);
   out.tangent = static_cast<const Mat&>(*out.matrix_);
+  check(MatSetBlockSize(out.tangent, 3)); // multigrid then coarsens nodes, not components
 }
 
 void DiscretisationBuilder::add_point_forces() {

@@ -7,13 +7,13 @@ namespace fem_reference {
 
 namespace {
 
-constexpr int most_iterations = 20;        ///< of Newton in one step: quadratic convergence takes 4 to 8
+constexpr int most_iterations = 14;        ///< of Newton in one step: quadratic convergence takes 4 to 8
 constexpr int easy_iterations = 6;         ///< a step that took no more is doubled
-constexpr int most_total_iterations = 600; ///< of a whole solve
-constexpr double smallest_step = 1. / 1024;
+constexpr int most_total_iterations = 300; ///< of a whole solve
+constexpr double smallest_step = 1. / 512;
 constexpr double smallest_fraction = 1. / 64; ///< of a Newton correction
-constexpr double accepted_work =
-    0.9; ///< of the correction's work at the start: it must fall a little at least
+/// Work left on a correction after it, of that at its start: it must fall a little at least.
+constexpr double accepted_work = 0.9;
 
 bool in_equilibrium(const Imbalance& imbalance) {
   return imbalance.valid && imbalance.residual <= residual_tolerance &&
