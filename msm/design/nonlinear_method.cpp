@@ -97,24 +97,18 @@ Minimum minimise(const UniaxialCurve& reference, double edge, double unit, std::
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
   options.max_num_iterations = 2000; // the valley is flat: hundreds of steps from a bad start
-  options.function_tolerance = 1e-15;
-  options.gradient_tolerance = 1e-13;
-  options.parameter_tolerance = 1e-13;
+  options.function_tolerance = 1e-10;
+  options.gradient_tolerance = 1e-11;
+  options.parameter_tolerance = 1e-10;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return {start, 2 * summary.final_cost, summary.IsSolutionUsable()};
 }
 
-/// Each spring class alone in charge, all alike, and the box's middle and far ends.
-constexpr std::array<std::array<double, 3>, 8> starts = {{{0.2, 0.2, 0.2},
-                                                          {1, 0.05, 0.05},
-                                                          {0.05, 1, 0.05},
-                                                          {0.05, 0.05, 1},
-                                                          {1, 1, 0.05},
-                                                          {1, 0.05, 1},
-                                                          {0.05, 1, 1},
-                                                          {2, 2, 2}}};
+/// All alike, each kind of spring alone in charge, and two far corners.
+constexpr std::array<std::array<double, 3>, 6> starts = {
+    {{0.2, 0.2, 0.2}, {1, 0.05, 0.05}, {0.05, 1, 0.05}, {0.05, 0.05, 1}, {1, 1, 0.05}, {2, 2, 2}}};
 
 CellStiffness in_newton_per_mm(const std::array<double, 3>& scaled, double unit) {
   return {unit * scaled[0], unit * scaled[1], unit * scaled[2], 0};

@@ -111,7 +111,8 @@ double lateral_stretch(const CellStiffness& stiffness, double stretch) {
     (imbalance < 0 ? low : high) = x;
     double next = x - imbalance / lateral_imbalance_slope(k, x, stretch);
     if (!(next > low && next < high)) next = (low + high) / 2;
-    if (std::abs(next - x) <= 1e-15 * x) return next;
+    if (std::abs(next - x) <= 1e-10 * x)
+      return next; // the step converges quadratically: 1e-10 leaves round-off
     x = next;
   }
   return x;

@@ -64,10 +64,10 @@ Number lateral_imbalance(const Number* k, const Number& x, double z) {
 /// Its derivative with respect to x.
 template<class Number>
 Number lateral_imbalance_slope(const Number* k, const Number& x, double z) {
-  using std::pow;
   using std::sqrt;
-  const Number face = sqrt(2.0) * z * z / pow(x * x + z * z, 1.5);
-  const Number internal = sqrt(3.0) * z * z / pow(2.0 * x * x + z * z, 1.5);
+  const Number face_length = sqrt(x * x + z * z), internal_length = sqrt(2.0 * x * x + z * z);
+  const Number face = sqrt(2.0) * z * z / (face_length * face_length * face_length);
+  const Number internal = sqrt(3.0) * z * z / (internal_length * internal_length * internal_length);
   return k[0] + 2.0 * k[1] + k[2] - face * k[1] - internal * k[2];
 }
 
