@@ -73,7 +73,8 @@ LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
   } else {
     // Pressures are condensed, so the tangent stays definite and multigrid applies to it even when nearly
     // incompressible: at a bulk modulus of 1000 shear moduli some 145 iterations a solve, with 3630 unknowns
-    // as with 26,460; 7 with a Poisson's ratio of 0.35. A block preconditioner for u-p would need fewer.
+    // as with 26,460; some 10 with a Poisson's ratio of 0.35. A block preconditioner for u-p would need
+    // fewer.
     check(KSPSetType(solver, symmetric ? KSPCG : KSPGMRES));
     check(PCSetType(preconditioner, PCGAMG));
   }
