@@ -1,6 +1,7 @@
 #include "msm/direct_system.hpp"
 
 #include "msm/lanczos.hpp"
+#include "msm/tangent.hpp"
 
 #include <Eigen/CholmodSupport>
 #include <algorithm>

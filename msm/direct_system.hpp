@@ -1,19 +1,11 @@
 #pragma once
 
 #include "msm/equilibrium.hpp"
-#include "msm/tangent.hpp"
+#include "msm/problem.hpp"
 
 #include <memory>
 
 namespace msm {
-
-/// A lattice that is held and loaded.
-struct Problem {
-  cases::HexMesh mesh;
-  Lattice lattice;
-  Points force;               ///< applied at full load, N, one per point
-  std::vector<bool> is_fixed; ///< degree of freedom 3*point + component stays at rest
-};
 
 /// Any lattice as Newton's method sees it: assembled sparse tangent, factorised by CHOLMOD. Vectors have one
 /// entry per free degree of freedom, points in order and components together.

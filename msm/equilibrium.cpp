@@ -16,38 +16,26 @@ class LoadPath {
       : system_(system), settings_(settings), load_norm_(system.load().norm()) {}
 
   Equilibrium follow(const Vector& start) {
-    Vector now = start, previous = start;
-    double previous_step = 0, step = settings_.first_load_step;
-    if (start.isZero(0)) check_rest(start);
-    int inverted = system_.n_inverted(start);
+    now_ = previous_ = start;
+    inverted_ = system_.n_inverted(start);
+    if (settings_.stability == Stability::require && start.isZero(0)) check_rest(start);
+    double step = settings_.first_load_step;
+    if (step == 1 && settings_.guess) attempt(*settings_.guess, 1, Convexity::exact);
     for (int n = 0; result_.load_reached < 1; ++n) {
-      if (n == settings_.max_load_steps) give_up("the limit on load steps was reached", now);
+      if (n == settings_.max_load_steps) give_up("the limit on load steps was reached");
       if (step < settings_.smallest_load_step)
-        give_up("no equilibrium was found beyond this load", now, cases::Outcome::limit_point);
+        give_up("no equilibrium was found beyond this load", cases::Outcome::limit_point);
       const double target = std::min(1.0, result_.load_reached + step);
-      step = target - result_.load_reached;
-      Vector trial = now;
-      if (previous_step > 0) trial += (step / previous_step) * (now - previous);
       const int iterations_before = result_.newton_iterations;
       // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
       // step would leave the path.
-      const Convexity fallback = step < small_step ? Convexity::exact : Convexity::clamped;
-      bool succeeded = newton(trial, target, fallback) && settle(trial, target);
-      const int inverted_now = succeeded ? system_.n_inverted(trial) : 0;
-      if (succeeded && inverted_now > inverted && step >= small_step / 16) succeeded = false;
-      if (!succeeded) {
+      const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
+      if (!attempt(extrapolated(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
         step /= 2;
-        continue;
-      }
-      inverted = inverted_now;
-      previous = std::exchange(now, std::move(trial));
-      previous_step = step;
-      result_.load_reached = target;
-      ++result_.load_steps;
-      if (result_.newton_iterations - iterations_before <= 8) step *= 2; // an easy step
-      step = std::min(step, settings_.largest_load_step);
+      else if (result_.newton_iterations - iterations_before <= 8) // an easy step
+        step = std::min(2 * step, settings_.largest_load_step);
     }
-    return finish(std::move(now));
+    return finish();
   }
 
  private:
@@ -57,6 +45,31 @@ class LoadPath {
   const EquilibriumSettings& settings_;
   const double load_norm_;
   Equilibrium result_;
+  Vector now_, previous_;    ///< the last two equilibria on the path
+  double previous_step_ = 0; ///< between their loads; 0: there is one alone
+  int inverted_ = 0;         ///< cells, now
+
+  Vector extrapolated(double target) const {
+    if (!(previous_step_ > 0)) return now_;
+    return now_ + ((target - result_.load_reached) / previous_step_) * (now_ - previous_);
+  }
+
+  /// One load step. On success the path goes on from its end.
+  bool attempt(Vector trial, double target, Convexity fallback) {
+    const double step = target - result_.load_reached;
+    const int left_convexity = result_.escapes + result_.convexified_steps;
+    if (!newton(trial, target, fallback)) return false;
+    if (settings_.stability == Stability::require && !settle(trial, target)) return false;
+    const int inverted = system_.n_inverted(trial);
+    const bool may_have_jumped = result_.escapes + result_.convexified_steps > left_convexity;
+    if (inverted > inverted_ && may_have_jumped) return false;
+    previous_ = std::exchange(now_, std::move(trial));
+    previous_step_ = step;
+    inverted_ = inverted;
+    result_.load_reached = target;
+    ++result_.load_steps;
+    return true;
+  }
 
   double relative(const Vector& imbalance) const {
     return imbalance.norm() / (load_norm_ > 0 ? load_norm_ : 1.0);
@@ -152,19 +165,18 @@ class LoadPath {
     return system_.is_stable(at);
   }
 
-  Equilibrium finish(Vector displacement) {
-    result_.residual = relative(system_.imbalance(displacement, 1));
-    result_.is_stable = true; // every step was settled
+  Equilibrium finish() {
+    result_.residual = relative(system_.imbalance(now_, 1));
+    result_.is_stable = settings_.stability == Stability::require; // every step was settled
     if (settings_.lowest_eigenvalue == LowestEigenvalue::report)
-      result_.lowest_eigenvalue = system_.lowest_mode(displacement).eigenvalue;
-    result_.displacement = std::move(displacement);
+      result_.lowest_eigenvalue = system_.lowest_mode(now_).eigenvalue;
+    result_.displacement = std::move(now_);
     return result_;
   }
 
-  [[noreturn]] void give_up(const std::string& reason, const Vector& at,
-                            cases::Outcome outcome = cases::Outcome::unknown) {
+  [[noreturn]] void give_up(const std::string& reason, cases::Outcome outcome = cases::Outcome::unknown) {
     throw cases::SolveError("mass-spring equilibrium: " + reason, result_.load_reached,
-                            relative(system_.imbalance(at, result_.load_reached)), outcome);
+                            relative(system_.imbalance(now_, result_.load_reached)), outcome);
   }
 };
 

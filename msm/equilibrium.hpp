@@ -59,6 +59,7 @@ class EquilibriumSystem {
 };
 
 enum class LowestEigenvalue { skip, report };
+enum class Stability { require, ignore };
 
 struct EquilibriumSettings {
   double tolerance = 1e-9;           ///< on |imbalance on free degrees of freedom| / |applied load|
@@ -69,6 +70,8 @@ struct EquilibriumSettings {
   double largest_load_step = 1;     ///< of the full load
   double smallest_load_step = 1e-4; ///< of the full load; a step below it means a limit point
   LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
+  Stability stability = Stability::require; ///< ignore: for a guess
+  std::optional<Vector> guess;              ///< displacement at full load to try first
 };
 
 struct Equilibrium {
@@ -85,8 +88,8 @@ struct Equilibrium {
 
 /// Static equilibrium at full load: Newton's method with an energy line search and load steps that adapt. The
 /// tangent is clamped only where the exact one is not positive definite. An unstable equilibrium met on the
-/// way (a bifurcation) is left along its lowest mode. The path has to stay connected: a step that turns cells
-/// inside out which were not so before is halved rather than taken.
+/// way (a bifurcation) is left along its lowest mode. The path has to stay connected: a step that left the
+/// exact tangent and turned cells inside out is halved rather than taken.
 /// @param start  displacement to start from, at load 0
 /// @throws cases::SolveError with the load reached and the outcome (limit point, mechanism, ...)
 Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
