@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cases/outcome.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -31,14 +33,18 @@ class SolveError : public std::runtime_error {
  public:
   /// @param load_reached  fraction of the load in equilibrium when the solver gave up, 0 to 1
   /// @param residual      |imbalance on free degrees of freedom| / |applied load| when it gave up
-  SolveError(const std::string& reason, double load_reached, double residual)
-      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual) {}
+  /// @param outcome       what the solver found to be the cause
+  SolveError(const std::string& reason, double load_reached, double residual,
+             Outcome outcome = Outcome::unknown)
+      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual), outcome_(outcome) {}
   double load_reached() const { return load_reached_; }
   double residual() const { return residual_; }
+  Outcome outcome() const { return outcome_; }
 
  private:
   double load_reached_;
   double residual_;
+  Outcome outcome_;
 };
 
 } // namespace cases

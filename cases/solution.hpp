@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cases/outcome.hpp"
+
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
@@ -14,6 +16,7 @@ enum class Status { converged, failed, skipped };
 struct Solution {
   Status status = Status::skipped;
   std::string message;
+  Outcome outcome = Outcome::unknown;
   std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³
   std::size_t unknowns = 0;                  ///< free degrees of freedom

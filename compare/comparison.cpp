@@ -39,6 +39,7 @@ Side solve_side(const MakeModel& make_model) {
     side.solution = {};
     side.solution.status = cases::Status::failed;
     side.solution.message = error.what();
+    side.solution.outcome = error.outcome();
     side.solution.load_reached = error.load_reached();
     side.solution.residual = error.residual();
   }

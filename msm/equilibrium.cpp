@@ -2,181 +2,189 @@
 
 #include "cases/error.hpp"
 
-#include <Eigen/CholmodSupport>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace msm {
 
-using Vector = Eigen::VectorXd; ///< on the free degrees of freedom
-
 namespace {
 
-/// CHOLMOD with METIS' nested dissection, which on lattices of cells fills in a third of what minimum degree
-/// does.
-class Factorisation : public Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
+class LoadPath {
  public:
-  Factorisation() {
-    cholmod().nmethods = 1;
-    cholmod().method[0].ordering = CHOLMOD_METIS;
-    cholmod().print = 0;
-  }
-};
+  LoadPath(EquilibriumSystem& system, const EquilibriumSettings& settings)
+      : system_(system), settings_(settings), load_norm_(system.load().norm()) {}
 
-} // namespace
-
-struct EquilibriumSolver::Implementation {
-  const Problem& problem;
-  EquilibriumSettings settings;
-  Tangent tangent;
-  Factorisation factorisation;
-  Vector load; ///< at full load, N
-  double load_norm;
-  Equilibrium state;
-
-  Implementation(const Problem& p, const EquilibriumSettings& s)
-      : problem(p), settings(s), tangent(p.lattice, p.is_fixed), load(on_free(p.force)) {
-    factorisation.analyzePattern(tangent.assemble(p.lattice.rest, TransverseTerm::exact));
-    double squared = 0;
-    for (const Eigen::Vector3d& f : p.force) squared += f.squaredNorm();
-    load_norm = std::sqrt(squared);
-  }
-
-  Vector on_free(const Points& points) const {
-    Vector v(tangent.n_free());
-    for (std::size_t d = 0; d < 3 * points.size(); ++d)
-      if (const int free = tangent.free_number()[d]; free >= 0)
-        v[free] = points[d / 3][static_cast<int>(d % 3)];
-    return v;
+  Equilibrium follow(const Vector& start) {
+    now_ = previous_ = start;
+    inverted_ = system_.n_inverted(start);
+    if (settings_.stability == Stability::require && start.isZero(0)) check_rest(start);
+    double step = settings_.first_load_step;
+    if (step == 1 && settings_.guess) attempt(*settings_.guess, 1, Convexity::exact);
+    for (int n = 0; result_.load_reached < 1; ++n) {
+      if (n == settings_.max_load_steps) give_up("the limit on load steps was reached");
+      if (step < settings_.smallest_load_step)
+        give_up("no equilibrium was found beyond this load", cases::Outcome::limit_point);
+      const double target = std::min(1.0, result_.load_reached + step);
+      const int iterations_before = result_.newton_iterations;
+      // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
+      // step would leave the path.
+      const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
+      if (!attempt(extrapolated(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
+        step /= 2;
+      else if (result_.newton_iterations - iterations_before <= 8) // an easy step
+        step = std::min(2 * step, settings_.largest_load_step);
+    }
+    return finish();
   }
 
-  Points moved(const Points& positions, const Vector& step, double factor) const {
-    Points result = positions;
-    for (std::size_t d = 0; d < 3 * positions.size(); ++d)
-      if (const int free = tangent.free_number()[d]; free >= 0)
-        result[d / 3][static_cast<int>(d % 3)] += factor * step[free];
-    return result;
+ private:
+  static constexpr double small_step = 1.0 / 32;
+
+  EquilibriumSystem& system_;
+  const EquilibriumSettings& settings_;
+  const double load_norm_;
+  Equilibrium result_;
+  Vector now_, previous_;    ///< the last two equilibria on the path
+  double previous_step_ = 0; ///< between their loads; 0: there is one alone
+  int inverted_ = 0;         ///< cells, now
+
+  Vector extrapolated(double target) const {
+    if (!(previous_step_ > 0)) return now_;
+    return now_ + ((target - result_.load_reached) / previous_step_) * (now_ - previous_);
   }
 
-  Vector imbalance(const Points& positions, double load_factor) const {
-    return load_factor * load + on_free(internal_force(problem.lattice, positions));
+  /// One load step. On success the path goes on from its end.
+  bool attempt(Vector trial, double target, Convexity fallback) {
+    const double step = target - result_.load_reached;
+    const int left_convexity = result_.escapes + result_.convexified_steps;
+    if (!newton(trial, target, fallback)) return false;
+    if (settings_.stability == Stability::require && !settle(trial, target)) return false;
+    const int inverted = system_.n_inverted(trial);
+    const bool may_have_jumped = result_.escapes + result_.convexified_steps > left_convexity;
+    if (inverted > inverted_ && may_have_jumped) return false;
+    previous_ = std::exchange(now_, std::move(trial));
+    previous_step_ = step;
+    inverted_ = inverted;
+    result_.load_reached = target;
+    ++result_.load_steps;
+    return true;
   }
 
   double relative(const Vector& imbalance) const {
-    return imbalance.norm() / (load_norm > 0 ? load_norm : 1.0);
+    return imbalance.norm() / (load_norm_ > 0 ? load_norm_ : 1.0);
   }
 
-  /// Spring energy less the load's work from rest, N mm: what an equilibrium under dead load makes
-  /// stationary.
-  double potential(const Points& positions, double load_factor) const {
-    double work = 0;
-    for (std::size_t p = 0; p < positions.size(); ++p)
-      work += problem.force[p].dot(positions[p] - problem.lattice.rest[p]);
-    return energy(problem.lattice, positions) - load_factor * work;
-  }
-
-  /// Newton's direction from the exact tangent, or from the clamped one where the exact one is not positive
-  /// definite.
-  std::optional<Vector> direction(const Points& positions, const Vector& imbalance, TransverseTerm term) {
-    factorisation.factorize(tangent.assemble(positions, term));
-    ++state.factorisations;
-    if (term == TransverseTerm::clamped) ++state.clamped_factorisations;
-    if (factorisation.info() != Eigen::Success) return std::nullopt;
-    Vector step = factorisation.solve(imbalance);
-    if (!step.allFinite() || !(step.dot(imbalance) > 0)) return std::nullopt;
-    return step;
+  /// Without load the body must resist every motion.
+  void check_rest(const Vector& rest) {
+    if (system_.is_mechanism())
+      throw cases::SolveError(
+          "mass-spring equilibrium: some motion of the lattice at rest meets no stiffness", 0, 1,
+          cases::Outcome::mechanism);
+    if (!system_.is_stable(rest))
+      throw cases::SolveError("mass-spring equilibrium: the lattice is unstable at rest, because of springs "
+                              "of negative stiffness",
+                              0, 1, cases::Outcome::unstable_equilibrium);
   }
 
   /// Moves along the step as far as the potential falls enough (Armijo). Next to the solution the potential's
   /// change drowns in rounding: there a falling imbalance decides.
-  bool line_search(Points& positions, const Vector& step, const Vector& before, double load_factor) const {
-    const double start = potential(positions, load_factor);
+  bool line_search(Vector& at, const Vector& step, const Vector& before, double load_factor) {
+    const double start = system_.potential(at, load_factor);
     const double slope = step.dot(before);
     for (double factor = 1; factor > 1e-6; factor /= 2) {
-      Points trial = moved(positions, step, factor);
-      const double change = potential(trial, load_factor) - start;
+      Vector trial = at + factor * step;
+      const double change = system_.potential(trial, load_factor) - start;
       const bool in_rounding = factor * slope <= 1e-9 * (std::abs(start) + slope);
       if (change <= -1e-4 * factor * slope ||
-          (in_rounding && imbalance(trial, load_factor).norm() < before.norm())) {
-        positions = std::move(trial);
+          (in_rounding && system_.imbalance(trial, load_factor).norm() < before.norm())) {
+        at = std::move(trial);
         return true;
       }
     }
     return false;
   }
 
-  /// Newton at one load. On success positions is the equilibrium; otherwise it is of no use.
-  bool newton(Points& positions, double load_factor) {
-    for (int iteration = 0; iteration < settings.max_newton_per_step; ++iteration) {
-      const Vector before = imbalance(positions, load_factor);
-      if (!before.allFinite()) return false;
-      if (relative(before) <= settings.tolerance) return true;
-      ++state.newton_iterations;
-      std::optional<Vector> step = direction(positions, before, TransverseTerm::exact);
-      bool moves = step && line_search(positions, *step, before, load_factor);
-      if (!moves) {
-        step = direction(positions, before, TransverseTerm::clamped);
-        moves = step && line_search(positions, *step, before, load_factor);
+  bool take_step(Vector& at, const Vector& imbalance, double forcing, double load_factor,
+                 Convexity fallback) {
+    auto step = system_.direction(at, imbalance, forcing, Convexity::exact);
+    if (step && line_search(at, *step, imbalance, load_factor)) return true;
+    if (fallback == Convexity::exact) return false;
+    ++result_.convexified_steps;
+    step = system_.direction(at, imbalance, forcing, fallback);
+    return step && line_search(at, *step, imbalance, load_factor);
+  }
+
+  /// Newton at one load. On success `at` is in balance; otherwise it is of no use. The forcing is choice 2 of
+  /// Eisenstat and Walker (1996), gamma = 0.9, alpha = 2, never tighter than what the tolerance asks for.
+  bool newton(Vector& at, double load_factor, Convexity fallback) {
+    double forcing = 0.1, norm_before = 0;
+    // Off a saddle the way is long and winds through a narrow valley of the potential.
+    const int max_iterations = settings_.max_newton_per_step * (fallback == Convexity::shifted ? 4 : 1);
+    const int allowed = result_.convexified_steps + settings_.max_convexified_per_step;
+    for (int iteration = 0; iteration <= max_iterations; ++iteration) {
+      const Vector imbalance = system_.imbalance(at, load_factor);
+      const double norm = relative(imbalance);
+      if (!std::isfinite(norm)) return false;
+      if (norm <= settings_.tolerance) return true;
+      if (iteration == max_iterations || result_.convexified_steps > allowed) return false;
+      if (norm_before > 0) {
+        const double ratio = norm / norm_before;
+        forcing = std::min(0.1, 0.9 * ratio * ratio);
       }
-      if (!moves) return false;
+      norm_before = norm;
+      forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
+      ++result_.newton_iterations;
+      if (!take_step(at, imbalance, forcing, load_factor, fallback)) return false;
     }
-    return relative(imbalance(positions, load_factor)) <= settings.tolerance;
+    return false;
   }
 
-  Equilibrium solve(const Points& start) {
-    state = Equilibrium{};
-    Points positions = start, previous = start;
-    double reached = 0, step = 1, previous_step = 0;
-    for (int n = 0; reached < 1; ++n) {
-      if (n == settings.max_load_steps || step < settings.smallest_load_step) give_up(positions, reached, n);
-      const double target = std::min(1.0, reached + step);
-      Points trial = previous_step > 0 ? extrapolated(previous, positions, (target - reached) / previous_step)
-                                       : positions;
-      const int iterations_before = state.newton_iterations;
-      if (!newton(trial, target)) {
-        step = (target - reached) / 2;
-        continue;
+  /// Leaves an unstable equilibrium for a stable one: a push along the lowest mode, whichever way its first
+  /// large entry says, as far as the potential falls, and Newton from there.
+  bool settle(Vector& at, double load_factor) {
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      if (system_.is_stable(at)) return true;
+      const EquilibriumSystem::Mode mode = system_.lowest_mode(at);
+      if (!(mode.eigenvalue < 0)) return true;
+      ++result_.escapes;
+      const double start = system_.potential(at, load_factor);
+      const double unit = 1 / mode.shape.cwiseAbs().maxCoeff(); // to 1 mm at most
+      Vector best;
+      double lowest = start;
+      for (double size = 1e-3; size <= 10; size *= 2) {
+        Vector trial = at + (size * unit) * mode.shape;
+        const double potential = system_.potential(trial, load_factor);
+        if (!(potential < lowest)) break;
+        lowest = potential;
+        best = std::move(trial);
       }
-      previous = std::exchange(positions, std::move(trial));
-      previous_step = target - reached;
-      reached = target;
-      if (state.newton_iterations - iterations_before <= 8) step *= 2; // an easy step
+      if (best.size() == 0 || !newton(best, load_factor, Convexity::shifted)) return false;
+      at = std::move(best);
     }
-    state.residual = relative(imbalance(positions, 1));
-    state.load_reached = 1;
-    state.positions = std::move(positions);
-    return state;
+    return system_.is_stable(at);
   }
 
-  static Points extrapolated(const Points& before, const Points& now, double ratio) {
-    Points guess = now;
-    for (std::size_t p = 0; p < now.size(); ++p) guess[p] += ratio * (now[p] - before[p]);
-    return guess;
+  Equilibrium finish() {
+    result_.residual = relative(system_.imbalance(now_, 1));
+    result_.is_stable = settings_.stability == Stability::require; // every step was settled
+    if (settings_.lowest_eigenvalue == LowestEigenvalue::report)
+      result_.lowest_eigenvalue = system_.lowest_mode(now_).eigenvalue;
+    result_.displacement = std::move(now_);
+    return result_;
   }
 
-  [[noreturn]] void give_up(const Points& positions, double reached, int n_steps) {
-    const std::string reason = n_steps == settings.max_load_steps
-                                   ? "the limit on load steps was reached"
-                                   : "no equilibrium was found beyond this load";
-    throw cases::SolveError("mass-spring equilibrium: " + reason, reached,
-                            relative(imbalance(positions, reached)));
+  [[noreturn]] void give_up(const std::string& reason, cases::Outcome outcome = cases::Outcome::unknown) {
+    throw cases::SolveError("mass-spring equilibrium: " + reason, result_.load_reached,
+                            relative(system_.imbalance(now_, result_.load_reached)), outcome);
   }
 };
 
-EquilibriumSolver::EquilibriumSolver(const Problem& problem, const EquilibriumSettings& settings)
-    : implementation_(std::make_unique<Implementation>(problem, settings)) {}
+} // namespace
 
-EquilibriumSolver::~EquilibriumSolver() = default;
-
-Equilibrium EquilibriumSolver::solve(const Points& start) {
-  return implementation_->solve(start);
-}
-
-int EquilibriumSolver::n_free() const {
-  return implementation_->tangent.n_free();
+Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
+                             const EquilibriumSettings& settings) {
+  return LoadPath(system, settings).follow(start);
 }
 
 } // namespace msm

@@ -1,51 +1,98 @@
 #pragma once
 
-#include "msm/tangent.hpp"
-
-#include <memory>
+#include <Eigen/Core>
+#include <optional>
 
 namespace msm {
 
-/// A lattice that is held and loaded.
-struct Problem {
-  Lattice lattice;
-  Points force;               ///< applied at full load, N, one per point
-  std::vector<bool> is_fixed; ///< degree of freedom 3*point + component stays at rest
+using Vector = Eigen::VectorXd;
+
+/// Which symmetric matrix Newton's direction comes from.
+enum class Convexity {
+  exact,   ///< the tangent itself
+  clamped, ///< without the springs' negative transverse terms: positive semidefinite, keeps every symmetry
+  shifted  ///< the tangent plus twice its lowest eigenvalue on the diagonal: long steps along that mode
 };
 
+/// A held and loaded lattice as Newton's method sees it. Vectors are displacements (mm) or forces (N) in
+/// whatever order the lattice keeps them; entries that are not free degrees of freedom are 0.
+class EquilibriumSystem {
+ public:
+  virtual ~EquilibriumSystem() = default;
+
+  /// Applied forces at full load, N.
+  virtual const Vector& load() const = 0;
+
+  /// Internal plus load_factor times applied forces on the free degrees of freedom, N.
+  virtual Vector imbalance(const Vector& displacement, double load_factor) = 0;
+
+  /// Spring energy less the load's work from rest, N mm: what an equilibrium under dead load makes
+  /// stationary.
+  virtual double potential(const Vector& displacement, double load_factor) = 0;
+
+  /// Newton's direction: solves tangent * step = imbalance.
+  /// @param forcing  allowed |imbalance - tangent step| / |imbalance|; a direct solver does better
+  /// @return nothing when the tangent is not positive definite, or the step is no descent
+  virtual std::optional<Vector> direction(const Vector& displacement, const Vector& imbalance, double forcing,
+                                          Convexity convexity) = 0;
+
+  /// Whether the exact tangent is positive definite here.
+  virtual bool is_stable(const Vector& displacement) = 0;
+
+  struct Mode {
+    double eigenvalue; ///< N/mm
+    Vector shape;      ///< of length 1
+  };
+  /// The lowest eigenvalue of the exact tangent on the free degrees of freedom, and its eigenvector, to about
+  /// three digits.
+  virtual Mode lowest_mode(const Vector& displacement) = 0;
+
+  /// Whether some motion meets (almost) no stiffness: the lowest pivot of the tangent at rest is lost in
+  /// rounding.
+  virtual bool is_mechanism() = 0;
+
+  /// Cells with a corner Jacobian <= 0.
+  virtual int n_inverted(const Vector& displacement) = 0;
+
+  /// Iterations of the linear solver so far; 0 for a direct one.
+  virtual long linear_iterations() const { return 0; }
+};
+
+enum class LowestEigenvalue { skip, report };
+enum class Stability { require, ignore };
+
 struct EquilibriumSettings {
-  double tolerance = 1e-9;      ///< on |imbalance on free degrees of freedom| / |applied load|
-  int max_newton_per_step = 40; ///< more than twice what any load step that succeeded was seen to need
+  double tolerance = 1e-9;           ///< on |imbalance on free degrees of freedom| / |applied load|
+  int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
+  int max_convexified_per_step = 12; ///< of these; what is not settled by then has lost its way
   int max_load_steps = 400;
-  double smallest_load_step = 1e-4; ///< of the full load; a step below it means a limit point or a mechanism
+  double first_load_step = 1;       ///< of the full load
+  double largest_load_step = 1;     ///< of the full load
+  double smallest_load_step = 1e-4; ///< of the full load; a step below it means a limit point
+  LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
+  Stability stability = Stability::require; ///< ignore: for a guess
+  std::optional<Vector> guess;              ///< displacement at full load to try first
 };
 
 struct Equilibrium {
-  Points positions; ///< mm
+  Vector displacement; ///< mm
   double residual = 0;
   double load_reached = 0;
+  int load_steps = 0; ///< those that succeeded
   int newton_iterations = 0;
-  int factorisations = 0;
-  int clamped_factorisations = 0; ///< of these, how many needed the clamp
+  int convexified_steps = 0; ///< Newton steps for which the exact tangent would not do
+  int escapes = 0;           ///< from unstable equilibria met on the way
+  bool is_stable = false;
+  std::optional<double> lowest_eigenvalue; ///< N/mm
 };
 
-/// Static equilibrium of a lattice by Newton's method with the exact sparse tangent (CHOLMOD), an energy line
-/// search and load steps that adapt. The tangent is clamped only when the exact one is not positive definite.
-class EquilibriumSolver {
- public:
-  /// Finds the pattern and orders it. @param problem  must outlive the solver
-  EquilibriumSolver(const Problem& problem, const EquilibriumSettings& settings = {});
-  ~EquilibriumSolver();
-
-  /// Equilibrium at full load. @param start  positions to start from, at load 0
-  /// @throws cases::SolveError with the load reached
-  Equilibrium solve(const Points& start);
-
-  int n_free() const;
-
- private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
-};
+/// Static equilibrium at full load: Newton's method with an energy line search and load steps that adapt. The
+/// tangent is clamped only where the exact one is not positive definite. An unstable equilibrium met on the
+/// way (a bifurcation) is left along its lowest mode. The path has to stay connected: a step that left the
+/// exact tangent and turned cells inside out is halved rather than taken.
+/// @param start  displacement to start from, at load 0
+/// @throws cases::SolveError with the load reached and the outcome (limit point, mechanism, ...)
+Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
+                             const EquilibriumSettings& settings = {});
 
 } // namespace msm

@@ -1,27 +1,109 @@
 #include "msm/model.hpp"
 
+#include "cases/error.hpp"
+#include "msm/direct_system.hpp"
+#include "msm/grid/grid_system.hpp"
+
+#include <algorithm>
+
 namespace msm {
 
-Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness)
-    : mesh_(scene.mesh), problem_{make_lattice(scene.mesh, stiffness), cases::nodal_forces(scene),
-                                  cases::fixed_degrees_of_freedom(scene)},
-      solver_(problem_) {}
+namespace {
 
-cases::Solution Model::solve() {
-  const Equilibrium equilibrium = solver_.solve(problem_.lattice.rest);
+/// Nodes from which the multigrid path was measured to be the faster one.
+constexpr std::size_t multigrid_from = 500;
+
+bool has_negative_spring(const std::vector<CellStiffness>& stiffness) {
+  return std::any_of(stiffness.begin(), stiffness.end(), [](const CellStiffness& k) {
+    return k.edge < 0 || k.face_diagonal < 0 || k.internal_diagonal < 0 || k.volume < 0;
+  });
+}
+
+Path choose_path(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
+  const bool can_multigrid = scene.mesh.grid && !has_negative_spring(stiffness);
+  if (wanted == Path::multigrid && !can_multigrid)
+    throw cases::InputError(
+        "the multigrid path needs a body that is a grid of cells, and no negative stiffness");
+  if (wanted != Path::automatic) return wanted;
+  return can_multigrid && scene.mesh.nodes.size() >= multigrid_from ? Path::multigrid : Path::direct;
+}
+
+} // namespace
+
+struct Model::Implementation {
+  Path path;
+  int n_threads;
+  Problem problem;
+  std::optional<grid::GridProblem> grid;
+  std::unique_ptr<EquilibriumSystem> system;
+
+  Implementation(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+                 const ModelOptions& options)
+      : path(choose_path(scene, stiffness, options.path)),
+        n_threads(options.n_threads), problem{scene.mesh,
+                                              {},
+                                              cases::nodal_forces(scene),
+                                              cases::fixed_degrees_of_freedom(scene)} {
+    if (path == Path::direct) {
+      problem.lattice = make_lattice(scene.mesh, stiffness);
+      system = make_direct_system(problem);
+    } else {
+      grid = grid::make_grid_problem(problem, stiffness);
+      system = grid::make_grid_system(*grid, n_threads);
+    }
+  }
+
+  Vector to_vector(const Points& points) const {
+    return grid ? grid::to_field(problem, grid->body, points) : msm::to_vector(problem, points);
+  }
+  Points to_points(const Vector& vector) const {
+    return grid ? grid::to_points(problem, grid->body, vector) : msm::to_points(problem, vector);
+  }
+
+  Equilibrium solve(EquilibriumSettings settings, const Points& start) {
+    const Points rest(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
+    Vector from = to_vector(start.empty() ? rest : start);
+    if (grid) grid::clear_still(grid->body, from);
+    if (grid && start.empty() && settings.first_load_step == 1)
+      settings.guess = grid::coarse_guess(*grid, n_threads);
+    return find_equilibrium(*system, from, settings);
+  }
+
+  void measure_cells(cases::Solution& solution) const {
+    for (std::size_t c = 0; c < problem.mesh.cells.size(); ++c) {
+      const auto vertices = cases::cell_vertices(problem.mesh, c, solution.displacement);
+      solution.cell_volume.push_back(cases::cell_volume(vertices));
+      if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++solution.inverted_cells;
+    }
+  }
+};
+
+Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+             const ModelOptions& options)
+    : implementation_(std::make_unique<Implementation>(scene, stiffness, options)) {}
+
+Model::~Model() = default;
+Model::Model(Model&&) noexcept = default;
+
+Path Model::path() const {
+  return implementation_->path;
+}
+
+cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& start) {
+  const Equilibrium equilibrium = implementation_->solve(settings, start);
+  const std::vector<bool>& is_fixed = implementation_->problem.is_fixed;
   cases::Solution solution;
   solution.status = cases::Status::converged;
-  solution.unknowns = static_cast<std::size_t>(solver_.n_free());
+  solution.outcome =
+      equilibrium.is_stable ? cases::Outcome::stable_equilibrium : cases::Outcome::unstable_equilibrium;
+  solution.unknowns = static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), false));
   solution.residual = equilibrium.residual;
   solution.load_reached = equilibrium.load_reached;
   solution.newton_iterations = equilibrium.newton_iterations;
-  for (std::size_t p = 0; p < equilibrium.positions.size(); ++p)
-    solution.displacement.push_back(equilibrium.positions[p] - problem_.lattice.rest[p]);
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    const auto vertices = cases::cell_vertices(mesh_, c, solution.displacement);
-    solution.cell_volume.push_back(cases::cell_volume(vertices));
-    if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++solution.inverted_cells;
-  }
+  solution.linear_iterations = implementation_->system->linear_iterations();
+  solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
+  solution.displacement = implementation_->to_points(equilibrium.displacement);
+  implementation_->measure_cells(solution);
   return solution;
 }
 

@@ -3,26 +3,46 @@
 #include "cases/scene.hpp"
 #include "cases/solution.hpp"
 #include "msm/equilibrium.hpp"
+#include "msm/lattice.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace msm {
 
-/// A mass-spring model of a scene: its lattice, loads and supports, with the tangent's pattern ordered.
+enum class Path {
+  automatic, ///< multigrid on grids of cells from where it is the faster one, else direct
+  direct,    ///< any mesh: assembled tangent, sparse factorisation
+  multigrid  ///< grids of cells without negative springs: no matrix, conjugate gradients with a multigrid
+             ///< cycle
+};
+
+struct ModelOptions {
+  Path path = Path::automatic;
+  int n_threads = 1; ///< of the multigrid path; results do not depend on it
+};
+
+/// A mass-spring model of a scene: its lattice, loads and supports, ready to be solved.
 class Model {
  public:
   /// @param stiffness  one for every cell of the scene's mesh, or a single one for all
-  Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness);
+  /// @throws cases::InputError when the multigrid path is asked for and cannot be taken
+  Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+        const ModelOptions& options = {});
+  ~Model();
+  Model(Model&&) noexcept;
 
-  /// Static equilibrium under the scene's loads, from rest.
-  /// @throws cases::SolveError with the load reached when the load cannot be carried
-  cases::Solution solve();
+  /// Static equilibrium under the scene's loads.
+  /// @param start  displacement (mm) to start from, one per node; empty: rest
+  /// @throws cases::SolveError with the load reached and the outcome when the load cannot be carried
+  cases::Solution solve(const EquilibriumSettings& settings = {}, const Points& start = {});
+
+  /// The path in use: never automatic.
+  Path path() const;
 
  private:
-  const cases::HexMesh mesh_;
-  const Problem problem_;
-  EquilibriumSolver solver_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 } // namespace msm

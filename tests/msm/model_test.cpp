@@ -65,7 +65,87 @@ TEST_CASE("the cube under torsion turns as an independent solver finds it", "[ve
   CHECK(large.twist(10, 10) == Approx(22.425).margin(digit));
 }
 
-TEST_CASE("negative springs end in a solve error") {
-  const cases::Scene scene = cases::make_scene(bodies::clamped_box({2, 2, 2}, bodies::tensile(0.01)));
-  CHECK_THROWS_AS(msm::Model(scene, {bodies::cell(-31, -47, -33)}).solve(), cases::SolveError);
+namespace {
+
+cases::Scene box_scene(const std::array<int, 3>& cells, std::vector<cases::Load> loads) {
+  return cases::make_scene(bodies::clamped_box(cells, std::move(loads)));
+}
+
+/// The error that solving ends with.
+cases::SolveError solve_error(const cases::Scene& scene, const msm::CellStiffness& stiffness) {
+  try {
+    msm::Model(scene, {stiffness}).solve();
+  } catch (const cases::SolveError& error) {
+    return error;
+  }
+  FAIL("an equilibrium was reported");
+  return {"", 0, 0};
+}
+
+} // namespace
+
+TEST_CASE("a lattice of negative springs is unstable at rest") {
+  const cases::SolveError error =
+      solve_error(box_scene({2, 2, 2}, bodies::tensile(0.01)), bodies::cell(-31, -47, -33));
+  CHECK(error.outcome() == cases::Outcome::unstable_equilibrium);
+  CHECK(error.load_reached() == 0);
+}
+
+TEST_CASE("a lattice of edges alone is a mechanism") {
+  const cases::SolveError error =
+      solve_error(box_scene({3, 3, 3}, bodies::tensile(0.01)), bodies::cell(31, 0, 0));
+  CHECK(error.outcome() == cases::Outcome::mechanism);
+}
+
+TEST_CASE("a body that nothing holds is a mechanism") {
+  cases::Case loose = bodies::clamped_box({2, 2, 2}, bodies::tensile(0.01));
+  loose.fixed = {{bodies::region("z- x- y-")}}; // one node: it may still turn about it
+  const cases::SolveError error = solve_error(cases::make_scene(loose), thesis_cell);
+  CHECK(error.outcome() == cases::Outcome::mechanism);
+}
+
+TEST_CASE(
+    "the path from rest ends at a limit point: below it an equilibrium is stable, above it there is none") {
+  const msm::CellStiffness soft = bodies::cell(23.3, 6.5, 22.7);
+  const double full = 0.010;
+  const cases::SolveError error = solve_error(box_scene({4, 4, 4}, bodies::shear(full)), soft);
+  REQUIRE(error.outcome() == cases::Outcome::limit_point);
+  const double limit = full * error.load_reached();
+  CHECK(error.residual() <= 1e-9);
+  msm::EquilibriumSettings settings;
+  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  const auto lowest = [&](double load) {
+    const cases::Solution found =
+        msm::Model(box_scene({4, 4, 4}, bodies::shear(load)), {soft}).solve(settings);
+    CHECK(found.outcome == cases::Outcome::stable_equilibrium);
+    return found.lowest_eigenvalue.value();
+  };
+  const double far = lowest(0.9 * limit), near = lowest(0.999 * limit);
+  CHECK(near > 0);
+  CHECK(near < 0.5 * far); // the stiffness against the snap goes to zero with the square root of what is left
+  CHECK(solve_error(box_scene({4, 4, 4}, bodies::shear(1.002 * limit)), soft).outcome() ==
+        cases::Outcome::limit_point);
+}
+
+TEST_CASE("a straight bar pressed past its buckling load is found bent, and stable") {
+  const cases::Scene scene = box_scene({2, 2, 24}, {bodies::nodal_force("z+", {0, 0, -0.0004})});
+  msm::EquilibriumSettings settings;
+  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  const cases::Solution found = msm::Model(scene, {thesis_cell}).solve(settings);
+  CHECK(found.outcome == cases::Outcome::stable_equilibrium);
+  CHECK(found.lowest_eigenvalue.value() > 0);
+  CHECK(found.inverted_cells == 0);
+  CHECK(found.residual <= 1e-9);                         // what the solver promises
+  CHECK(found.displacement.back().head<2>().norm() > 1); // mm, against a side of 2
+}
+
+TEST_CASE("the same equilibrium is found from disturbed positions") {
+  const cases::Scene scene = box_scene({4, 4, 4}, bodies::tensile(0.05));
+  msm::Model model(scene, {thesis_cell});
+  const cases::Solution from_rest = model.solve();
+  const msm::Points start = bodies::disturbed(msm::Points(scene.mesh.nodes.size(), Vector3d::Zero()), 0.3);
+  const cases::Solution from_there = model.solve({}, start);
+  for (std::size_t n = 0; n < start.size(); ++n)
+    CHECK((from_there.displacement[n] - from_rest.displacement[n]).norm() <
+          1e-6); // mm; residual 1e-9 of 1 N over 1e-3 N/mm
 }

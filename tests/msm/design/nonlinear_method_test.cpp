@@ -1,7 +1,7 @@
 #include "msm/design/nonlinear_method.hpp"
 
 #include "cases/error.hpp"
-#include "msm/equilibrium.hpp"
+#include "msm/lattice.hpp"
 
 #include <catch2/catch.hpp>
 

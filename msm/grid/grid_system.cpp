@@ -1,0 +1,291 @@
+#include "msm/grid/grid_system.hpp"
+
+#include "cases/error.hpp"
+#include "msm/grid/conjugate_gradients.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace msm::grid {
+
+namespace {
+
+using FieldD = Field<double>;
+
+CellSprings cell_springs(const CellStiffness& k) {
+  return {{k.edge, k.edge, k.edge},
+          {k.face_diagonal, k.face_diagonal, k.face_diagonal},
+          k.internal_diagonal,
+          k.volume};
+}
+
+/// Calls action(number of the mesh's node, i, j, k) for the nodes of a grid, in the order of make_grid_mesh.
+template<class Action>
+void for_each_node(const Problem& problem, const Action& action) {
+  const cases::Grid& grid = *problem.mesh.grid;
+  for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n) {
+    const Eigen::Vector3d at = (problem.mesh.nodes[n] - grid.origin).cwiseQuotient(grid.spacing);
+    action(n, static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
+           static_cast<int>(std::lround(at.z())));
+  }
+}
+
+class GridSystem : public EquilibriumSystem {
+ public:
+  GridSystem(const GridProblem& problem, int n_threads)
+      : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
+        bodies_(coarsenings(problem.body)), multigrid_(bodies_, n_threads) {}
+
+  const Vector& load() const override { return problem_.load; }
+
+  Vector imbalance(const Vector& displacement, double load_factor) override {
+    Vector force = Vector::Zero(displacement.size());
+    springs_.force(displacement, force);
+    add(force, load_factor, problem_.load, n_threads_);
+    return force;
+  }
+
+  double potential(const Vector& displacement, double load_factor) override {
+    return springs_.energy(displacement) - load_factor * dot(problem_.load, displacement, n_threads_);
+  }
+
+  std::optional<Vector> direction(const Vector& displacement, const Vector& imbalance, double forcing,
+                                  Convexity convexity) override {
+    const Clamp clamp = convexity == Convexity::clamped ? Clamp::yes : Clamp::no;
+    const double shift =
+        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
+    return solve(displacement, imbalance, forcing, clamp, shift);
+  }
+
+  bool is_stable(const Vector& displacement) override {
+    if (displacement.isZero(0)) return true; // a sum of squares
+    return lowest_mode(displacement).eigenvalue > 0;
+  }
+
+  /// The tangent at rest has no negative eigenvalue; that it has no zero one shows
+  /// in conjugate gradients reaching every part of a random right side.
+  bool is_mechanism() override {
+    return !solve(Vector::Zero(problem_.load.size()), probe(), 1e-6, Clamp::no);
+  }
+
+  /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
+  /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
+  Mode lowest_mode(const Vector& displacement) override {
+    if (mode_at_.size() > 0 && mode_at_ == displacement) return mode_;
+    linearise(displacement);
+    const Eigen::Index size = problem_.load.size();
+    using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+    Basis basis = Basis::Zero(size, 3), image = Basis::Zero(size, 3);
+    Vector column = Vector::Zero(size), product = column;
+    multigrid_.apply(probe(), column); // rich in low modes
+    column.normalize();
+    springs_.product(Clamp::no, displacement, column, product);
+    basis.col(0) = column;
+    image.col(0) = product;
+    double eigenvalue = column.dot(product);
+    Eigen::Index n = 2;
+    for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
+      const Vector residual = image.col(0) - eigenvalue * basis.col(0);
+      multigrid_.apply(residual, column);
+      column.normalize();
+      springs_.product(Clamp::no, displacement, column, product);
+      basis.col(1) = column;
+      image.col(1) = product;
+      const Eigen::MatrixXd gram = basis.leftCols(n).transpose() * basis.leftCols(n),
+                            small = basis.leftCols(n).transpose() * image.leftCols(n);
+      const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+      if (factor.info() != Eigen::Success || !(factor.matrixL().toDenseMatrix().diagonal().minCoeff() > 1e-7))
+        break; // nothing new in the residual
+      const Eigen::MatrixXd left = factor.matrixL().solve(0.5 * (small + small.transpose()));
+      const Eigen::MatrixXd reduced = factor.matrixL().solve(left.transpose());
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
+      const Eigen::VectorXd weights = factor.matrixU().solve(ritz.eigenvectors().col(0));
+      const double before = std::exchange(eigenvalue, ritz.eigenvalues()[0]);
+      const auto combine = [&](Basis& columns) {
+        const Vector step = columns.middleCols(1, n - 1) * weights.tail(n - 1);
+        columns.col(0) = weights[0] * columns.col(0) + step;
+        columns.col(2) = step;
+      };
+      combine(basis);
+      combine(image);
+      const double scale = 1 / basis.col(0).norm(), step_scale = 1 / basis.col(2).norm();
+      for (Basis* columns : {&basis, &image}) {
+        columns->col(0) *= scale;
+        columns->col(2) *= step_scale;
+      }
+      if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
+    }
+    mode_ = {eigenvalue, basis.col(0)};
+    mode_at_ = displacement;
+    return mode_;
+  }
+
+  int n_inverted(const Vector& displacement) override {
+    const Body& body = problem_.body;
+    int n = 0;
+    for (int k = 0; k < body.cells[2]; ++k)
+      for (int j = 0; j < body.cells[1]; ++j)
+        for (int i = 0; i < body.cells[0]; ++i) {
+          if (!body.is_uniform() && !has_springs(body.cell(i, j, k))) continue;
+          std::array<Eigen::Vector3d, 8> vertices;
+          for (int v = 0; v < 8; ++v) {
+            const int x = i + (v & 1), y = j + ((v >> 1) & 1), z = k + (v >> 2);
+            const std::ptrdiff_t at = body.layout.at(x, y, z);
+            vertices[static_cast<std::size_t>(v)] =
+                Eigen::Vector3d(x, y, z).cwiseProduct(body.spacing) +
+                Eigen::Vector3d(displacement[at], displacement[at + body.layout.size],
+                                displacement[at + 2 * body.layout.size]);
+          }
+          if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++n;
+        }
+    return n;
+  }
+
+  long linear_iterations() const override { return linear_iterations_; }
+
+ private:
+  static constexpr int max_iterations = 300; ///< healthy lattices take less than 30
+  static constexpr int max_mode_iterations = 100;
+
+  const GridProblem& problem_;
+  int n_threads_;
+  SpringField<double> springs_;
+  std::deque<Body> bodies_;
+  Multigrid multigrid_;
+  Vector linearised_at_, probe_, mode_at_;
+  Mode mode_{};
+  long linear_iterations_ = 0;
+
+  static bool has_springs(const CellSprings& cell) {
+    return cell.edge[0] != 0 || cell.face_diagonal[0] != 0 || cell.internal_diagonal != 0 || cell.volume != 0;
+  }
+
+  void linearise(const Vector& displacement) {
+    if (linearised_at_.size() > 0 && linearised_at_ == displacement) return;
+    multigrid_.linearise(displacement);
+    linearised_at_ = displacement;
+  }
+
+  /// (tangent + shift) x = right side, or nothing when some direction meets no or negative curvature.
+  std::optional<Vector> solve(const Vector& displacement, const Vector& right_side, double forcing,
+                              Clamp clamp, double shift = 0) {
+    linearise(displacement);
+    const auto apply = [&](const Vector& v, Vector& out) {
+      springs_.product(clamp, displacement, v, out);
+      if (shift != 0) add(out, shift, v, n_threads_);
+    };
+    const auto precondition = [&](const Vector& r, Vector& out) { multigrid_.apply(r, out); };
+    const ConjugateGradients found =
+        conjugate_gradients(apply, precondition, right_side, forcing, max_iterations, n_threads_);
+    linear_iterations_ += found.iterations;
+    if (!found.converged) return std::nullopt;
+    return found.solution;
+  }
+
+  /// A fixed right side with a part in every motion.
+  const Vector& probe() {
+    if (probe_.size() > 0) return probe_;
+    probe_ = Vector::Zero(problem_.load.size());
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    const Layout& layout = problem_.body.layout;
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < layout.nodes[2]; ++k)
+        for (int j = 0; j < layout.nodes[1]; ++j)
+          for (int i = 0; i < layout.nodes[0]; ++i)
+            probe_[c * layout.size + layout.at(i, j, k)] = normal(generator);
+    clear_still(problem_.body, probe_);
+    return probe_;
+  }
+};
+
+} // namespace
+
+std::optional<GridProblem> make_grid_problem(const Problem& problem,
+                                             const std::vector<CellStiffness>& stiffness) {
+  if (!problem.mesh.grid) return std::nullopt;
+  const cases::Grid& grid = *problem.mesh.grid;
+  GridProblem result;
+  Body& body = result.body;
+  body.cells = grid.cells;
+  body.spacing = grid.spacing;
+  if (grid.present.empty() && stiffness.size() == 1) {
+    body.springs = {cell_springs(stiffness.front())};
+  } else {
+    std::size_t next = 0;
+    for (int k = 0; k < grid.cells[2]; ++k)
+      for (int j = 0; j < grid.cells[1]; ++j)
+        for (int i = 0; i < grid.cells[0]; ++i) {
+          body.springs.emplace_back();
+          if (!grid.has(i, j, k)) continue;
+          body.springs.back() = cell_springs(stiffness[stiffness.size() == 1 ? 0 : next]);
+          ++next;
+        }
+  }
+  body.layout = make_layout(body.cells);
+  std::vector<bool> is_held(static_cast<std::size_t>(3 * body.layout.size));
+  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (problem.is_fixed[3 * n + c])
+        is_held[c * static_cast<std::size_t>(body.layout.size) +
+                static_cast<std::size_t>(body.layout.at(i, j, k))] = true;
+  });
+  set_layout(body, [&](int i, int j, int k, int c) {
+    return is_held[static_cast<std::size_t>(c * body.layout.size + body.layout.at(i, j, k))];
+  });
+  result.load = to_field(problem, body, problem.force);
+  clear_still(body, result.load);
+  return result;
+}
+
+std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, int n_threads) {
+  return std::make_unique<GridSystem>(problem, n_threads);
+}
+
+std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
+  const std::array<bool, 3> axes = axes_to_coarsen(problem.body);
+  if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
+  GridProblem coarse{coarsen(problem.body, axes), {}};
+  const Layout& layout = coarse.body.layout;
+  if (layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
+  const Transfer<double> transfer(problem.body, coarse.body, axes, n_threads);
+  coarse.load.setZero(3 * layout.size);
+  transfer.restrict(problem.load, coarse.load);
+  const auto system = make_grid_system(coarse, n_threads);
+  EquilibriumSettings settings;
+  settings.tolerance = 1e-3; // a guess
+  settings.smallest_load_step = 0.25;
+  settings.max_convexified_per_step = 0; // nor may it leave the path from rest
+  settings.stability = Stability::ignore;
+  settings.guess = coarse_guess(coarse, n_threads);
+  try {
+    const Vector found = find_equilibrium(*system, Vector::Zero(coarse.load.size()), settings).displacement;
+    Vector guess = Vector::Zero(problem.load.size());
+    transfer.prolong(found, guess);
+    return guess;
+  } catch (const cases::SolveError&) {
+    return std::nullopt; // the fine lattice has to find its own way
+  }
+}
+
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field) {
+  Points points(problem.mesh.nodes.size());
+  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
+    const std::ptrdiff_t at = body.layout.at(i, j, k);
+    points[n] = {field[at], field[at + body.layout.size], field[at + 2 * body.layout.size]};
+  });
+  return points;
+}
+
+Field<double> to_field(const Problem& problem, const Body& body, const Points& points) {
+  Field<double> field = Field<double>::Zero(3 * body.layout.size);
+  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
+    for (int c = 0; c < 3; ++c) field[c * body.layout.size + body.layout.at(i, j, k)] = points[n][c];
+  });
+  return field;
+}
+
+} // namespace msm::grid

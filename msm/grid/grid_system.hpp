@@ -1,0 +1,35 @@
+#pragma once
+
+#include "msm/equilibrium.hpp"
+#include "msm/grid/multigrid.hpp"
+#include "msm/problem.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace msm::grid {
+
+/// A problem on a grid of cells: a body, and its loads as a field (N, 0 on still entries).
+struct GridProblem {
+  Body body;
+  Field<double> load;
+};
+
+/// @return nothing when the problem's mesh is no grid, or too thin for one cell along some axis
+std::optional<GridProblem> make_grid_problem(const Problem& problem,
+                                             const std::vector<CellStiffness>& stiffness);
+
+/// The lattice as Newton's method sees it, without a matrix: conjugate gradients with the multigrid cycle.
+/// Vectors are fields of the layout.
+/// @param problem  must outlive the system
+std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, int n_threads);
+
+/// Displacement at full load of the same body in coarser cells, interpolated: what Newton's method may start
+/// from. Nothing when the coarse body does not carry the load, or there is none.
+std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
+
+/// Between fields and one vector (mm or N) per node of the problem's mesh.
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field);
+Field<double> to_field(const Problem& problem, const Body& body, const Points& points);
+
+} // namespace msm::grid

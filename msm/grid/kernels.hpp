@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+
+/// Force, energy, tangent product and tangent diagonal of a lattice on a grid, straight from displacements.
+/// The kernels see plain arrays only, so that one source can be compiled for several instruction sets; which
+/// one runs is decided when the program starts.
+namespace msm::grid {
+
+/// Half of a node's 26 neighbours: springs 3g + (dx + 1) of group g lead to the neighbours with dx = -1, 0, 1
+/// in one neighbouring row, and spring 12 to the next node of the same row.
+constexpr int n_springs = 13;
+constexpr int n_groups = 4;
+constexpr int group_dy[n_groups] = {-1, 0, 1, 1};
+constexpr int group_dz[n_groups] = {1, 1, 1, 0};
+
+/// How the nodes of a grid lie in memory. Node (i, j, k) has index at(i, j, k); one ghost node or more lies
+/// before and after every row, and one row before and after every plane. Ghosts never move and carry no
+/// spring. A field of vectors is three such arrays, x, y and z, one after the other.
+struct Layout {
+  int nodes[3] = {0, 0, 0};
+  std::ptrdiff_t row = 0;   ///< from one row to the next: nodes[0] + 1 or more, a multiple of 16
+  std::ptrdiff_t plane = 0; ///< from one plane to the next
+  std::ptrdiff_t size = 0;  ///< entries of one array, ghosts and all
+  std::ptrdiff_t at(int i, int j, int k) const { return 16 + i + row * (j + 1) + plane * (k + 1); }
+};
+
+/// A lattice on a grid. Lengths in mm, stiffnesses in N/mm; Real is float inside the preconditioner.
+template<class Real>
+struct Springs {
+  Layout layout;
+  Real rest[n_springs][3];     ///< from a node to its neighbour at rest
+  Real rest_length[n_springs]; ///< length of that
+  Real stiffness[n_springs];   ///< of one cell's spring; of 1 where `by_node` gives the stiffness
+  /// Without holes: number of cells that share a spring is share_x[dx + 1][i] share_y[dy + 1][j]
+  /// share_z[..][k].
+  const Real* share_x[3]; ///< layout.row entries, 0 for ghosts
+  const Real* share_y[3];
+  const Real* share_z[3];
+  /// With holes or several stiffnesses: one array of the layout per spring; else null.
+  const Real* by_node[n_springs];
+  /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
+  const Real* volume_stiffness;
+  Real rest_volume; ///< mm³
+};
+
+enum class Clamp { no, yes };
+
+/// Part of an array that one call works on: planes first to last - 1. Contributions to plane `last` go to
+/// `spill` (3 planes: x, y, z), because that plane belongs to another part; spill and the planes themselves
+/// are set, not added to.
+template<class Real>
+struct Slab {
+  int first, last;
+  Real* spill;
+  Real* scratch; ///< scratch_size(layout) entries
+};
+
+constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
+  return 24 * (layout.row + 32);
+}
+
+template<class Real>
+struct Kernels {
+  /// force = minus the gradient of the energy.
+  void (*force)(const Springs<Real>&, const Slab<Real>&, const Real* displacement, Real* force);
+  /// product = tangent at displacement times direction.
+  void (*product)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement,
+                  const Real* direction, Real* product);
+  /// Diagonal 3x3 blocks of the tangent as six arrays: xx, yy, zz, yz, xz, xy. spill has six planes.
+  void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
+  double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
+};
+
+/// The kernels for the widest instruction set that this machine has.
+template<class Real>
+const Kernels<Real>& kernels();
+template<>
+const Kernels<double>& kernels();
+template<>
+const Kernels<float>& kernels();
+
+/// Name of that instruction set: "avx512", "avx2" or "baseline".
+const char* instruction_set();
+
+} // namespace msm::grid

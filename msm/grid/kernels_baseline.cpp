@@ -1,0 +1,2 @@
+#define SPRINGPROOF_ISA baseline
+#include "msm/grid/kernels_source.hpp"

@@ -1,0 +1,197 @@
+#include "msm/grid/multigrid.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace msm::grid {
+
+namespace {
+
+constexpr int smoothing_degree = 3;
+/// The smoother takes care of this part of the spectrum, from the largest eigenvalue downwards.
+constexpr double smoothed_part = 8;
+constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
+
+std::ptrdiff_t n_nodes(const Body& body) {
+  return std::ptrdiff_t{body.layout.nodes[0]} * body.layout.nodes[1] * body.layout.nodes[2];
+}
+
+bool any(const std::array<bool, 3>& axes) {
+  return axes[0] || axes[1] || axes[2];
+}
+
+} // namespace
+
+std::array<bool, 3> coarsened_axes(const Body& fine, const Body& coarse) {
+  std::array<bool, 3> axes{};
+  for (std::size_t a = 0; a < 3; ++a) axes[a] = coarse.cells[a] != fine.cells[a];
+  return axes;
+}
+
+std::deque<Body> coarsenings(const Body& finest) {
+  std::deque<Body> bodies{finest};
+  while (n_nodes(bodies.back()) > n_coarsest_nodes && any(axes_to_coarsen(bodies.back())))
+    bodies.push_back(coarsen(bodies.back(), axes_to_coarsen(bodies.back())));
+  return bodies;
+}
+
+Multigrid::Level::Level(const Body& body, int n_threads) : springs(body, n_threads) {
+  for (Field<float>* field : {&displacement, &solution, &residual, &correction, &product, &rough})
+    field->setZero(3 * body.layout.size);
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<float> any_value(-1, 1);
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < body.layout.nodes[2]; ++k)
+      for (int j = 0; j < body.layout.nodes[1]; ++j)
+        for (int i = 0; i < body.layout.nodes[0]; ++i)
+          rough[c * body.layout.size + body.layout.at(i, j, k)] = any_value(generator);
+  clear_still(body, rough);
+}
+
+Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_(n_threads) {
+  for (const Body& body : bodies) levels_.emplace_back(body, n_threads);
+  for (std::size_t l = 0; l + 1 < bodies.size(); ++l)
+    transfers_.emplace_back(bodies[l], bodies[l + 1], coarsened_axes(bodies[l], bodies[l + 1]), n_threads);
+  const Body& last = bodies.back();
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < last.layout.nodes[2]; ++k)
+      for (int j = 0; j < last.layout.nodes[1]; ++j)
+        for (int i = 0; i < last.layout.nodes[0]; ++i) {
+          const std::ptrdiff_t entry = c * last.layout.size + last.layout.at(i, j, k);
+          if (!std::binary_search(last.still.begin(), last.still.end(), entry))
+            coarsest_unknowns_.push_back(entry);
+        }
+}
+
+void Multigrid::linearise(const Field<double>& displacement) {
+  for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    levels_.front().displacement.segment(first, n) = displacement.segment(first, n).cast<float>();
+  });
+  for (std::size_t l = 0; l < transfers_.size(); ++l)
+    transfers_[l].sample(levels_[l].displacement, levels_[l + 1].displacement);
+  for (Level& level : levels_) {
+    level.springs.inverse_diagonal(Clamp::yes, level.displacement, level.inverse_diagonal);
+    if (&level != &levels_.back()) estimate_largest_eigenvalue(level);
+  }
+  factorise_coarsest();
+}
+
+/// out = keep * out + factor * (inverse diagonal blocks) in
+void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
+                                       float keep, float factor) const {
+  const std::ptrdiff_t n = level.springs.body().layout.size;
+  const float* d = level.inverse_diagonal.data();
+  for_each_piece(n, n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
+    const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
+    float *u = out.data() + first, *v = u + n, *w = v + n;
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
+      const float xx = block[i], yy = block[i + n], zz = block[i + 2 * n], yz = block[i + 3 * n],
+                  xz = block[i + 4 * n], xy = block[i + 5 * n];
+      u[i] = keep * u[i] + factor * (xx * x[i] + xy * y[i] + xz * z[i]);
+      v[i] = keep * v[i] + factor * (xy * x[i] + yy * y[i] + yz * z[i]);
+      w[i] = keep * w[i] + factor * (xz * x[i] + yz * y[i] + zz * z[i]);
+    }
+  });
+}
+
+/// Of the inverse diagonal times the tangent, by the power method; its vector is kept for the next time.
+void Multigrid::estimate_largest_eigenvalue(Level& level) {
+  const int n_steps = level.largest_eigenvalue > 0 ? 2 : 12;
+  for (int step = 0; step < n_steps; ++step) {
+    const double norm = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    level.springs.product(Clamp::yes, level.displacement, level.rough, level.product);
+    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / norm));
+    level.largest_eigenvalue = std::sqrt(dot(level.rough, level.rough, n_threads_));
+  }
+}
+
+void Multigrid::factorise_coarsest() {
+  Level& level = levels_.back();
+  const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+  Eigen::MatrixXd matrix(n, n);
+  level.solution.setZero();
+  for (Eigen::Index column = 0; column < n; ++column) {
+    level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]] = 1;
+    level.springs.product(Clamp::yes, level.displacement, level.solution, level.product);
+    level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]] = 0;
+    for (Eigen::Index row = 0; row < n; ++row)
+      matrix(row, column) =
+          static_cast<double>(level.product[coarsest_unknowns_[static_cast<std::size_t>(row)]]);
+  }
+  matrix = 0.5 * (matrix + matrix.transpose()).eval();
+  // Single precision leaves the matrix uncertain by about 1e-7 of its diagonal; a preconditioner may be that
+  // stiff.
+  const double shift = 1e-6 * matrix.diagonal().cwiseAbs().maxCoeff();
+  matrix.diagonal().array() += shift;
+  coarsest_.compute(matrix);
+  for (double more = 10 * shift; coarsest_.info() != Eigen::Success && more < 1e9 * shift; more *= 10) {
+    matrix.diagonal().array() += more;
+    coarsest_.compute(matrix);
+  }
+}
+
+/// Chebyshev's iteration from the level's solution and residual, both of which it updates; the residual of
+/// the last step only when it is wanted.
+void Multigrid::smooth(Level& level, bool keeps_residual) {
+  const double upper = 1.15 * level.largest_eigenvalue; // the power method comes from below
+  const double lower = upper / smoothed_part;
+  const double centre = (upper + lower) / 2, half_width = (upper - lower) / 2;
+  const double sigma = centre / half_width;
+  double rho = 1 / sigma;
+  apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
+  for (int step = 1;; ++step) {
+    add(level.solution, 1.0f, level.correction, n_threads_);
+    if (step == smoothing_degree && !keeps_residual) return;
+    level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
+    add(level.residual, -1.0f, level.product, n_threads_);
+    if (step == smoothing_degree) return;
+    const double next = 1 / (2 * sigma - rho);
+    apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
+                           static_cast<float>(2 * next / half_width));
+    rho = next;
+  }
+}
+
+/// Solves for the residual of level l; the level's solution is the answer.
+void Multigrid::cycle(std::size_t l) {
+  Level& level = levels_[l];
+  if (l + 1 == levels_.size()) {
+    const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      right[i] = static_cast<double>(level.residual[coarsest_unknowns_[static_cast<std::size_t>(i)]]);
+    const Eigen::VectorXd solution = coarsest_.solve(right);
+    level.solution.setZero();
+    for (Eigen::Index i = 0; i < n; ++i)
+      level.solution[coarsest_unknowns_[static_cast<std::size_t>(i)]] = static_cast<float>(solution[i]);
+    return;
+  }
+  level.solution.setZero();
+  smooth(level, true);
+  transfers_[l].restrict(level.residual, levels_[l + 1].residual);
+  cycle(l + 1);
+  transfers_[l].prolong(levels_[l + 1].solution, level.correction);
+  add(level.solution, 1.0f, level.correction, n_threads_);
+  level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
+  add(level.residual, -1.0f, level.product, n_threads_);
+  smooth(level, false);
+}
+
+void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
+  Level& level = levels_.front();
+  const double norm = std::sqrt(dot(right_side, right_side, n_threads_)); // keeps single precision in range
+  if (!(norm > 0)) {
+    solution.setZero();
+    return;
+  }
+  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    level.residual.segment(first, n) = (right_side.segment(first, n) / norm).cast<float>();
+  });
+  cycle(0);
+  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    solution.segment(first, n) = norm * level.solution.segment(first, n).cast<double>();
+  });
+}
+
+} // namespace msm::grid

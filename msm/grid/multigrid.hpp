@@ -1,0 +1,51 @@
+#pragma once
+
+#include "msm/grid/spring_field.hpp"
+#include "msm/grid/transfer.hpp"
+
+#include <Eigen/Cholesky>
+#include <deque>
+
+namespace msm::grid {
+
+/// A body and ever coarser ones: the last has few enough nodes for a dense factorisation.
+std::deque<Body> coarsenings(const Body& finest);
+std::array<bool, 3> coarsened_axes(const Body& fine, const Body& coarse);
+
+/// Approximate inverse of the clamped tangent: one V-cycle in single precision. Coarse lattices are
+/// rediscretised at the sampled displacement; the smoother is Chebyshev's iteration on the block Jacobi
+/// method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is symmetric.
+class Multigrid {
+ public:
+  Multigrid(const std::deque<Body>& bodies, int n_threads);
+
+  /// Prepares the cycle at a displacement of the finest body, mm.
+  void linearise(const Field<double>& displacement);
+
+  /// solution = cycle(right_side), both of the finest body.
+  void apply(const Field<double>& right_side, Field<double>& solution);
+
+ private:
+  struct Level {
+    Level(const Body& body, int n_threads);
+    SpringField<float> springs;
+    Field<float> displacement, inverse_diagonal;
+    Field<float> solution, residual, correction, product;
+    Field<float> rough; ///< guess of the mode of the largest eigenvalue
+    double largest_eigenvalue = 0;
+  };
+  std::deque<Level> levels_;
+  std::deque<Transfer<float>> transfers_; ///< between levels l and l + 1
+  int n_threads_;
+  std::vector<std::ptrdiff_t> coarsest_unknowns_;
+  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+
+  void estimate_largest_eigenvalue(Level& level);
+  void factorise_coarsest();
+  void apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out, float keep,
+                              float factor) const;
+  void smooth(Level& level, bool keeps_residual);
+  void cycle(std::size_t l);
+};
+
+} // namespace msm::grid

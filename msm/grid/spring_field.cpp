@@ -1,0 +1,212 @@
+#include "msm/grid/spring_field.hpp"
+
+#include <Eigen/LU>
+
+namespace msm::grid {
+
+namespace {
+
+constexpr int slab_planes = 8; ///< fixed, so that sums are the same on any number of threads
+
+struct Step {
+  int dx, dy, dz;
+};
+
+Step step_of(int spring) {
+  if (spring == 12) return {1, 0, 0};
+  return {spring % 3 - 1, group_dy[spring / 3], group_dz[spring / 3]};
+}
+
+/// Stiffness of the spring of one cell that leads along a step.
+double stiffness_along(const CellSprings& cell, const Step& step) {
+  const bool x = step.dx != 0, y = step.dy != 0, z = step.dz != 0;
+  if (x && y && z) return cell.internal_diagonal;
+  if (y && z) return cell.face_diagonal[0];
+  if (x && z) return cell.face_diagonal[1];
+  if (x && y) return cell.face_diagonal[2];
+  return cell.edge[x ? 0 : y ? 1 : 2];
+}
+
+std::size_t index(std::ptrdiff_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+} // namespace
+
+template<class Real>
+SpringField<Real>::SpringField(const Body& body, int n_threads)
+    : body_(body), n_threads_(n_threads), springs_{} {
+  springs_.layout = body.layout;
+  springs_.rest_volume = static_cast<Real>(body.spacing.prod());
+  for (int s = 0; s < n_springs; ++s) {
+    const Step step = step_of(s);
+    const Eigen::Vector3d rest = Eigen::Vector3d(step.dx, step.dy, step.dz).cwiseProduct(body.spacing);
+    for (int a = 0; a < 3; ++a) springs_.rest[s][a] = static_cast<Real>(rest[a]);
+    springs_.rest_length[s] = static_cast<Real>(rest.norm());
+  }
+  if (body.is_uniform())
+    set_shares();
+  else
+    set_by_node();
+  bool has_volume = false;
+  for (const CellSprings& cell : body.springs) has_volume = has_volume || cell.volume != 0;
+  if (has_volume) {
+    std::vector<Real>& stiffness = arrays_.emplace_back(index(body.layout.size), Real(0));
+    for (int k = 0; k < body.cells[2]; ++k)
+      for (int j = 0; j < body.cells[1]; ++j)
+        for (int i = 0; i < body.cells[0]; ++i)
+          stiffness[index(body.layout.at(i, j, k))] =
+              static_cast<Real>(body.cell(i, j, k).volume / body.spacing.prod());
+    springs_.volume_stiffness = stiffness.data();
+  }
+  spill_.assign(index(n_slabs()), std::vector<Real>(index(6 * body.layout.plane + 32)));
+  scratch_.assign(index(n_slabs()), std::vector<Real>(index(scratch_size(body.layout))));
+}
+
+template<class Real>
+void SpringField<Real>::set_shares() {
+  for (int s = 0; s < n_springs; ++s)
+    springs_.stiffness[s] = static_cast<Real>(stiffness_along(body_.springs.front(), step_of(s)));
+  const Real** targets[3] = {springs_.share_x, springs_.share_y, springs_.share_z};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int d = -1; d <= 1; ++d) {
+      const int n = springs_.layout.nodes[axis];
+      std::vector<Real>& share = arrays_.emplace_back(index(springs_.layout.row + n), Real(0));
+      for (int i = 0; i < n; ++i) {
+        const bool at_end = i == 0 || i == n - 1;
+        share[index(i)] = d == 0 ? Real(at_end ? 1 : 2) : Real(i + d >= 0 && i + d < n ? 1 : 0);
+      }
+      targets[axis][d + 1] = share.data();
+    }
+}
+
+/// A spring gets what every cell with both its ends brings.
+template<class Real>
+void SpringField<Real>::set_by_node() {
+  const Layout& layout = springs_.layout;
+  for (int s = 0; s < n_springs; ++s) {
+    const Step step = step_of(s);
+    std::vector<Real>& stiffness = arrays_.emplace_back(index(layout.size), Real(0));
+    const auto lowest = [](int d) { return d > 0 ? 0 : -1; }; // cells with both ends along an axis: these ...
+    const auto highest = [](int d) { return d < 0 ? -1 : 0; }; // ... to these, counted from the node
+    for (int k = 0; k < layout.nodes[2]; ++k)
+      for (int j = 0; j < layout.nodes[1]; ++j)
+        for (int i = 0; i < layout.nodes[0]; ++i) {
+          double sum = 0;
+          for (int c = lowest(step.dz); c <= highest(step.dz); ++c)
+            for (int b = lowest(step.dy); b <= highest(step.dy); ++b)
+              for (int a = lowest(step.dx); a <= highest(step.dx); ++a)
+                sum += stiffness_along(body_.cell(i + a, j + b, k + c), step);
+          stiffness[index(layout.at(i, j, k))] = static_cast<Real>(sum);
+        }
+    springs_.stiffness[s] = 1;
+    springs_.by_node[s] = stiffness.data();
+  }
+}
+
+template<class Real>
+int SpringField<Real>::n_slabs() const {
+  return (springs_.layout.nodes[2] + slab_planes - 1) / slab_planes;
+}
+
+/// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
+template<class Real>
+template<class Run>
+void SpringField<Real>::for_each_slab(int components, Real* result, const Run& run) const {
+  const Layout& layout = springs_.layout;
+  const int n = n_slabs();
+#pragma omp parallel num_threads(n_threads_) if (n_threads_ > 1 && springs_.layout.size > piece)
+  {
+#pragma omp for schedule(static)
+    for (int s = 0; s < n; ++s) {
+      // A row's first ghost lies before its plane: the spill has room for it.
+      const Slab<Real> slab{s * slab_planes, std::min((s + 1) * slab_planes, layout.nodes[2]),
+                            spill_[index(s)].data(), scratch_[index(s)].data()};
+      run(slab);
+    }
+#pragma omp for schedule(static)
+    for (int s = 0; s < n - 1; ++s)
+      for (int c = 0; c < components; ++c) {
+        Real* plane = result + c * layout.size + layout.at(0, 0, (s + 1) * slab_planes) - layout.at(0, 0, -1);
+        const Real* spill = spill_[index(s)].data() + c * layout.plane;
+        for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
+      }
+  }
+}
+
+template<class Real>
+void SpringField<Real>::force(const Field<Real>& displacement, Field<Real>& force) const {
+  for_each_slab(3, force.data(), [&](const Slab<Real>& slab) {
+    kernels<Real>().force(springs_, slab, displacement.data(), force.data());
+  });
+  clear_still(body_, force);
+}
+
+template<class Real>
+void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, const Field<Real>& direction,
+                                Field<Real>& product) const {
+  for_each_slab(3, product.data(), [&](const Slab<Real>& slab) {
+    kernels<Real>().product(springs_, slab, clamp, displacement.data(), direction.data(), product.data());
+  });
+  clear_still(body_, product);
+}
+
+template<class Real>
+void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displacement,
+                                         Field<Real>& inverse) const {
+  const Layout& layout = springs_.layout;
+  inverse.setZero(6 * layout.size);
+  for_each_slab(6, inverse.data(), [&](const Slab<Real>& slab) {
+    kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data());
+  });
+  std::vector<bool> is_still(index(3 * layout.size));
+  for (const std::ptrdiff_t entry : body_.still) is_still[index(entry)] = true;
+  for (int k = 0; k < layout.nodes[2]; ++k)
+    for (int j = 0; j < layout.nodes[1]; ++j)
+      for (int i = 0; i < layout.nodes[0]; ++i) {
+        Real* at = inverse.data() + layout.at(i, j, k);
+        const auto entry = [&](int c) -> Real& { return at[c * layout.size]; };
+        Eigen::Matrix3d block;
+        block << entry(0), entry(5), entry(4), entry(5), entry(1), entry(3), entry(4), entry(3), entry(2);
+        bool still[3];
+        for (int a = 0; a < 3; ++a) {
+          still[a] = is_still[index(a * layout.size + layout.at(i, j, k))] || !(block(a, a) > 0);
+          if (!still[a]) continue;
+          block.row(a).setZero();
+          block.col(a).setZero();
+          block(a, a) = 1;
+        }
+        Eigen::Matrix3d inverted = block.inverse();
+        // A node that hangs on too few springs has a singular block: its diagonal must do.
+        if (!(block.determinant() > 1e-9 * block.diagonal().prod()))
+          inverted = block.diagonal().cwiseInverse().asDiagonal();
+        for (int a = 0; a < 3; ++a)
+          if (still[a]) inverted(a, a) = 0;
+        entry(0) = static_cast<Real>(inverted(0, 0));
+        entry(1) = static_cast<Real>(inverted(1, 1));
+        entry(2) = static_cast<Real>(inverted(2, 2));
+        entry(3) = static_cast<Real>(inverted(1, 2));
+        entry(4) = static_cast<Real>(inverted(0, 2));
+        entry(5) = static_cast<Real>(inverted(0, 1));
+      }
+}
+
+template<class Real>
+double SpringField<Real>::energy(const Field<Real>& displacement) const {
+  const int n = n_slabs();
+  Eigen::VectorXd part(n);
+#pragma omp parallel for num_threads(n_threads_)                                                             \
+    schedule(static) if (n_threads_ > 1 && springs_.layout.size > piece)
+  for (int s = 0; s < n; ++s)
+    part[s] = kernels<Real>().energy(springs_, s * slab_planes,
+                                     std::min((s + 1) * slab_planes, springs_.layout.nodes[2]),
+                                     displacement.data());
+  double sum = 0;
+  for (double value : part) sum += value;
+  return sum;
+}
+
+template class SpringField<double>;
+template class SpringField<float>;
+
+} // namespace msm::grid

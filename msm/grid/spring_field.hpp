@@ -1,0 +1,46 @@
+#pragma once
+
+#include "msm/grid/field.hpp"
+
+#include <vector>
+
+namespace msm::grid {
+
+/// A body's springs as the kernels read them, and the kernels run over all of the body on a given number of
+/// threads. The results do not depend on that number.
+template<class Real>
+class SpringField {
+ public:
+  SpringField(const Body& body, int n_threads);
+  SpringField(SpringField&&) = default;
+
+  /// Internal force, N, at a displacement (mm); 0 on still entries.
+  void force(const Field<Real>& displacement, Field<Real>& force) const;
+  /// Tangent (N/mm) at a displacement times a direction; 0 on still entries.
+  void product(Clamp clamp, const Field<Real>& displacement, const Field<Real>& direction,
+               Field<Real>& product) const;
+  /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not still: six arrays, xx, yy, zz,
+  /// yz, xz, xy.
+  void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse) const;
+  double energy(const Field<Real>& displacement) const;
+
+  const Body& body() const { return body_; }
+
+ private:
+  const Body& body_;
+  int n_threads_;
+  Springs<Real> springs_;
+  std::vector<std::vector<Real>> arrays_; ///< what springs_ points to
+  mutable std::vector<std::vector<Real>> spill_, scratch_;
+
+  void set_shares();
+  void set_by_node();
+  int n_slabs() const;
+  template<class Run>
+  void for_each_slab(int components, Real* result, const Run& run) const;
+};
+
+extern template class SpringField<double>;
+extern template class SpringField<float>;
+
+} // namespace msm::grid

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "msm/grid/field.hpp"
+
+namespace msm::grid {
+
+/// Trilinear interpolation between a body and the one coarsened along some axes, and its transpose.
+template<class Real>
+class Transfer {
+ public:
+  Transfer(const Body& fine, const Body& coarse, const std::array<bool, 3>& axes, int n_threads)
+      : fine_(fine), coarse_(coarse), axes_(axes), n_threads_(n_threads) {}
+
+  /// fine = interpolation of coarse; 0 on still entries.
+  void prolong(const Field<Real>& coarse, Field<Real>& fine) const;
+  /// coarse = transpose of prolong times fine.
+  void restrict(const Field<Real>& fine, Field<Real>& coarse) const;
+  /// coarse = fine where a coarse node lies on a fine one that moves, the mean of the moving nodes around it
+  /// elsewhere, and extrapolated where the coarse cells reach beyond the body.
+  void sample(const Field<Real>& fine, Field<Real>& coarse) const;
+
+ private:
+  const Body& fine_;
+  const Body& coarse_;
+  std::array<bool, 3> axes_;
+  int n_threads_;
+};
+
+extern template class Transfer<double>;
+extern template class Transfer<float>;
+
+} // namespace msm::grid

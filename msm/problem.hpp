@@ -1,0 +1,18 @@
+#pragma once
+
+#include "cases/hex_mesh.hpp"
+#include "msm/lattice.hpp"
+
+#include <vector>
+
+namespace msm {
+
+/// A lattice that is held and loaded.
+struct Problem {
+  cases::HexMesh mesh;
+  Lattice lattice;
+  Points force;               ///< applied at full load, N, one per point
+  std::vector<bool> is_fixed; ///< degree of freedom 3*point + component stays at rest
+};
+
+} // namespace msm

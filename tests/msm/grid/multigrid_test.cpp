@@ -1,0 +1,113 @@
+#include "msm/grid/multigrid.hpp"
+
+#include "tests/msm/bodies.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using msm::grid::Body;
+using msm::grid::Field;
+
+namespace {
+
+Body clamped_body(const std::array<int, 3>& cells) {
+  Body body;
+  body.cells = cells;
+  body.spacing = {1, 1, 1};
+  body.springs = {{{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0}};
+  set_layout(body, [](int, int, int k, int) { return k == 0; });
+  return body;
+}
+
+Field<double> any_field(const Body& body, unsigned seed) {
+  Field<double> field = Field<double>::Zero(3 * body.layout.size);
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < body.layout.nodes[2]; ++k)
+      for (int j = 0; j < body.layout.nodes[1]; ++j)
+        for (int i = 0; i < body.layout.nodes[0]; ++i)
+          field[c * body.layout.size + body.layout.at(i, j, k)] = normal(generator);
+  clear_still(body, field);
+  return field;
+}
+
+/// Energy of the body strained uniformly.
+double energy_in_uniform_strain(const Body& body, const Eigen::Matrix3d& gradient) {
+  Field<double> u = Field<double>::Zero(3 * body.layout.size);
+  for (int k = 0; k < body.layout.nodes[2]; ++k)
+    for (int j = 0; j < body.layout.nodes[1]; ++j)
+      for (int i = 0; i < body.layout.nodes[0]; ++i) {
+        const Eigen::Vector3d moved = gradient * Eigen::Vector3d(i, j, k).cwiseProduct(body.spacing);
+        for (int c = 0; c < 3; ++c) u[c * body.layout.size + body.layout.at(i, j, k)] = moved[c];
+      }
+  return msm::grid::SpringField<double>(body, 1).energy(u);
+}
+
+} // namespace
+
+TEST_CASE("a coarsened body has the energy of the fine one in uniform strain") {
+  Body fine = clamped_body({8, 4, 4});
+  fine.springs.front().volume = 0.14;
+  const Body coarse = coarsen(fine, {true, true, true});
+  REQUIRE(coarse.cells == std::array<int, 3>{4, 2, 2});
+  Eigen::Matrix3d gradient;
+  gradient << 0.2, 0.1, -0.05, 0, -0.1, 0.15, 0.3, 0, 0.05;
+  CHECK(energy_in_uniform_strain(coarse, gradient) ==
+        Approx(energy_in_uniform_strain(fine, gradient)).epsilon(1e-12)); // the same sum, regrouped
+}
+
+TEST_CASE("restriction is the transpose of prolongation") {
+  for (const std::array<int, 3>& cells : {std::array<int, 3>{8, 6, 4}, {7, 5, 9}}) {
+    const Body fine = clamped_body(cells), coarse = coarsen(fine, {true, true, true});
+    const msm::grid::Transfer<double> transfer(fine, coarse, {true, true, true}, 1);
+    const Field<double> on_fine = any_field(fine, 1), on_coarse = any_field(coarse, 2);
+    Field<double> prolonged = Field<double>::Zero(on_fine.size()),
+                  restricted = Field<double>::Zero(on_coarse.size());
+    transfer.prolong(on_coarse, prolonged);
+    transfer.restrict(on_fine, restricted);
+    CHECK(prolonged.dot(on_fine) == Approx(restricted.dot(on_coarse)).epsilon(1e-12)); // rounding
+  }
+}
+
+TEST_CASE("sampling undoes prolongation") {
+  const Body fine = clamped_body({8, 6, 4}), coarse = coarsen(fine, {true, true, true});
+  const msm::grid::Transfer<double> transfer(fine, coarse, {true, true, true}, 1);
+  const Field<double> field = any_field(coarse, 1);
+  Field<double> fine_field = Field<double>::Zero(3 * fine.layout.size), again = field;
+  transfer.prolong(field, fine_field);
+  transfer.sample(fine_field, again);
+  CHECK((again - field).norm() == 0); // nodes lie on nodes
+}
+
+TEST_CASE("the multigrid cycle is symmetric and positive definite") {
+  const std::deque<Body> bodies = msm::grid::coarsenings(clamped_body({11, 8, 9}));
+  REQUIRE(bodies.size() > 2);
+  msm::grid::Multigrid multigrid(bodies, 1);
+  multigrid.linearise(0.1 * any_field(bodies.front(), 5));
+  const Field<double> a = any_field(bodies.front(), 1), b = any_field(bodies.front(), 2);
+  Field<double> inverse_a = a, inverse_b = b;
+  multigrid.apply(a, inverse_a);
+  multigrid.apply(b, inverse_b);
+  CHECK(a.dot(inverse_a) > 0);
+  CHECK(std::abs(a.dot(inverse_b) - b.dot(inverse_a)) < 1e-4 * a.dot(inverse_a)); // single precision inside
+}
+
+TEST_CASE("one multigrid cycle removes most of an error at rest") {
+  const std::deque<Body> bodies = msm::grid::coarsenings(clamped_body({16, 16, 16}));
+  msm::grid::Multigrid multigrid(bodies, 1);
+  const Field<double> rest = Field<double>::Zero(3 * bodies.front().layout.size),
+                      exact = any_field(bodies.front(), 1);
+  multigrid.linearise(rest);
+  const msm::grid::SpringField<double> springs(bodies.front(), 1);
+  const auto energy_norm = [&](const Field<double>& error) {
+    Field<double> product = error;
+    springs.product(msm::grid::Clamp::no, rest, error, product);
+    return std::sqrt(error.dot(product));
+  };
+  Field<double> right = exact, found = exact;
+  springs.product(msm::grid::Clamp::no, rest, exact, right);
+  multigrid.apply(right, found);
+  CHECK(energy_norm(exact - found) <
+        0.2 * energy_norm(exact)); // measured 0.0x; a broken level leaves 0.5 or more
+}
