@@ -27,6 +27,7 @@ Json side_to_json(const Side& side) {
           {"newton_iterations", s.newton_iterations},
           {"linear_iterations", s.linear_iterations},
           {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
+          {"negative_eigenvalues", or_null(s.negative_eigenvalues)},
           {"inverted_cells", s.inverted_cells},
           {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
 }

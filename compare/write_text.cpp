@@ -24,6 +24,8 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
   fmt::print(out, ", {} unknowns, {} Newton iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s",
              s.unknowns, s.newton_iterations, s.residual, side.setup_seconds, side.solve_seconds);
   if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
+  if (s.negative_eigenvalues.value_or(0) > 0)
+    fmt::print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
   if (s.lowest_eigenvalue) fmt::print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
   fmt::print(out, "\n");
 }
