@@ -1,0 +1,77 @@
+#include "msm/grid/multigrid.hpp"
+#include "msm/lattice.hpp"
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using msm::grid::Body;
+using msm::grid::Clamp;
+using msm::grid::Field;
+
+/// A cube of cells of 1 mm, its lowest plane held.
+Body cube(int cells) {
+  Body body;
+  body.cells = {cells, cells, cells};
+  body.spacing = {1, 1, 1};
+  body.springs = {{{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0}};
+  set_layout(body, [](int, int, int k, int) { return k == 0; });
+  return body;
+}
+
+double n_nodes(const Body& body) {
+  return (body.cells[0] + 1.0) * (body.cells[1] + 1.0) * (body.cells[2] + 1.0);
+}
+
+void count_nodes(benchmark::State& state, double nodes) {
+  state.counters["per node"] =
+      benchmark::Counter(nodes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// Range: cells along an edge, threads.
+template<class Real>
+void grid_force(benchmark::State& state) {
+  const Body body = cube(static_cast<int>(state.range(0)));
+  const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
+  Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), force = displacement;
+  for (auto _ : state) springs.force(displacement, force);
+  count_nodes(state, n_nodes(body));
+}
+BENCHMARK_TEMPLATE(grid_force, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_force, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
+
+template<class Real>
+void grid_product(benchmark::State& state) {
+  const Body body = cube(static_cast<int>(state.range(0)));
+  const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
+  Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), direction = displacement,
+              product = displacement;
+  for (auto _ : state) springs.product(Clamp::yes, displacement, direction, product);
+  count_nodes(state, n_nodes(body));
+}
+BENCHMARK_TEMPLATE(grid_product, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
+
+void multigrid_cycle(benchmark::State& state) {
+  const Body body = cube(static_cast<int>(state.range(0)));
+  const std::deque<Body> bodies = msm::grid::coarsenings(body);
+  msm::grid::Multigrid multigrid(bodies, static_cast<int>(state.range(1)));
+  Field<double> field = Field<double>::Zero(3 * body.layout.size), solution = field;
+  multigrid.linearise(field);
+  field[body.layout.at(1, 1, body.cells[2])] = 1;
+  for (auto _ : state) multigrid.apply(field, solution);
+  count_nodes(state, n_nodes(body));
+}
+BENCHMARK(multigrid_cycle)->Args({40, 1})->Args({40, 2})->UseRealTime();
+
+/// The same force by the list of springs.
+void list_force(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const msm::Lattice lattice = msm::make_lattice(cases::make_box_mesh({n * 1.0, n * 1.0, n * 1.0}, {n, n, n}),
+                                                 {{0.031, 0.047, 0.033, 0}});
+  for (auto _ : state) benchmark::DoNotOptimize(msm::internal_force(lattice, lattice.rest));
+  count_nodes(state, static_cast<double>(lattice.rest.size()));
+}
+BENCHMARK(list_force)->Arg(40)->UseRealTime();
+
+} // namespace
