@@ -29,9 +29,11 @@ const CellSprings& Body::cell(int i, int j, int k) const {
 Layout make_layout(const std::array<int, 3>& cells) {
   Layout layout;
   for (int a = 0; a < 3; ++a) layout.nodes[a] = cells[index(a)] + 1;
-  layout.row = (layout.nodes[0] + 1 + 15) / 16 * 16;
-  layout.plane = layout.row * (layout.nodes[1] + 2);
-  layout.size = layout.plane * (layout.nodes[2] + 2) + 32;
+  const auto in_packs = [](std::ptrdiff_t n) { return (n + 15) / 16 * 16; };
+  layout.row = layout.nodes[0] + 1;
+  layout.lead = in_packs(layout.row + 16);
+  layout.plane = in_packs(layout.row * (layout.nodes[1] + 1) + 48);
+  layout.size = layout.plane * (layout.nodes[2] + 2) + layout.lead + 32;
   return layout;
 }
 

@@ -1,5 +1,9 @@
 #include "msm/grid/kernels.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
 namespace msm::grid {
 
 namespace baseline {
@@ -19,13 +23,21 @@ namespace {
 
 enum class Isa { baseline, avx2, avx512 };
 
+Isa widest() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return Isa::avx512;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
+  return Isa::baseline;
+}
+
 Isa isa() {
   static const Isa found = [] {
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-      return Isa::avx512;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Isa::avx2;
-    return Isa::baseline;
+    const char* asked = std::getenv("SPRINGPROOF_INSTRUCTION_SET");
+    const std::string_view name = asked ? asked : "";
+    if (name == "baseline") return Isa::baseline;
+    if (name == "avx2") return std::min(Isa::avx2, widest());
+    return widest();
   }();
   return found;
 }

@@ -14,15 +14,17 @@ constexpr int n_groups = 4;
 constexpr int group_dy[n_groups] = {-1, 0, 1, 1};
 constexpr int group_dz[n_groups] = {1, 1, 1, 0};
 
-/// How the nodes of a grid lie in memory. Node (i, j, k) has index at(i, j, k); one ghost node or more lies
-/// before and after every row, and one row before and after every plane. Ghosts never move and carry no
-/// spring. A field of vectors is three such arrays, x, y and z, one after the other.
+/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k). One ghost node lies between
+/// two rows, so that the kernels run through the rows of a plane as through one; ghosts enough for a
+/// neighbouring row and a pack of numbers more lie before and after every plane. Ghosts never move and carry
+/// no spring. A field of vectors is three such arrays, x, y and z, one after the other.
 struct Layout {
   int nodes[3] = {0, 0, 0};
-  std::ptrdiff_t row = 0;   ///< from one row to the next: nodes[0] + 1 or more, a multiple of 16
+  std::ptrdiff_t row = 0;   ///< from one row to the next: nodes[0] + 1
+  std::ptrdiff_t lead = 0;  ///< ghosts before the first node of a plane
   std::ptrdiff_t plane = 0; ///< from one plane to the next
   std::ptrdiff_t size = 0;  ///< entries of one array, ghosts and all
-  std::ptrdiff_t at(int i, int j, int k) const { return 16 + i + row * (j + 1) + plane * (k + 1); }
+  std::ptrdiff_t at(int i, int j, int k) const { return lead + i + row * j + plane * (k + 1); }
 };
 
 /// A lattice on a grid. Lengths in mm, stiffnesses in N/mm; Real is float inside the preconditioner.
@@ -32,13 +34,12 @@ struct Springs {
   Real rest[n_springs][3];     ///< from a node to its neighbour at rest
   Real rest_length[n_springs]; ///< length of that
   Real stiffness[n_springs];   ///< of one cell's spring; of 1 where `by_node` gives the stiffness
-  /// Without holes: number of cells that share a spring is share_x[dx + 1][i] share_y[dy + 1][j]
-  /// share_z[..][k].
-  const Real* share_x[3]; ///< layout.row entries, 0 for ghosts
-  const Real* share_y[3];
-  const Real* share_z[3];
-  /// With holes or several stiffnesses: one array of the layout per spring; else null.
-  const Real* by_node[n_springs];
+  /// Without holes: number of cells that share a spring is share[dy + 1][dx + 1] of its node's place in the
+  /// plane times share_z[k][dz + 1]. Arrays of layout.plane from the first node of a plane on, 0 for ghosts.
+  const Real* share;
+  const Real* share_z;
+  /// With holes or several stiffnesses: such arrays [k][spring]; else null.
+  const Real* by_node;
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
   Real rest_volume; ///< mm³
@@ -47,8 +48,8 @@ struct Springs {
 enum class Clamp { no, yes };
 
 /// Part of an array that one call works on: planes first to last - 1. Contributions to plane `last` go to
-/// `spill` (3 planes: x, y, z), because that plane belongs to another part; spill and the planes themselves
-/// are set, not added to.
+/// `spill` (as many planes as the result has arrays), because that plane belongs to another part; spill and
+/// the planes themselves are set, not added to.
 template<class Real>
 struct Slab {
   int first, last;
@@ -57,7 +58,7 @@ struct Slab {
 };
 
 constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
-  return 24 * (layout.row + 32);
+  return 18 * layout.plane + 2 * layout.lead + 24 * 64;
 }
 
 template<class Real>
@@ -72,7 +73,8 @@ struct Kernels {
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
 };
 
-/// The kernels for the widest instruction set that this machine has.
+/// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
+/// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
 template<class Real>
 const Kernels<Real>& kernels();
 template<>

@@ -3,13 +3,86 @@
 // instructions that the machine lacks.
 #include "msm/grid/kernels.hpp"
 
+#include <immintrin.h> // intrinsics are always inlined: no shared functions
+
 #define SPRINGPROOF_INLINE inline __attribute__((always_inline))
 
 namespace msm::grid::SPRINGPROOF_ISA {
 
 namespace {
 
-/// 1/sqrt(x) from an estimate in single precision and a step of third order, which leaves 1e-15 relative.
+// A pack is as many numbers as the instruction set computes at once.
+#if defined(__AVX512F__)
+#define SPRINGPROOF_PACK_BYTES 64
+#elif defined(__AVX2__)
+#define SPRINGPROOF_PACK_BYTES 32
+#else
+#define SPRINGPROOF_PACK_BYTES 16
+#endif
+
+template<class Real>
+struct PackOf;
+template<>
+struct PackOf<double> {
+  typedef double type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
+  typedef double unaligned __attribute__((vector_size(SPRINGPROOF_PACK_BYTES), aligned(8), may_alias));
+};
+template<>
+struct PackOf<float> {
+  typedef float type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
+  typedef float unaligned __attribute__((vector_size(SPRINGPROOF_PACK_BYTES), aligned(4), may_alias));
+};
+template<class Real>
+using Pack = typename PackOf<Real>::type;
+using PackD = Pack<double>;
+using PackF = Pack<float>;
+
+template<class Real>
+constexpr std::ptrdiff_t pack_size = SPRINGPROOF_PACK_BYTES / sizeof(Real);
+
+SPRINGPROOF_INLINE PackD load(const double* from) {
+  return *reinterpret_cast<const PackOf<double>::unaligned*>(from);
+}
+SPRINGPROOF_INLINE PackF load(const float* from) {
+  return *reinterpret_cast<const PackOf<float>::unaligned*>(from);
+}
+SPRINGPROOF_INLINE void store(double* to, const PackD& value) {
+  *reinterpret_cast<PackOf<double>::unaligned*>(to) = value;
+}
+SPRINGPROOF_INLINE void store(float* to, const PackF& value) {
+  *reinterpret_cast<PackOf<float>::unaligned*>(to) = value;
+}
+
+// 1/sqrt(x), x > 0, from the machine's estimate: of 1/sqrt(1 - e) with e = 1 - x y², as many terms of the
+// series 1 + e/2 + 3/8 e² + ... as bring the estimate's 11.4 or 14 bits to the last digit of a double (1e-16)
+// or float.
+SPRINGPROOF_INLINE PackF inverse_root(const PackF& x) {
+#if defined(__AVX512F__)
+  const PackF y = _mm512_rsqrt14_ps(x);
+#elif defined(__AVX2__)
+  const PackF y = _mm256_rsqrt_ps(x);
+#else
+  const PackF y = _mm_rsqrt_ps(x);
+#endif
+  const PackF e = 1.0f - (x * y) * y;
+  return y + (y * e) * (0.5f + 0.375f * e);
+}
+SPRINGPROOF_INLINE PackD inverse_root(const PackD& x) {
+#if defined(__AVX512F__)
+  const PackD y = _mm512_rsqrt14_pd(x);
+  const PackD e = 1.0 - (x * y) * y;
+  return y + (y * e) * (0.5 + e * (0.375 + 0.3125 * e));
+#else
+#if defined(__AVX2__)
+  const PackD y = _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(x)));
+#else
+  const PackD y = _mm_cvtps_pd(_mm_rsqrt_ps(_mm_cvtpd_ps(x)));
+#endif
+  const PackD e = 1.0 - (x * y) * y;
+  return y + (y * e) * (0.5 + e * (0.375 + e * (0.3125 + 0.2734375 * e)));
+#endif
+}
+/// The same one at a time, for loops that the compiler turns into packs.
 SPRINGPROOF_INLINE double inverse_root(double x) {
   const float estimate = 1.0f / __builtin_sqrtf(static_cast<float>(x));
   const double y = static_cast<double>(estimate);
@@ -71,113 +144,156 @@ SPRINGPROOF_INLINE Rows<Real> rows(Real* field, std::ptrdiff_t array, std::ptrdi
   return {field + offset, field + array + offset, field + 2 * array + offset};
 }
 
-/// A spring's stiffness: `share` (times `scale`) along a row.
+/// A spring's stiffness along the nodes of plane k: `share` times `scale`.
 template<class Real>
 struct Share {
   const Real* share;
   Real scale;
 };
 
+/// That of a group's first spring; the others of the group follow at a distance of layout.plane.
 template<class Real>
-SPRINGPROOF_INLINE Share<Real> spring_share(const Springs<Real>& s, int spring, int dx, int dy, int dz, int j,
-                                            int k) {
-  if (s.by_node[spring]) return {s.by_node[spring] + s.layout.at(0, j, k), s.stiffness[spring]};
-  return {s.share_x[dx + 1], s.stiffness[spring] * s.share_y[dy + 1][j] * s.share_z[dz + 1][k]};
+SPRINGPROOF_INLINE Share<Real> spring_share(const Springs<Real>& s, int spring, int k) {
+  const std::ptrdiff_t plane = s.layout.plane;
+  if (s.by_node) return {s.by_node + (n_springs * k + spring) * plane, s.stiffness[spring]};
+  const bool along_row = spring == n_springs - 1;
+  const int dx = along_row ? 1 : spring % 3 - 1, dy = along_row ? 0 : group_dy[spring / 3],
+            dz = along_row ? 0 : group_dz[spring / 3];
+  return {s.share + (3 * (dy + 1) + dx + 1) * plane, s.stiffness[spring] * s.share_z[3 * k + dz + 1]};
+}
+
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> rest_of(const Springs<Real>& s, int spring) {
+  return {s.rest[spring][0], s.rest[spring][1], s.rest[spring][2]};
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other and the change of d in
 // some direction: the first end receives the result and the second one its opposite.
 
 /// k (1 - l0/|d|) d. A ghost may lie where a node is: hence the least length.
-template<class Real>
-SPRINGPROOF_INLINE Real tension(const Vec<Real>& d, Real k, Real rest_length, Real& inverse_length) {
-  const Real squared = dot(d, d);
-  inverse_length = inverse_root(squared > Real(1e-30) ? squared : Real(1e-30));
-  return k - k * rest_length * inverse_length;
+template<class Number, class Real>
+SPRINGPROOF_INLINE Number tension(const Vec<Number>& d, const Number& k, Real rest_length,
+                                  Number& inverse_length) {
+  const Number squared = dot(d, d);
+  const Number least = Number{} + Real(1e-30);
+  inverse_length = inverse_root(squared > least ? squared : least);
+  return k * (Real(1) - rest_length * inverse_length);
 }
 
 template<class Real>
 struct Force {
-  SPRINGPROOF_INLINE Vec<Real> operator()(const Vec<Real>& d, const Vec<Real>&, Real k,
-                                          Real rest_length) const {
-    Real inverse_length;
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = false;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, Real rest_length) const {
+    P inverse_length;
     return tension(d, k, rest_length, inverse_length) * d;
   }
 };
 
 /// Tangent times the change c of d, for the first end: -(t c + (k - t) (d.c)/|d|² d) with t = k (1 - l0/|d|),
-/// at least `least` times k.
-template<class Real>
+/// at least 0 when clamped.
+template<class Real, Clamp clamp>
 struct Product {
-  Real least;
-  SPRINGPROOF_INLINE Vec<Real> operator()(const Vec<Real>& d, const Vec<Real>& change, Real k,
-                                          Real rest_length) const {
-    Real inverse_length;
-    Real t = tension(d, k, rest_length, inverse_length);
-    t = t > least * k ? t : least * k;
-    const Real along = (t - k) * dot(d, change) * inverse_length * inverse_length;
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = true;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k,
+                                       Real rest_length) const {
+    P inverse_length;
+    P t = tension(d, k, rest_length, inverse_length);
+    if constexpr (clamp == Clamp::yes) t = t > Real(0) ? t : P{};
+    const P along = (t - k) * (dot(d, change) * (inverse_length * inverse_length));
     return along * d - t * change;
   }
 };
 
-/// Adds b of the nodes of one row to the neighbours in another: target[i + dx] -= b[dx][i].
+/// Three arrays at equal distances. The sweeps name them by one pointer and a few distances that all of them
+/// share: a pointer for each would not fit into the machine's registers.
 template<class Real>
-SPRINGPROOF_INLINE void scatter(std::ptrdiff_t n, const Real* __restrict left, const Real* __restrict middle,
-                                const Real* __restrict right, Real* __restrict target) {
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < n; ++i) target[i] -= left[i + 1] + middle[i] + right[i - 1];
+SPRINGPROOF_INLINE Vec<Pack<Real>> load(const Real* from, std::ptrdiff_t distance) {
+  return {load(from), load(from + distance), load(from + 2 * distance)};
+}
+template<class Real>
+SPRINGPROOF_INLINE void store(Real* to, std::ptrdiff_t distance, const Vec<Pack<Real>>& value) {
+  store(to, value.x);
+  store(to + distance, value.y);
+  store(to + 2 * distance, value.z);
+}
+template<class Real>
+SPRINGPROOF_INLINE void add(Real* to, std::ptrdiff_t distance, const Vec<Pack<Real>>& value) {
+  store(to, distance, load(to, distance) + value);
+}
+template<class Real>
+SPRINGPROOF_INLINE void subtract(Real* to, std::ptrdiff_t distance, const Vec<Pack<Real>>& value) {
+  store(to, distance, load(to, distance) - value);
 }
 
-/// Three springs of every node of a row to three neighbours each in another row.
+/// Where the results of one plane add up, from its first node on, in arrays at a distance of layout.plane:
+/// what goes to the node at the same place in the row goes to `middle`; what goes to the node before or after
+/// it, to `left` or `right` at its sender's place, so that all accesses are aligned alike; fold() brings them
+/// together.
+template<class Real>
+struct Sums {
+  Real *left, *middle, *right;
+};
+
+/// Three springs of nodes first to last - 1 of a plane to three neighbours each in another row, which differ
+/// in x alone; the first and the third are alike.
+/// @param u, u_other  displacements from the plane's first node on, and from that node's second neighbour; v,
+/// v_other: direction
 template<class Real, class Action>
-SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, int group, int j, int k, const Action& action,
-                                    const Rows<const Real>& u, const Rows<const Real>& u_other,
-                                    const Rows<const Real>& v, const Rows<const Real>& v_other,
-                                    const Rows<Real>& own, const Rows<Real>& other, Real* scratch) {
-  const std::ptrdiff_t n = s.layout.row, stride = n + 32;
-  const int dy = group_dy[group], dz = group_dz[group], first = 3 * group;
-  const Share<Real> k0 = spring_share(s, first, -1, dy, dz, j, k),
-                    k1 = spring_share(s, first + 1, 0, dy, dz, j, k),
-                    k2 = spring_share(s, first + 2, 1, dy, dz, j, k);
-  const Vec<Real> d0{s.rest[first][0], s.rest[first][1], s.rest[first][2]},
-      d1{s.rest[first + 1][0], s.rest[first + 1][1], s.rest[first + 1][2]},
-      d2{s.rest[first + 2][0], s.rest[first + 2][1], s.rest[first + 2][2]};
-  const Real l0 = s.rest_length[first], l1 = s.rest_length[first + 1], l2 = s.rest_length[first + 2];
-  const Rows<Real> b0 = rows(scratch + 16, stride, 0), b1 = rows(scratch + 16, stride, 3 * stride),
-                   b2 = rows(scratch + 16, stride, 6 * stride);
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const Vec<Real> ui = u.at(i), vi = v.at(i);
-    const Vec<Real> f0 =
-        action(d0 + (u_other.at(i - 1) - ui), v_other.at(i - 1) - vi, k0.scale * k0.share[i], l0);
-    const Vec<Real> f1 = action(d1 + (u_other.at(i) - ui), v_other.at(i) - vi, k1.scale * k1.share[i], l1);
-    const Vec<Real> f2 =
-        action(d2 + (u_other.at(i + 1) - ui), v_other.at(i + 1) - vi, k2.scale * k2.share[i], l2);
-    b0.set(i, f0);
-    b1.set(i, f1);
-    b2.set(i, f2);
-    own.set(i, own.at(i) + (f0 + f1 + f2));
+SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, int group, int k, std::ptrdiff_t first,
+                                    std::ptrdiff_t last, const Action& action, const Real* u,
+                                    const Real* u_other, const Real* v, const Real* v_other, Real* own,
+                                    const Sums<Real>& other) {
+  using P = Pack<Real>;
+  const std::ptrdiff_t size = s.layout.size, plane = s.layout.plane;
+  const int spring = 3 * group;
+  const Share<Real> side = spring_share(s, spring, k);
+  const Real side_scale = side.scale, middle_scale = spring_share(s, spring + 1, k).scale;
+  const Vec<Real> rest = rest_of(s, spring + 1);
+  const Real h = s.rest[spring + 2][0], side_length = s.rest_length[spring],
+             length = s.rest_length[spring + 1];
+  for (std::ptrdiff_t i = first; i < last; i += pack_size<Real>) {
+    const Vec<P> ui = load(u + i, size);
+    const P y = rest.y - ui.y, z = rest.z - ui.z;
+    Vec<P> vi{}, c0{}, c1{}, c2{};
+    if constexpr (Action::needs_direction) {
+      vi = load(v + i, size);
+      c0 = load(v_other + i - 1, size) - vi;
+      c1 = load(v_other + i, size) - vi;
+      c2 = load(v_other + i + 1, size) - vi;
+    }
+    const Vec<P> before{-h - ui.x, y, z}, beside{-ui.x, y, z}, after{h - ui.x, y, z};
+    const Vec<P> f0 =
+        action(before + load(u_other + i - 1, size), c0, side_scale * load(side.share + i), side_length);
+    subtract(other.left + i, plane, f0);
+    const Vec<P> f1 =
+        action(beside + load(u_other + i, size), c1, middle_scale * load(side.share + plane + i), length);
+    subtract(other.middle + i, plane, f1);
+    const Vec<P> f2 = action(after + load(u_other + i + 1, size), c2,
+                             side_scale * load(side.share + 2 * plane + i), side_length);
+    subtract(other.right + i, plane, f2);
+    add(own + i, plane, f0 + f1 + f2);
   }
-  scatter(n, b0.x, b1.x, b2.x, other.x);
-  scatter(n, b0.y, b1.y, b2.y, other.y);
-  scatter(n, b0.z, b1.z, b2.z, other.z);
 }
 
-/// The springs along a row.
+/// The springs along the rows.
 template<class Real, class Action>
-SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, int j, int k, const Action& action,
-                                  const Rows<const Real>& u, const Rows<const Real>& v, const Rows<Real>& own,
-                                  Real* scratch) {
-  const std::ptrdiff_t n = s.layout.row, stride = n + 32;
-  const Share<Real> share = spring_share(s, 12, 1, 0, 0, j, k);
-  const Vec<Real> d{s.rest[12][0], s.rest[12][1], s.rest[12][2]};
-  const Real l = s.rest_length[12];
-  const Rows<Real> b = rows(scratch + 16, stride, 0);
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < n; ++i)
-    b.set(i, action(d + (u.at(i + 1) - u.at(i)), v.at(i + 1) - v.at(i), share.scale * share.share[i], l));
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < n; ++i) own.set(i, own.at(i) + (b.at(i) - b.at(i - 1)));
+SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, int k, std::ptrdiff_t first, std::ptrdiff_t last,
+                                  const Action& action, const Real* u, const Real* v, const Sums<Real>& own) {
+  using P = Pack<Real>;
+  const std::ptrdiff_t size = s.layout.size, plane = s.layout.plane;
+  const int spring = n_springs - 1;
+  const Share<Real> share = spring_share(s, spring, k);
+  const Real h = s.rest[spring][0], length = s.rest_length[spring];
+  for (std::ptrdiff_t i = first; i < last; i += pack_size<Real>) {
+    Vec<P> change{}, d = load(u + i + 1, size) - load(u + i, size);
+    d.x = d.x + h;
+    if constexpr (Action::needs_direction) change = load(v + i + 1, size) - load(v + i, size);
+    const Vec<P> f = action(d, change, share.scale * load(share.share + i), length);
+    add(own.middle + i, plane, f);
+    subtract(own.right + i, plane, f);
+  }
 }
 
 template<class Real>
@@ -185,44 +301,66 @@ SPRINGPROOF_INLINE void clear(Real* begin, std::ptrdiff_t n) {
   for (std::ptrdiff_t i = 0; i < n; ++i) begin[i] = 0;
 }
 
-/// Clears what a slab writes to: `components` arrays of its planes, and its spill.
+/// The plane's results from its sums, which are cleared for the plane after the next.
 template<class Real>
-void clear_slab(const Layout& layout, const Slab<Real>& slab, int components, Real* field) {
-  for (int c = 0; c < components; ++c)
-    clear(field + c * layout.size + layout.at(0, 0, slab.first) - 16,
-          layout.at(0, 0, slab.last) - layout.at(0, 0, slab.first));
-  clear(slab.spill, components * layout.plane);
-  clear(slab.scratch, scratch_size(layout));
+SPRINGPROOF_INLINE void fold(const Sums<Real>& sums, const Layout& layout, Real* result,
+                             std::ptrdiff_t distance) {
+  const std::ptrdiff_t n = layout.row * layout.nodes[1], plane = layout.plane;
+  for (std::ptrdiff_t i = 0; i < n; i += pack_size<Real>)
+    store(result + i, distance,
+          load(sums.middle + i, plane) + load(sums.left + i + 1, plane) + load(sums.right + i - 1, plane));
+  for (std::ptrdiff_t i = 0; i < n; i += pack_size<Real>) {
+    store(sums.left + i, plane, Vec<Pack<Real>>{});
+    store(sums.middle + i, plane, Vec<Pack<Real>>{});
+    store(sums.right + i, plane, Vec<Pack<Real>>{});
+  }
 }
 
-/// Row (j, k) of the result: in the field, or in the spill.
-template<class Real>
-SPRINGPROOF_INLINE Rows<Real> result_rows(const Layout& layout, const Slab<Real>& slab, Real* field, int j,
-                                          int k) {
-  if (k < slab.last) return rows(field, layout.size, layout.at(0, j, k));
-  return rows(slab.spill, layout.plane, layout.at(0, j, -1));
-}
+/// Nodes of a plane that are swept before the next group's turn: their rows stay in the first-level cache.
+constexpr std::ptrdiff_t block = 64;
 
-/// Adds action(d, change) of every spring to its first end and takes it from the other.
+/// The sum over all springs of action(d, change), added to the first end and taken from the other.
 template<class Real, class Action>
 void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
                    const Real* displacement, const Real* direction, Real* result) {
   const Layout& layout = s.layout;
-  const auto row_of = [&](const Real* field, int j, int k) {
-    return rows(field, layout.size, layout.at(0, j, k));
+  const std::ptrdiff_t n = layout.row * layout.nodes[1];
+  clear(slab.scratch, scratch_size(layout));
+  const auto sums_of = [&](int k) {
+    Real* start = slab.scratch + ((k - slab.first) % 2) * 9 * layout.plane + layout.at(0, 0, -1);
+    return Sums<Real>{start, start + 3 * layout.plane, start + 6 * layout.plane};
   };
-  for (int k = slab.first; k < slab.last; ++k)
-    for (int j = 0; j < layout.nodes[1]; ++j) {
-      const Rows<const Real> u = row_of(displacement, j, k), v = row_of(direction, j, k);
-      const Rows<Real> own = result_rows(layout, slab, result, j, k);
-      sweep_row(s, j, k, action, u, v, own, slab.scratch);
+  for (int k = slab.first; k < slab.last; ++k) {
+    const Real *u = displacement + layout.at(0, 0, k), *v = direction + layout.at(0, 0, k);
+    const Sums<Real> own = sums_of(k);
+    for (std::ptrdiff_t first = 0; first < n; first += block) {
+      const std::ptrdiff_t last = first + block < n ? first + block : n;
+      sweep_row(s, k, first, last, action, u, v, own);
       for (int group = 0; group < n_groups; ++group) {
-        const int j2 = j + group_dy[group], k2 = k + group_dz[group];
-        if (j2 < 0 || j2 >= layout.nodes[1] || k2 >= layout.nodes[2]) continue;
-        sweep_group(s, group, j, k, action, u, row_of(displacement, j2, k2), v, row_of(direction, j2, k2),
-                    own, result_rows(layout, slab, result, j2, k2), slab.scratch);
+        const int up = group_dz[group];
+        if (k + up >= layout.nodes[2]) continue;
+        const std::ptrdiff_t row = group_dy[group] * layout.row, offset = row + up * layout.plane;
+        const Sums<Real> other = sums_of(k + up);
+        sweep_group(s, group, k, first, last, action, u, u + offset, v, v + offset, own.middle,
+                    {other.left + row, other.middle + row, other.right + row});
       }
     }
+    fold(own, layout, result + layout.at(0, 0, k), layout.size);
+  }
+  if (slab.last < layout.nodes[2])
+    fold(sums_of(slab.last), layout, slab.spill + layout.at(0, 0, -1), layout.plane);
+}
+
+/// First node of plane k of the result: in the field, or in the spill.
+template<class Real>
+SPRINGPROOF_INLINE Rows<Real> result_plane(const Layout& layout, const Slab<Real>& slab, Real* field, int k) {
+  if (k < slab.last) return rows(field, layout.size, layout.at(0, 0, k));
+  return rows(slab.spill, layout.plane, layout.at(0, 0, -1));
+}
+
+template<class Real>
+SPRINGPROOF_INLINE Rows<Real> shifted(const Rows<Real>& from, std::ptrdiff_t offset) {
+  return {from.x + offset, from.y + offset, from.z + offset};
 }
 
 // ---- cell volume -----------------------------------------------------------------------------------------
@@ -276,11 +414,13 @@ struct CellRows {
   }
 };
 
+/// Of the cells of plane k from node number `first` of the plane.
 template<class Real>
-SPRINGPROOF_INLINE CellRows<Real> cell_rows(const Layout& layout, const Real* field, int j, int k) {
-  return {{rows(field, layout.size, layout.at(0, j, k)), rows(field, layout.size, layout.at(0, j + 1, k)),
-           rows(field, layout.size, layout.at(0, j, k + 1)),
-           rows(field, layout.size, layout.at(0, j + 1, k + 1))}};
+SPRINGPROOF_INLINE CellRows<Real> cell_rows(const Layout& layout, const Real* field, std::ptrdiff_t first,
+                                            int k) {
+  const std::ptrdiff_t here = layout.at(0, 0, k) + first, above = here + layout.plane;
+  return {{rows(field, layout.size, here), rows(field, layout.size, here + layout.row),
+           rows(field, layout.size, above), rows(field, layout.size, above + layout.row)}};
 }
 
 /// Positions of a cell's vertices from the displaced first one.
@@ -320,37 +460,44 @@ SPRINGPROOF_INLINE Vec<Real> cell_edges(const Springs<Real>& s) {
   return {s.rest[12][0], s.rest[10][1], s.rest[4][2]};
 }
 
+/// Nodes of the plane's rows that have cells above them, in whole packs: the last row has none.
+SPRINGPROOF_INLINE std::ptrdiff_t cells_of_plane(const Layout& layout) {
+  return (layout.row * (layout.nodes[1] - 1) + 15) / 16 * 16;
+}
+
 /// result -= what action gives for the eight vertices of every cell with a volume term.
 template<class Real, class Action>
 SPRINGPROOF_INLINE void sweep_cells(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
                                     Real* result) {
   const Layout& layout = s.layout;
-  const std::ptrdiff_t n = layout.row, stride = n + 32;
-  Real* const b = slab.scratch + 16;
+  const std::ptrdiff_t n = cells_of_plane(layout);
+  Real* const b = slab.scratch;
   for (int k = slab.first; k < slab.last && k + 1 < layout.nodes[2]; ++k)
-    for (int j = 0; j + 1 < layout.nodes[1]; ++j) {
-      action(j, k, b, stride);
+    for (std::ptrdiff_t first = 0; first < n; first += block) {
+      const std::ptrdiff_t length = first + block < n ? block : n - first;
+      action(first, length, k, b);
       for (int r = 0; r < 4; ++r) {
-        const Rows<Real> target = result_rows(layout, slab, result, j + (r & 1), k + (r >> 1));
+        const Rows<Real> target =
+            shifted(result_plane(layout, slab, result, k + (r >> 1)), first + (r & 1) * layout.row);
         Real* const component[3] = {target.x, target.y, target.z};
         for (int c = 0; c < 3; ++c) {
           Real* __restrict out = component[c];
-          const Real* __restrict lower = b + (6 * r + c) * stride, * __restrict upper =
-                                                                       b + (6 * r + 3 + c) * stride;
-#pragma GCC ivdep
-          for (std::ptrdiff_t i = 0; i < n; ++i) out[i] -= lower[i] + upper[i - 1];
+          const Real* __restrict lower = b + (6 * r + c) * block, * __restrict upper =
+                                                                      b + (6 * r + 3 + c) * block;
+          for (std::ptrdiff_t i = 0; i < length; ++i) out[i] -= lower[i];
+          for (std::ptrdiff_t i = 0; i < length; ++i) out[i + 1] -= upper[i];
         }
       }
     }
 }
 
 template<class Real>
-SPRINGPROOF_INLINE void store(Real* b, std::ptrdiff_t stride, std::ptrdiff_t i, const Vec<Real> (&f)[8]) {
+SPRINGPROOF_INLINE void store(Real* b, std::ptrdiff_t i, const Vec<Real> (&f)[8]) {
 #pragma GCC unroll 8
   for (int v = 0; v < 8; ++v) {
-    b[(3 * v) * stride + i] = f[v].x;
-    b[(3 * v + 1) * stride + i] = f[v].y;
-    b[(3 * v + 2) * stride + i] = f[v].z;
+    b[(3 * v) * block + i] = f[v].x;
+    b[(3 * v + 1) * block + i] = f[v].y;
+    b[(3 * v + 2) * block + i] = f[v].z;
   }
 }
 
@@ -358,18 +505,18 @@ template<class Real>
 void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* force) {
   const Vec<Real> h = cell_edges(s);
   const Real rest_volume = s.rest_volume;
-  const auto action = [&](int j, int k, Real* b, std::ptrdiff_t stride) {
-    const CellRows<Real> u = cell_rows(s.layout, displacement, j, k);
-    const Real* stiffness = s.volume_stiffness + s.layout.at(0, j, k);
+  const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
+    const CellRows<Real> u = cell_rows(s.layout, displacement, first, k);
+    const Real* stiffness = s.volume_stiffness + s.layout.at(0, 0, k) + first;
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < s.layout.row; ++i) {
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8];
       cell_positions(u, i, h, x);
       volume_gradients(x, g);
       const Real pressure = stiffness[i] * (volume(x, g) - rest_volume);
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
-      store(b, stride, i, g);
+      store(b, i, g);
     }
   };
   sweep_cells(s, slab, action, force);
@@ -381,12 +528,12 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* 
                     const Real* direction, Real* product) {
   const Vec<Real> h = cell_edges(s);
   const Real rest_volume = s.rest_volume;
-  const auto action = [&](int j, int k, Real* b, std::ptrdiff_t stride) {
-    const CellRows<Real> u = cell_rows(s.layout, displacement, j, k),
-                         w = cell_rows(s.layout, direction, j, k);
-    const Real* stiffness = s.volume_stiffness + s.layout.at(0, j, k);
+  const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
+    const CellRows<Real> u = cell_rows(s.layout, displacement, first, k),
+                         w = cell_rows(s.layout, direction, first, k);
+    const Real* stiffness = s.volume_stiffness + s.layout.at(0, 0, k) + first;
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < s.layout.row; ++i) {
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8], y[8], f[8];
       cell_positions(u, i, h, x);
       w.read(i, y);
@@ -405,11 +552,11 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* 
         f[5] = change * g[5] + pressure * volume_gradient_change<Real, 5>(x, y);
         f[6] = change * g[6] + pressure * volume_gradient_change<Real, 6>(x, y);
         f[7] = change * g[7] + pressure * volume_gradient_change<Real, 7>(x, y);
-        store(b, stride, i, f);
+        store(b, i, f);
       } else {
 #pragma GCC unroll 8
         for (int v = 0; v < 8; ++v) g[v] = change * g[v];
-        store(b, stride, i, g);
+        store(b, i, g);
       }
     }
   };
@@ -420,7 +567,6 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* 
 
 template<class Real>
 void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* result) {
-  clear_slab(s.layout, slab, 3, result);
   sweep_springs(s, slab, Force<Real>{}, displacement, displacement, result);
   if (s.volume_stiffness) volume_force(s, slab, displacement, result);
 }
@@ -428,9 +574,10 @@ void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacem
 template<class Real>
 void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
              const Real* direction, Real* result) {
-  clear_slab(s.layout, slab, 3, result);
-  const Real least = clamp == Clamp::yes ? Real(0) : Real(-1e30);
-  sweep_springs(s, slab, Product<Real>{least}, displacement, direction, result);
+  if (clamp == Clamp::yes)
+    sweep_springs(s, slab, Product<Real, Clamp::yes>{}, displacement, direction, result);
+  else
+    sweep_springs(s, slab, Product<Real, Clamp::no>{}, displacement, direction, result);
   if (!s.volume_stiffness) return;
   if (clamp == Clamp::yes)
     volume_product<Real, Clamp::yes>(s, slab, displacement, direction, result);
@@ -438,45 +585,51 @@ void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const 
     volume_product<Real, Clamp::no>(s, slab, displacement, direction, result);
 }
 
+/// Distance, in a field's memory, from a node to the other end of its spring.
+SPRINGPROOF_INLINE std::ptrdiff_t reach(const Layout& layout, int spring) {
+  if (spring == n_springs - 1) return 1;
+  return spring % 3 - 1 + group_dy[spring / 3] * layout.row + group_dz[spring / 3] * layout.plane;
+}
+SPRINGPROOF_INLINE bool leads_upwards(int spring) {
+  return spring < n_springs - 1 && group_dz[spring / 3] == 1;
+}
+
 template<class Real>
 double energy(const Springs<Real>& s, int first, int last, const Real* displacement) {
   const Layout& layout = s.layout;
+  const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
   double total = 0;
-  const auto row_of = [&](int j, int k) { return rows(displacement, layout.size, layout.at(0, j, k)); };
-  for (int k = first; k < last; ++k)
-    for (int j = 0; j < layout.nodes[1]; ++j) {
-      const Rows<const Real> u = row_of(j, k);
-      for (int spring = 0; spring < n_springs; ++spring) {
-        const int dy = spring == 12 ? 0 : group_dy[spring / 3], dz = spring == 12 ? 0 : group_dz[spring / 3],
-                  dx = spring == 12 ? 1 : spring % 3 - 1;
-        if (j + dy < 0 || j + dy >= layout.nodes[1] || k + dz >= layout.nodes[2]) continue;
-        const Rows<const Real> other = row_of(j + dy, k + dz);
-        const Share<Real> share = spring_share(s, spring, dx, dy, dz, j, k);
-        const Vec<Real> d{s.rest[spring][0], s.rest[spring][1], s.rest[spring][2]};
-        const Real l0 = s.rest_length[spring];
-        Real sum = 0;
-        for (std::ptrdiff_t i = 0; i < layout.row; ++i) {
-          const Vec<Real> now = d + (other.at(i + dx) - u.at(i));
-          const Real squared = dot(now, now);
-          const Real elongation = squared * inverse_root(squared > Real(1e-30) ? squared : Real(1e-30)) - l0;
-          sum += share.share[i] * elongation * elongation;
-        }
-        total += 0.5 * static_cast<double>(share.scale) * static_cast<double>(sum);
-      }
-      if (!s.volume_stiffness || j + 1 == layout.nodes[1] || k + 1 == layout.nodes[2]) continue;
-      const CellRows<Real> cell = cell_rows(layout, displacement, j, k);
-      const Real* stiffness = s.volume_stiffness + layout.at(0, j, k);
-      const Vec<Real> h = cell_edges(s);
+  for (int k = first; k < last; ++k) {
+    const Rows<const Real> u = rows(displacement, layout.size, layout.at(0, 0, k));
+    for (int spring = 0; spring < n_springs; ++spring) {
+      if (leads_upwards(spring) && k + 1 == layout.nodes[2]) continue;
+      const Rows<const Real> other = shifted(u, reach(layout, spring));
+      const Share<Real> share = spring_share(s, spring, k);
+      const Vec<Real> d = rest_of(s, spring);
+      const Real l0 = s.rest_length[spring];
       Real sum = 0;
-      for (std::ptrdiff_t i = 0; i < layout.row; ++i) {
-        Vec<Real> x[8], g[8];
-        cell_positions(cell, i, h, x);
-        volume_gradients(x, g);
-        const Real change = volume(x, g) - s.rest_volume;
-        sum += stiffness[i] * change * change;
+      for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const Vec<Real> now = d + (other.at(i) - u.at(i));
+        const Real squared = dot(now, now);
+        const Real elongation = squared * inverse_root(squared > Real(1e-30) ? squared : Real(1e-30)) - l0;
+        sum += share.share[i] * elongation * elongation;
       }
-      total += 0.5 * static_cast<double>(sum);
+      total += 0.5 * static_cast<double>(share.scale) * static_cast<double>(sum);
     }
+    if (!s.volume_stiffness || k + 1 == layout.nodes[2]) continue;
+    const CellRows<Real> cell = cell_rows(layout, displacement, 0, k);
+    const Real* stiffness = s.volume_stiffness + layout.at(0, 0, k);
+    const Vec<Real> h = cell_edges(s);
+    Real sum = 0;
+    for (std::ptrdiff_t i = 0; i < cells_of_plane(layout); ++i) {
+      Vec<Real> x[8], g[8];
+      cell_positions(cell, i, h, x);
+      volume_gradients(x, g);
+      const Real change = volume(x, g) - s.rest_volume;
+      sum += stiffness[i] * change * change;
+    }
+    total += 0.5 * static_cast<double>(sum);
+  }
   return total;
 }
 
@@ -486,62 +639,69 @@ template<class Real>
 void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
               Real* result) {
   const Layout& layout = s.layout;
-  clear_slab(layout, slab, 6, result);
+  for (int c = 0; c < 6; ++c) {
+    clear(result + c * layout.size + layout.plane * (slab.first + 1),
+          layout.plane * (slab.last - slab.first));
+    clear(slab.spill + c * layout.plane, layout.plane);
+  }
   const Real least = clamp == Clamp::yes ? Real(0) : Real(-1e30);
-  const auto target = [&](int j, int k, int c) {
-    return k < slab.last ? result + c * layout.size + layout.at(0, j, k)
-                         : slab.spill + c * layout.plane + layout.at(0, j, -1);
+  const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
+  const auto target = [&](int k, int c) {
+    return k < slab.last ? result + c * layout.size + layout.at(0, 0, k)
+                         : slab.spill + c * layout.plane + layout.at(0, 0, -1);
   };
-  const std::ptrdiff_t stride = layout.row + 32;
-  Real* const b = slab.scratch + 16;
-  for (int k = slab.first; k < slab.last; ++k)
-    for (int j = 0; j < layout.nodes[1]; ++j) {
-      const Rows<const Real> u = rows(displacement, layout.size, layout.at(0, j, k));
-      for (int spring = 0; spring < n_springs; ++spring) {
-        const int dy = spring == 12 ? 0 : group_dy[spring / 3], dz = spring == 12 ? 0 : group_dz[spring / 3],
-                  dx = spring == 12 ? 1 : spring % 3 - 1;
-        if (j + dy < 0 || j + dy >= layout.nodes[1] || k + dz >= layout.nodes[2]) continue;
-        const Rows<const Real> other = rows(displacement, layout.size, layout.at(0, j + dy, k + dz));
-        const Share<Real> share = spring_share(s, spring, dx, dy, dz, j, k);
-        const Vec<Real> d{s.rest[spring][0], s.rest[spring][1], s.rest[spring][2]};
-        const Real l0 = s.rest_length[spring];
+  Real* const b = slab.scratch;
+  for (int k = slab.first; k < slab.last; ++k) {
+    const Rows<const Real> u = rows(displacement, layout.size, layout.at(0, 0, k));
+    for (int spring = 0; spring < n_springs; ++spring) {
+      const bool upwards = leads_upwards(spring);
+      if (upwards && k + 1 == layout.nodes[2]) continue;
+      const Rows<const Real> other = shifted(u, reach(layout, spring));
+      const std::ptrdiff_t in_plane = reach(layout, spring) - (upwards ? layout.plane : 0);
+      const Share<Real> share = spring_share(s, spring, k);
+      const Vec<Real> d = rest_of(s, spring);
+      const Real l0 = s.rest_length[spring];
+      for (std::ptrdiff_t first = 0; first < n; first += block) {
+        const std::ptrdiff_t length = first + block < n ? block : n - first;
 #pragma GCC ivdep
-        for (std::ptrdiff_t i = 0; i < layout.row; ++i) {
-          const Vec<Real> now = d + (other.at(i + dx) - u.at(i));
-          const Real stiffness = share.scale * share.share[i];
+        for (std::ptrdiff_t i = 0; i < length; ++i) {
+          const Vec<Real> now = d + (other.at(first + i) - u.at(first + i));
+          const Real stiffness = share.scale * share.share[first + i];
           Real inverse_length;
           Real t = tension(now, stiffness, l0, inverse_length);
           t = t > least * stiffness ? t : least * stiffness;
           const Real along = (stiffness - t) * inverse_length * inverse_length;
           b[i] = t + along * now.x * now.x;
-          b[i + stride] = t + along * now.y * now.y;
-          b[i + 2 * stride] = t + along * now.z * now.z;
-          b[i + 3 * stride] = along * now.y * now.z;
-          b[i + 4 * stride] = along * now.x * now.z;
-          b[i + 5 * stride] = along * now.x * now.y;
+          b[i + block] = t + along * now.y * now.y;
+          b[i + 2 * block] = t + along * now.z * now.z;
+          b[i + 3 * block] = along * now.y * now.z;
+          b[i + 4 * block] = along * now.x * now.z;
+          b[i + 5 * block] = along * now.x * now.y;
         }
         for (int c = 0; c < 6; ++c) {
-          Real *own = target(j, k, c), *far = target(j + dy, k + dz, c);
-          for (std::ptrdiff_t i = 0; i < layout.row; ++i) own[i] += b[i + c * stride];
-          for (std::ptrdiff_t i = 0; i < layout.row; ++i) far[i] += b[i - dx + c * stride];
-        }
-      }
-      if (!s.volume_stiffness || j + 1 == layout.nodes[1] || k + 1 == layout.nodes[2]) continue;
-      const CellRows<Real> cell = cell_rows(layout, displacement, j, k);
-      const Real* stiffness = s.volume_stiffness + layout.at(0, j, k);
-      const Vec<Real> h = cell_edges(s);
-      for (std::ptrdiff_t i = 0; i + 1 < layout.nodes[0]; ++i) {
-        Vec<Real> x[8], g[8];
-        cell_positions(cell, i, h, x);
-        volume_gradients(x, g);
-        for (int v = 0; v < 8; ++v) {
-          const Real products[6] = {g[v].x * g[v].x, g[v].y * g[v].y, g[v].z * g[v].z,
-                                    g[v].y * g[v].z, g[v].x * g[v].z, g[v].x * g[v].y};
-          for (int c = 0; c < 6; ++c)
-            target(j + ((v >> 1) & 1), k + (v >> 2), c)[i + (v & 1)] += stiffness[i] * products[c];
+          Real *own = target(k, c) + first, *far = target(k + (upwards ? 1 : 0), c) + first + in_plane;
+          const Real* __restrict part = b + c * block;
+          for (std::ptrdiff_t i = 0; i < length; ++i) own[i] += part[i];
+          for (std::ptrdiff_t i = 0; i < length; ++i) far[i] += part[i];
         }
       }
     }
+    if (!s.volume_stiffness || k + 1 == layout.nodes[2]) continue;
+    const CellRows<Real> cell = cell_rows(layout, displacement, 0, k);
+    const Real* stiffness = s.volume_stiffness + layout.at(0, 0, k);
+    const Vec<Real> h = cell_edges(s);
+    for (std::ptrdiff_t i = 0; i < layout.row * (layout.nodes[1] - 1); ++i) {
+      Vec<Real> x[8], g[8];
+      cell_positions(cell, i, h, x);
+      volume_gradients(x, g);
+      for (int v = 0; v < 8; ++v) {
+        const Real products[6] = {g[v].x * g[v].x, g[v].y * g[v].y, g[v].z * g[v].z,
+                                  g[v].y * g[v].z, g[v].x * g[v].z, g[v].x * g[v].y};
+        for (int c = 0; c < 6; ++c)
+          target(k + (v >> 2), c)[i + (v & 1) + ((v >> 1) & 1) * layout.row] += stiffness[i] * products[c];
+      }
+    }
+  }
 }
 
 } // namespace

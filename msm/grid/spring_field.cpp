@@ -6,7 +6,16 @@ namespace msm::grid {
 
 namespace {
 
-constexpr int slab_planes = 8; ///< fixed, so that sums are the same on any number of threads
+/// Planes of nodes are dealt out in slabs of four or a little more: the same on any number of threads, so
+/// that sums are too, and an even number, so that two threads have the same to do.
+int slabs_of(int planes) {
+  return std::max(1, 2 * (planes / 8));
+}
+
+/// First plane of slab s of n.
+int first_plane(int s, int n, int planes) {
+  return static_cast<int>(std::ptrdiff_t{s} * planes / n);
+}
 
 struct Step {
   int dx, dy, dz;
@@ -51,42 +60,52 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
   bool has_volume = false;
   for (const CellSprings& cell : body.springs) has_volume = has_volume || cell.volume != 0;
   if (has_volume) {
-    std::vector<Real>& stiffness = arrays_.emplace_back(index(body.layout.size), Real(0));
+    Field<Real>& stiffness = arrays_.emplace_back(Field<Real>::Zero(body.layout.size));
     for (int k = 0; k < body.cells[2]; ++k)
       for (int j = 0; j < body.cells[1]; ++j)
         for (int i = 0; i < body.cells[0]; ++i)
-          stiffness[index(body.layout.at(i, j, k))] =
+          stiffness[body.layout.at(i, j, k)] =
               static_cast<Real>(body.cell(i, j, k).volume / body.spacing.prod());
     springs_.volume_stiffness = stiffness.data();
   }
-  spill_.assign(index(n_slabs()), std::vector<Real>(index(6 * body.layout.plane + 32)));
-  scratch_.assign(index(n_slabs()), std::vector<Real>(index(scratch_size(body.layout))));
+  spill_.assign(index(n_slabs()), Field<Real>::Zero(6 * body.layout.plane + body.layout.lead + 32));
+  scratch_.assign(index(n_slabs()), Field<Real>::Zero(scratch_size(body.layout)));
 }
 
 template<class Real>
 void SpringField<Real>::set_shares() {
   for (int s = 0; s < n_springs; ++s)
     springs_.stiffness[s] = static_cast<Real>(stiffness_along(body_.springs.front(), step_of(s)));
-  const Real** targets[3] = {springs_.share_x, springs_.share_y, springs_.share_z};
-  for (int axis = 0; axis < 3; ++axis)
-    for (int d = -1; d <= 1; ++d) {
-      const int n = springs_.layout.nodes[axis];
-      std::vector<Real>& share = arrays_.emplace_back(index(springs_.layout.row + n), Real(0));
-      for (int i = 0; i < n; ++i) {
-        const bool at_end = i == 0 || i == n - 1;
-        share[index(i)] = d == 0 ? Real(at_end ? 1 : 2) : Real(i + d >= 0 && i + d < n ? 1 : 0);
-      }
-      targets[axis][d + 1] = share.data();
-    }
+  const Layout& layout = springs_.layout;
+  const auto share_along = [&](int axis, int d, int i) {
+    const int n = layout.nodes[axis];
+    if (d == 0) return Real(i == 0 || i == n - 1 ? 1 : 2);
+    return Real(i + d >= 0 && i + d < n ? 1 : 0);
+  };
+  Field<Real>& share = arrays_.emplace_back(Field<Real>::Zero(9 * layout.plane));
+  Field<Real>& share_z = arrays_.emplace_back(3 * layout.nodes[2]);
+  for (int d = -1; d <= 1; ++d) {
+    for (int k = 0; k < layout.nodes[2]; ++k) share_z[3 * k + d + 1] = share_along(2, d, k);
+    for (int e = -1; e <= 1; ++e)
+      for (int j = 0; j < layout.nodes[1]; ++j)
+        for (int i = 0; i < layout.nodes[0]; ++i)
+          share[(3 * (e + 1) + d + 1) * layout.plane + i + layout.row * j] =
+              share_along(0, d, i) * share_along(1, e, j);
+  }
+  springs_.share = share.data();
+  springs_.share_z = share_z.data();
 }
 
 /// A spring gets what every cell with both its ends brings.
 template<class Real>
 void SpringField<Real>::set_by_node() {
   const Layout& layout = springs_.layout;
+  Field<Real>& stiffness =
+      arrays_.emplace_back(Field<Real>::Zero(n_springs * layout.nodes[2] * layout.plane));
+  springs_.by_node = stiffness.data();
   for (int s = 0; s < n_springs; ++s) {
+    springs_.stiffness[s] = 1;
     const Step step = step_of(s);
-    std::vector<Real>& stiffness = arrays_.emplace_back(index(layout.size), Real(0));
     const auto lowest = [](int d) { return d > 0 ? 0 : -1; }; // cells with both ends along an axis: these ...
     const auto highest = [](int d) { return d < 0 ? -1 : 0; }; // ... to these, counted from the node
     for (int k = 0; k < layout.nodes[2]; ++k)
@@ -97,16 +116,14 @@ void SpringField<Real>::set_by_node() {
             for (int b = lowest(step.dy); b <= highest(step.dy); ++b)
               for (int a = lowest(step.dx); a <= highest(step.dx); ++a)
                 sum += stiffness_along(body_.cell(i + a, j + b, k + c), step);
-          stiffness[index(layout.at(i, j, k))] = static_cast<Real>(sum);
+          stiffness[(n_springs * k + s) * layout.plane + i + layout.row * j] = static_cast<Real>(sum);
         }
-    springs_.stiffness[s] = 1;
-    springs_.by_node[s] = stiffness.data();
   }
 }
 
 template<class Real>
 int SpringField<Real>::n_slabs() const {
-  return (springs_.layout.nodes[2] + slab_planes - 1) / slab_planes;
+  return slabs_of(springs_.layout.nodes[2]);
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
@@ -119,15 +136,15 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
   {
 #pragma omp for schedule(static)
     for (int s = 0; s < n; ++s) {
-      // A row's first ghost lies before its plane: the spill has room for it.
-      const Slab<Real> slab{s * slab_planes, std::min((s + 1) * slab_planes, layout.nodes[2]),
+      const Slab<Real> slab{first_plane(s, n, layout.nodes[2]), first_plane(s + 1, n, layout.nodes[2]),
                             spill_[index(s)].data(), scratch_[index(s)].data()};
       run(slab);
     }
 #pragma omp for schedule(static)
     for (int s = 0; s < n - 1; ++s)
       for (int c = 0; c < components; ++c) {
-        Real* plane = result + c * layout.size + layout.at(0, 0, (s + 1) * slab_planes) - layout.at(0, 0, -1);
+        Real* plane = result + c * layout.size + layout.at(0, 0, first_plane(s + 1, n, layout.nodes[2])) -
+                      layout.at(0, 0, -1);
         const Real* spill = spill_[index(s)].data() + c * layout.plane;
         for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
       }
@@ -198,9 +215,8 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
 #pragma omp parallel for num_threads(n_threads_)                                                             \
     schedule(static) if (n_threads_ > 1 && springs_.layout.size > piece)
   for (int s = 0; s < n; ++s)
-    part[s] = kernels<Real>().energy(springs_, s * slab_planes,
-                                     std::min((s + 1) * slab_planes, springs_.layout.nodes[2]),
-                                     displacement.data());
+    part[s] = kernels<Real>().energy(springs_, first_plane(s, n, springs_.layout.nodes[2]),
+                                     first_plane(s + 1, n, springs_.layout.nodes[2]), displacement.data());
   double sum = 0;
   for (double value : part) sum += value;
   return sum;

@@ -2,6 +2,7 @@
 
 #include "msm/grid/field.hpp"
 
+#include <deque>
 #include <vector>
 
 namespace msm::grid {
@@ -30,8 +31,8 @@ class SpringField {
   const Body& body_;
   int n_threads_;
   Springs<Real> springs_;
-  std::vector<std::vector<Real>> arrays_; ///< what springs_ points to
-  mutable std::vector<std::vector<Real>> spill_, scratch_;
+  std::deque<Field<Real>> arrays_; ///< what springs_ points to
+  mutable std::vector<Field<Real>> spill_, scratch_;
 
   void set_shares();
   void set_by_node();
