@@ -84,6 +84,9 @@ cases::Solution Model::solve() {
   solution.newton_iterations = report.iterations;
   solution.linear_iterations = report.linear_iterations;
   solution.negative_eigenvalues = m.solver.negative_eigenvalues();
+  if (solution.negative_eigenvalues)
+    solution.outcome = *solution.negative_eigenvalues == 0 ? cases::Outcome::stable_equilibrium
+                                                           : cases::Outcome::unstable_equilibrium;
   for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
     if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
           0))

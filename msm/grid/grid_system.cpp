@@ -144,6 +144,27 @@ class GridSystem : public EquilibriumSystem {
     return n;
   }
 
+  bool moves_supports() const override { return bool(problem_.supports); }
+
+  void move_supports(Vector& displacement, double load_factor) const override {
+    if (!problem_.supports) return;
+    const Vector there = problem_.supports(load_factor);
+    for (const std::ptrdiff_t entry : problem_.body.still) displacement[entry] = there[entry];
+  }
+
+  double reaction(const Vector& displacement) override {
+    if (!loose_springs_) {
+      loose_body_ = problem_.body;
+      loose_body_.still.clear();
+      loose_springs_.emplace(loose_body_, n_threads_);
+    }
+    Vector force = Vector::Zero(displacement.size());
+    loose_springs_->force(displacement, force);
+    double squared = 0;
+    for (const std::ptrdiff_t entry : problem_.body.still) squared += force[entry] * force[entry];
+    return std::sqrt(squared);
+  }
+
   long linear_iterations() const override { return linear_iterations_; }
 
  private:
@@ -155,6 +176,8 @@ class GridSystem : public EquilibriumSystem {
   SpringField<double> springs_;
   std::deque<Body> bodies_;
   Multigrid multigrid_;
+  Body loose_body_; ///< the body with nothing held, for the forces on its supports
+  std::optional<SpringField<double>> loose_springs_;
   Vector linearised_at_, probe_, mode_at_;
   Mode mode_{};
   long linear_iterations_ = 0;
@@ -238,6 +261,13 @@ std::optional<GridProblem> make_grid_problem(const Problem& problem,
   });
   result.load = to_field(problem, body, problem.force);
   clear_still(body, result.load);
+  if (problem.supports) {
+    result.supports = [&problem, layout = body.layout](double load_factor) {
+      Body shape; // to_field() wants the layout alone
+      shape.layout = layout;
+      return to_field(problem, shape, problem.supports(load_factor));
+    };
+  }
   return result;
 }
 
@@ -248,7 +278,7 @@ std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, 
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   const std::array<bool, 3> axes = axes_to_coarsen(problem.body);
   if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
-  GridProblem coarse{coarsen(problem.body, axes), {}};
+  GridProblem coarse{coarsen(problem.body, axes), {}, {}};
   const Layout& layout = coarse.body.layout;
   if (layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
   const Transfer<double> transfer(problem.body, coarse.body, axes, n_threads);
