@@ -41,7 +41,7 @@ struct HardCase {
   int seed = 0;                                   ///< perturbed
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d of any sign in place of the design
   std::optional<Stiffer> stiffer;                 ///< springs only
-  int least_load_steps = 1;                       ///< of equal size or smaller; springs only
+  int least_load_steps = 1;                       ///< of equal size or smaller
   double max_seconds = 0;                         ///< of each solve
   int max_iterations = 0;                         ///< of Newton's method, of each solve
   std::vector<ExpectedOutcome> expected;          ///< one per side that is solved, at least one

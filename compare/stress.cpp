@@ -89,11 +89,14 @@ Side solve_hybrid(const cases::HardCase& hard_case, cases::Scene scene, int n_th
   return solve_springs(hard_case, scene, n_threads);
 }
 
-Side solve(cases::Side which, const cases::HardCase& hard_case, const cases::Scene& scene, int n_threads) {
+/// What makes no model is refused.
+Side solve(cases::Side which, const cases::HardCase& hard_case, int n_threads) {
   try {
+    const cases::Scene scene = cases::make_scene(hard_case.definition);
     if (which == cases::Side::fem)
-      return solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-                        [](fem_reference::Model& model) { return model.solve(); });
+      return solve_side(
+          [&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
+          [&](fem_reference::Model& model) { return model.solve(1.0 / hard_case.least_load_steps); });
     return which == cases::Side::msm ? solve_springs(hard_case, scene, n_threads)
                                      : solve_hybrid(hard_case, scene, n_threads);
   } catch (const cases::InputError& error) {
@@ -161,10 +164,9 @@ StressResult stress(const cases::HardCase& hard_case, int n_threads) {
   result.n_threads = n_threads;
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const cases::Scene scene = cases::make_scene(hard_case.definition);
   for (const cases::ExpectedOutcome& expected : hard_case.expected) {
     if (expected.side != cases::Side::fem && rank != 0) continue;
-    StressRow row{expected, solve(expected.side, hard_case, scene, n_threads), {}};
+    StressRow row{expected, solve(expected.side, hard_case, n_threads), {}};
     row.misses = misses(hard_case, expected, row.side);
     result.rows.push_back(std::move(row));
   }

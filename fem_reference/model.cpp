@@ -70,10 +70,10 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator)
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
-cases::Solution Model::solve() {
+cases::Solution Model::solve(double largest_load_step) {
   Implementation& m = *implementation_;
   State state = m.equilibrium.rest();
-  const NewtonReport report = carry_load(m.equilibrium, m.solver, state);
+  const NewtonReport report = carry_load(m.equilibrium, m.solver, state, largest_load_step);
   cases::Solution solution;
   solution.status = cases::Status::converged;
   solution.displacement = m.body_displacement(state);

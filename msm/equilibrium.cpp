@@ -109,6 +109,20 @@ class LoadPath {
     return step && line_search(system_, at, *step, imbalance, load_factor);
   }
 
+  /// Whether an imbalance is no larger than what the last digits of the displacement decide: no displacement
+  /// in double precision is in better balance. Supports that move without straining the body leave no
+  /// reaction to compare with.
+  bool is_rounding(const Vector& at, const Vector& imbalance, double load_factor) {
+    if (!system_.moves_supports() && !(relative_imbalance(system_, imbalance, at) < 1e-6)) return false;
+    Vector neighbour = at;
+    unsigned bits = 1;
+    for (double& entry : neighbour) {
+      bits = 1664525 * bits + 1013904223; // Numerical Recipes' generator: any signs will do
+      entry = std::nextafter(entry, (bits >> 31) != 0 ? INFINITY : -INFINITY);
+    }
+    return imbalance.norm() <= 4 * (system_.imbalance(neighbour, load_factor) - imbalance).norm();
+  }
+
   /// Newton at one load. On success `at` is in balance; otherwise it is of no use. The forcing is choice 2 of
   /// Eisenstat and Walker (1996), gamma = 0.9, alpha = 2, never tighter than what the tolerance asks for.
   bool newton(Vector& at, double load_factor, Convexity fallback) {
@@ -126,13 +140,16 @@ class LoadPath {
         const double ratio = norm / norm_before;
         forcing = std::min(0.1, 0.9 * ratio * ratio);
       }
+      // Close to the solution each step gains much. Where it does not, rounding may be all that is left.
+      if (norm_before > 0 && norm > 0.1 * norm_before && is_rounding(at, imbalance, load_factor)) return true;
       norm_before = norm;
       forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
       if (settings_.should_stop && settings_.should_stop()) give_up("it was stopped");
       if (result_.newton_iterations == settings_.max_newton_iterations)
         give_up("the limit on Newton iterations was reached");
       ++result_.newton_iterations;
-      if (!take_step(at, imbalance, forcing, load_factor, fallback)) return false;
+      if (!take_step(at, imbalance, forcing, load_factor, fallback))
+        return is_rounding(at, imbalance, load_factor);
     }
     return false;
   }
