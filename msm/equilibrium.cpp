@@ -22,6 +22,11 @@ class LoadPath {
     inverted_ = system_.n_inverted(now_);
     if (settings_.stability == Stability::require && start.isZero(0)) check_rest(start);
     double step = settings_.first_load_step;
+    if (!start.isZero(0)) {
+      leash_ = from_anywhere; // what is nearest need not be near
+      if (attempt(now_, std::min(1.0, step), Convexity::clamped)) step = settings_.largest_load_step;
+      leash_ = 1;
+    }
     if (step == 1 && settings_.guess && !system_.moves_supports())
       attempt(*settings_.guess, 1, Convexity::exact);
     for (int n = 0; result_.load_reached < 1; ++n) {
@@ -43,6 +48,7 @@ class LoadPath {
 
  private:
   static constexpr double small_step = 1.0 / 32;
+  static constexpr int from_anywhere = 10; ///< the leash of a start that is no equilibrium
 
   EquilibriumSystem& system_;
   const EquilibriumSettings& settings_;
@@ -50,6 +56,7 @@ class LoadPath {
   Vector now_, previous_;    ///< the last two equilibria on the path
   double previous_step_ = 0; ///< between their loads; 0: there is one alone
   int inverted_ = 0;         ///< cells, now
+  int leash_ = 1;            ///< how many times the usual number of iterations one load step may take
 
   Vector extrapolated(double target) const {
     if (!(previous_step_ > 0)) return now_;
@@ -128,8 +135,9 @@ class LoadPath {
   bool newton(Vector& at, double load_factor, Convexity fallback) {
     double forcing = 0.1, norm_before = 0;
     // Off a saddle the way is long and winds through a narrow valley of the potential.
-    const int max_iterations = settings_.max_newton_per_step * (fallback == Convexity::shifted ? 4 : 1);
-    const int allowed = result_.convexified_steps + settings_.max_convexified_per_step;
+    const int max_iterations =
+        settings_.max_newton_per_step * std::max(leash_, fallback == Convexity::shifted ? 4 : 1);
+    const int allowed = result_.convexified_steps + leash_ * settings_.max_convexified_per_step;
     for (int iteration = 0; iteration <= max_iterations; ++iteration) {
       const Vector imbalance = system_.imbalance(at, load_factor);
       const double norm = relative_imbalance(system_, imbalance, at);
