@@ -30,8 +30,4 @@ struct StressResult {
 /// @param n_threads  of the springs' multigrid path
 StressResult stress(const cases::HardCase& hard_case, int n_threads);
 
-/// What a row differs in from what the case expects and allows.
-std::vector<std::string> misses(const cases::HardCase& hard_case, const cases::ExpectedOutcome& expected,
-                                const Side& side);
-
 } // namespace compare
