@@ -52,6 +52,16 @@ struct Fixed {
   std::array<bool, 3> components{true, true, true};
 };
 
+/// A region that is moved by hand: at load factor s by s times a displacement, or turned by s times an angle.
+struct Moved {
+  Region region;
+  std::array<bool, 3> components{true, true, true};       ///< all three when it is turned
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero(); ///< mm at full load, on its components
+  double angle = 0;                                       ///< degrees at full load, about axis through centre
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();        ///< unit length
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
+};
+
 enum class LoadKind {
   nodal_force, ///< value N on every node of the region
   total_force, ///< value N, shared equally by the region's nodes
@@ -88,8 +98,17 @@ enum class LoadPath {
   simple_shear, ///< between two lattice axes
 };
 
+/// How the springs' equilibrium is looked for. All but the first are there to be compared with it.
+enum class Solver {
+  newton,        ///< Newton's method with load steps
+  force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
+  fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
+  lbfgs          ///< limited-memory quasi-Newton
+};
+
 struct Msm {
   Design design = Design::linear_method;
+  Solver solver = Solver::newton;
   std::optional<double> poissons_ratio;           ///< design from another nu than the material's
   std::optional<double> split;                    ///< t of the moduli, hybrid and multi_load designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
@@ -97,7 +116,7 @@ struct Msm {
   std::vector<LoadPath> paths;                    ///< multi_load; empty: all
   std::vector<double> weights;                    ///< multi_load; one per path, >= 0; empty: all 1
   std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
-  bool has_volume_term = true;                    ///< multi_load: springs and k_v, or springs alone
+  bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
   Where where;
 };
 
@@ -146,7 +165,8 @@ struct Case {
   Material material;
   std::vector<Fixed> fixed;
   std::vector<Fixed> symmetry; ///< region = a face of a box, components = its normal alone
-  std::vector<Load> loads;
+  std::vector<Moved> moved;
+  std::vector<Load> loads; ///< may be empty when something is moved
   Fem fem;
   Msm msm;
   std::vector<Measure> measures;

@@ -2,6 +2,7 @@
 
 #include "cases/outcome.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -31,20 +32,32 @@ class InputError : public std::runtime_error {
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {
  public:
+  /// What is known besides, of the last equilibrium that was found.
+  struct Progress {
+    int newton_iterations = 0; ///< in all
+    std::optional<double> lowest_eigenvalue = std::nullopt;
+    int inverted_cells = 0;
+  };
   /// @param load_reached  fraction of the load in equilibrium when the solver gave up, 0 to 1
   /// @param residual      |imbalance on free degrees of freedom| / |applied load| when it gave up
   /// @param outcome       what the solver found to be the cause
   SolveError(const std::string& reason, double load_reached, double residual,
              Outcome outcome = Outcome::unknown)
-      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual), outcome_(outcome) {}
+      : SolveError(reason, load_reached, residual, outcome, Progress{}) {}
+  SolveError(const std::string& reason, double load_reached, double residual, Outcome outcome,
+             const Progress& progress)
+      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual), outcome_(outcome),
+        progress_(progress) {}
   double load_reached() const { return load_reached_; }
   double residual() const { return residual_; }
   Outcome outcome() const { return outcome_; }
+  const Progress& progress() const { return progress_; }
 
  private:
   double load_reached_;
   double residual_;
   Outcome outcome_;
+  Progress progress_;
 };
 
 } // namespace cases

@@ -1,5 +1,7 @@
 #include "cases/names.hpp"
 
+#include "cases/hard_case.hpp"
+
 #include <algorithm>
 
 namespace cases {
@@ -51,6 +53,16 @@ const NameTable<LoadPath>& names() {
                                          {LoadPath::simple_shear, "simple_shear"}};
   return table;
 }
+
+template<>
+const NameTable<Solver>& names() {
+  static const NameTable<Solver> table{{Solver::newton, "newton"},
+                                       {Solver::force_scaling, "force_scaling"},
+                                       {Solver::fire, "fire"},
+                                       {Solver::lbfgs, "lbfgs"}};
+  return table;
+}
+
 template<>
 const NameTable<MeasureKind>& names() {
   static const NameTable<MeasureKind> table{{MeasureKind::coordinate, "coordinate"},
@@ -97,6 +109,30 @@ template<>
 const NameTable<Status>& names() {
   static const NameTable<Status> table{
       {Status::converged, "converged"}, {Status::failed, "failed"}, {Status::skipped, "skipped"}};
+  return table;
+}
+
+template<>
+const NameTable<Outcome>& names() {
+  static const NameTable<Outcome> table{{Outcome::unknown, "unknown"},
+                                        {Outcome::stable_equilibrium, "stable equilibrium"},
+                                        {Outcome::unstable_equilibrium, "unstable equilibrium"},
+                                        {Outcome::limit_point, "limit point"},
+                                        {Outcome::mechanism, "mechanism"},
+                                        {Outcome::refused, "refused"}};
+  return table;
+}
+
+template<>
+const NameTable<Side>& names() {
+  static const NameTable<Side> table{{Side::msm, "msm"}, {Side::hybrid, "hybrid"}, {Side::fem, "fem"}};
+  return table;
+}
+
+template<>
+const NameTable<Start>& names() {
+  static const NameTable<Start> table{
+      {Start::rest, "rest"}, {Start::perturbed, "perturbed"}, {Start::inverted, "inverted"}};
   return table;
 }
 

@@ -30,6 +30,8 @@ const NameTable<Design>& names();
 template<>
 const NameTable<LoadPath>& names();
 template<>
+const NameTable<Solver>& names();
+template<>
 const NameTable<MeasureKind>& names();
 template<>
 const NameTable<Axis>& names();
@@ -41,6 +43,8 @@ template<>
 const NameTable<Quantity>& names();
 template<>
 const NameTable<Status>& names();
+template<>
+const NameTable<Outcome>& names();
 
 /// Name of an enumerator; every enumerator has one.
 template<class Enum>

@@ -119,6 +119,32 @@ Fixed read_symmetry(Table& table, const Body&) {
   return fixed;
 }
 
+Moved read_moved(Table& table, const Body& body) {
+  Moved moved;
+  moved.region = read_region(table, body);
+  const bool is_turned = table.has("angle");
+  for (const char* key : {"displacement", "components"})
+    if (is_turned && table.has(key))
+      table.entry(key).refuse("left out beside angle: a region is shifted or turned, not both");
+  for (const char* key : {"axis", "centre"})
+    if (!is_turned && table.has(key)) table.entry(key).refuse("left out without angle");
+  if (is_turned) {
+    moved.angle = table.required(
+        "angle", Number{"a number other than 0 (degrees)", [](double angle) { return angle != 0; }});
+    moved.axis = table.required("axis", read_direction);
+    moved.centre = table.required("centre", Vector{"a point of three finite numbers (mm)"});
+  } else {
+    moved.components = table.optional("components", read_components).value_or(moved.components);
+    const Entry entry = table.entry("displacement");
+    moved.displacement = Vector{"three finite numbers (mm), or angle, axis and centre in its place"}(entry);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!moved.components[a] && moved.displacement[static_cast<int>(a)] != 0)
+        entry.refuse("0 in the components that are not moved");
+    table.optional("angle", read_text); // known, though absent
+  }
+  return moved;
+}
+
 Load read_load(Table& table, const Body& body) {
   Load load;
   load.region = read_region(table, body);

@@ -127,8 +127,11 @@ void read_boundary(Table& root, Case& result) {
         throw InputError(result.symmetry[i].region.where,
                          fmt::format("is \"{}\", must be another plane than symmetry[{}]",
                                      result.symmetry[i].region.name, j));
+  result.moved = root.sections("moved", [&](Table& table) { return read_moved(table, result.body); });
   result.loads = root.sections("load", [&](Table& table) { return read_load(table, result.body); });
-  if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]]");
+  const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
+  if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
+  if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
   if (std::all_of(result.loads.begin(), result.loads.end(), is_zero)) {
     Table first(root.entry("load").elements("tables").front(), "a table");
     first.entry("value").refuse("other than 0, here or in another [[load]]: nothing would move");
@@ -150,13 +153,13 @@ void read_measures(Table& root, Case& result) {
       root.sections("expect", [&](Table& table) { return read_expectation(table, result.measures); });
 }
 
-} // namespace
-
-Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+toml::table parse_file(const std::string& path, const std::vector<std::string>& overrides) {
   toml::table document = parse_file(path);
   for (const std::string& setting : overrides) apply_override(document, setting);
+  return document;
+}
 
-  Table root({&document, Where{path, 1, 1, ""}}, "a table");
+Case read_definition(Table& root, const std::string& path) {
   Case result;
   result.file = path;
   root.required("schema", WholeNumber{"1, the version of the format that this program reads", 1, 1});
@@ -169,6 +172,30 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
       "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
   result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result.material); });
   read_measures(root, result);
+  return result;
+}
+
+} // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  const toml::table document = parse_file(path, overrides);
+  Table root({&document, Where{path, 1, 1, ""}}, "a table");
+  if (root.has("stress"))
+    root.entry("stress").refuse("left out: this is a hard case, for the command stress alone");
+  Case result = read_definition(root, path);
+  root.refuse_unknown_keys();
+  return result;
+}
+
+HardCase read_hard_case(const std::string& path, const std::vector<std::string>& overrides) {
+  const toml::table document = parse_file(path, overrides);
+  Table root({&document, Where{path, 1, 1, ""}}, "a table");
+  HardCase result;
+  result.definition = read_definition(root, path);
+  root.section("stress", [&](Table& table) {
+    read_stress(table, result);
+    return 0;
+  });
   root.refuse_unknown_keys();
   return result;
 }

@@ -177,6 +177,7 @@ Msm read_msm(Table& table, const Material& material) {
   refuse_unless(is_given, table, "stiffness", "it" + belongs + "\"given\"");
   refuse_unless(is_given, table, "volume_stiffness", "it" + belongs + "\"given\"");
 
+  msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   msm.split =

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/hard_case.hpp"
 #include "cases/toml_table.hpp"
 
 /// The readers of a case file's sections, which read_case() puts together. Each checks what it reads.
@@ -15,10 +15,14 @@ int n_box_faces(const Region& region);
 
 Fixed read_fixed(Table& table, const Body& body);
 Fixed read_symmetry(Table& table, const Body& body);
+Moved read_moved(Table& table, const Body& body);
 Load read_load(Table& table, const Body& body);
 
 Fem read_fem(Table& table, const Material& material, const Body& body);
 Msm read_msm(Table& table, const Material& material);
+
+/// [stress] of a hard case, into everything but its definition.
+void read_stress(Table& table, HardCase& result);
 
 Measure read_measure(Table& table, const Body& body);
 Expectation read_expectation(Table& table, const std::vector<Measure>& measures);

@@ -117,6 +117,22 @@ void check_measure(const HexMesh& mesh, const Measure& measure) {
   }
 }
 
+/// A degree of freedom is held once: a node that one region holds and another moves has no place to go.
+void check_motions(const Scene& scene) {
+  std::vector<bool> is_taken(3 * scene.mesh.nodes.size(), false);
+  const std::size_t n_resting = scene.fixed.size() - scene.moved.size();
+  for (std::size_t f = 0; f < scene.fixed.size(); ++f)
+    for (const int node : scene.fixed[f].selection.nodes)
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (!scene.fixed[f].components[a]) continue;
+        const std::size_t d = 3 * index(node) + a;
+        if (f >= n_resting && is_taken[d])
+          throw InputError(scene.moved[f - n_resting].motion.region.where,
+                           "shares nodes with another region that is held or moved in the same component");
+        is_taken[d] = true;
+      }
+}
+
 void resolve_loads(Scene& scene) {
   for (const Load& load : scene.definition.loads) {
     Selection selection = select(scene.mesh, load.region);
@@ -170,9 +186,21 @@ Scene make_scene(const Case& definition) {
   for (const auto* list : {&definition.fixed, &definition.symmetry})
     for (const Fixed& fixed : *list)
       scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});
+  for (const Moved& motion : definition.moved) {
+    scene.moved.push_back({select(scene.mesh, motion.region), motion});
+    scene.fixed.push_back({scene.moved.back().selection, motion.components});
+  }
+  check_motions(scene);
   resolve_loads(scene);
   for (const Measure& measure : definition.measures) check_measure(scene.mesh, measure);
   return scene;
+}
+
+Vector3d moved_by(const Moved& motion, const Vector3d& rest, double load_factor) {
+  if (motion.angle == 0) return load_factor * motion.displacement;
+  const double angle = load_factor * motion.angle * std::acos(-1.0) / 180;
+  const Vector3d arm = rest - motion.centre;
+  return Eigen::AngleAxisd(angle, motion.axis) * arm - arm;
 }
 
 Scene refine(const Scene& scene, int n) {
@@ -183,6 +211,10 @@ Scene refine(const Scene& scene, int n) {
   for (const auto* list : {&scene.definition.fixed, &scene.definition.symmetry})
     for (const Fixed& fixed : *list)
       fine.fixed.push_back({select(fine.mesh, fixed.region), fixed.components});
+  for (const Moved& motion : scene.definition.moved) {
+    fine.moved.push_back({select(fine.mesh, motion.region), motion});
+    fine.fixed.push_back({fine.moved.back().selection, motion.components});
+  }
   for (const Scene::AppliedLoad& applied : scene.loads) {
     const bool stays = applied.load.kind == LoadKind::nodal_force || applied.load.region.near;
     fine.loads.push_back({stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load});

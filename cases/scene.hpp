@@ -11,13 +11,18 @@ struct Scene {
     Selection selection;
     std::array<bool, 3> components;
   };
+  struct MovedNodes {
+    Selection selection;
+    Moved motion;
+  };
   struct AppliedLoad {
     Selection selection;
     Load load;
   };
   Case definition;
   HexMesh mesh;
-  std::vector<FixedNodes> fixed; ///< [[fixed]] and [[symmetry]] alike
+  std::vector<FixedNodes> fixed; ///< [[fixed]], [[symmetry]] and [[moved]] alike: what is no unknown
+  std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
 };
 
@@ -37,6 +42,10 @@ Scene refine(const Scene& scene, int n);
 
 /// Whether degree of freedom 3*node + component is held, for every node of the mesh.
 std::vector<bool> fixed_degrees_of_freedom(const Scene& scene);
+
+/// Where a motion has brought a point of rest position `rest` (mm) at a load factor: its displacement, mm; 0
+/// on components that the motion leaves alone.
+Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
 /// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries
 /// the modelled part alone: half, a quarter, an eighth), tractions and torques integrated with bilinear shape

@@ -24,10 +24,12 @@ struct Solution {
   double load_reached = 0;                   ///< 0 to 1
   int newton_iterations = 0;
   long linear_iterations = 0;
+  long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations
   std::optional<double>
-      lowest_eigenvalue;  ///< of the tangent on the free degrees of freedom, N/mm, when asked for
-  std::optional<int> negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
-  int inverted_cells = 0; ///< cells with a corner Jacobian <= 0
+      lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  std::optional<int>
+      negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
+  int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
 };
 
 } // namespace cases

@@ -77,6 +77,12 @@ std::string read_text(const Entry& entry) {
   return *text;
 }
 
+bool read_truth(const Entry& entry) {
+  const auto value = entry.node ? entry.node->value_exact<bool>() : std::nullopt;
+  if (!value) entry.refuse("true or false");
+  return *value;
+}
+
 double Number::operator()(const Entry& entry) const {
   const auto value = finite_number(entry.node);
   if (!value || !condition(*value)) entry.refuse(allowed);

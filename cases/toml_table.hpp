@@ -55,6 +55,9 @@ struct Number {
   double operator()(const Entry& entry) const;
 };
 
+/// true or false.
+bool read_truth(const Entry& entry);
+
 /// An array of finite numbers, `count` of them, or one and more when count is 0.
 struct Numbers {
   std::string allowed;

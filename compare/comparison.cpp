@@ -2,50 +2,16 @@
 
 #include "compare/design.hpp"
 #include "compare/measure.hpp"
+#include "compare/solve_side.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 
 namespace compare {
 
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> elapsed = now - std::exchange(start_, now);
-    return elapsed.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Builds a model and solves it; both sides have the same two steps.
-template<class MakeModel>
-Side solve_side(const MakeModel& make_model) {
-  Side side;
-  Stopwatch stopwatch;
-  try {
-    auto model = make_model();
-    side.setup_seconds = stopwatch.lap();
-    side.solution = model.solve();
-  } catch (const cases::SolveError& error) {
-    side.solution = {};
-    side.solution.status = cases::Status::failed;
-    side.solution.message = error.what();
-    side.solution.outcome = error.outcome();
-    side.solution.load_reached = error.load_reached();
-    side.solution.residual = error.residual();
-  }
-  side.solve_seconds = stopwatch.lap();
-  return side;
-}
 
 std::optional<double> value_on(const cases::Measure& measure, const cases::Scene& scene, const Side& side) {
   if (side.solution.status != cases::Status::converged) return std::nullopt;
@@ -109,12 +75,15 @@ Comparison compare_case(const cases::Case& definition, Only only) {
   Comparison comparison;
   comparison.scene = cases::make_scene(definition);
   if (only != Only::msm)
-    comparison.fem = solve_side([&] { return fem_reference::Model(comparison.scene, MPI_COMM_WORLD); });
+    comparison.fem = solve_side([&] { return fem_reference::Model(comparison.scene, MPI_COMM_WORLD); },
+                                [](fem_reference::Model& model) { return model.solve(); });
   if (only != Only::fem && rank() == 0)
-    comparison.msm = solve_side([&] {
-      comparison.design = design_for(comparison.scene);
-      return msm::Model(comparison.scene, stiffness_of_cells(*comparison.design));
-    });
+    comparison.msm = solve_side(
+        [&] {
+          comparison.design = design_for(comparison.scene);
+          return msm::Model(comparison.scene, stiffness_of_cells(*comparison.design));
+        },
+        [](msm::Model& model) { return model.solve(); });
   comparison.measures = measure_all(comparison);
   for (const cases::Expectation& expectation : definition.expectations)
     comparison.judgements.push_back(judge(expectation, comparison.measures));

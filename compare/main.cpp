@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   compare::add_run_command(program, chosen);
   compare::add_design_command(program, chosen);
   compare::add_eigen_command(program, chosen);
+  compare::add_stress_command(program, chosen);
   compare::add_tables_command(program, chosen);
   try {
     program.parse(argc, argv);

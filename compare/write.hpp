@@ -23,6 +23,12 @@ void write_text(std::ostream& out, const Peer& peer);
 
 nlohmann::ordered_json to_json(const Peer& peer);
 
+/// What every document of results begins with: schema, program and machine.
+nlohmann::ordered_json provenance();
+
+/// The solution of one side and what it took.
+nlohmann::ordered_json side_to_json(const Side& side);
+
 /// The document of `run --json`: schema, program, machine and the cases. Keys stay in the order written.
 nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
 

@@ -17,21 +17,6 @@ Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json side_to_json(const Side& side) {
-  const cases::Solution& s = side.solution;
-  return {{"status", cases::name_of(s.status)},
-          {"message", s.message},
-          {"unknowns", s.unknowns},
-          {"residual", s.residual},
-          {"load_reached", s.load_reached},
-          {"newton_iterations", s.newton_iterations},
-          {"linear_iterations", s.linear_iterations},
-          {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
-          {"negative_eigenvalues", or_null(s.negative_eigenvalues)},
-          {"inverted_cells", s.inverted_cells},
-          {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
-}
-
 Json fem_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.fem);
   if (comparison.mesh_study) add_mesh_study(side, *comparison.mesh_study);
@@ -82,10 +67,24 @@ Json comparison_to_json(const Comparison& comparison) {
 
 } // namespace
 
-Json to_json(const std::vector<Comparison>& comparisons) {
+Json side_to_json(const Side& side) {
+  const cases::Solution& s = side.solution;
+  return {{"status", cases::name_of(s.status)},
+          {"message", s.message},
+          {"unknowns", s.unknowns},
+          {"residual", s.residual},
+          {"load_reached", s.load_reached},
+          {"newton_iterations", s.newton_iterations},
+          {"linear_iterations", s.linear_iterations},
+          {"relaxation_iterations", s.relaxation_iterations},
+          {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
+          {"negative_eigenvalues", or_null(s.negative_eigenvalues)},
+          {"inverted_cells", s.inverted_cells},
+          {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
+}
+
+Json provenance() {
   const Machine machine = describe_machine();
-  Json cases = Json::array();
-  for (const Comparison& comparison : comparisons) cases.push_back(comparison_to_json(comparison));
   return {{"schema", 1},
           {"program", {{"version", program_version()}, {"commit", program_commit()}}},
           {"machine",
@@ -93,8 +92,15 @@ Json to_json(const std::vector<Comparison>& comparisons) {
             {"cores", machine.cores},
             {"system", machine.system},
             {"compiler", machine.compiler},
-            {"blas", machine.blas}}},
-          {"cases", cases}};
+            {"blas", machine.blas}}}};
+}
+
+Json to_json(const std::vector<Comparison>& comparisons) {
+  Json document = provenance();
+  document["cases"] = Json::array();
+  for (const Comparison& comparison : comparisons)
+    document["cases"].push_back(comparison_to_json(comparison));
+  return document;
 }
 
 } // namespace compare

@@ -21,8 +21,10 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
     fmt::print(out, " at {:.4g} of the load: {}\n", s.load_reached, s.message);
     return;
   }
-  fmt::print(out, ", {} unknowns, {} Newton iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s",
-             s.unknowns, s.newton_iterations, s.residual, side.setup_seconds, side.solve_seconds);
+  const bool is_relaxed = s.relaxation_iterations > 0;
+  fmt::print(out, ", {} unknowns, {} {} iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s",
+             s.unknowns, is_relaxed ? s.relaxation_iterations : s.newton_iterations,
+             is_relaxed ? "explicit" : "Newton", s.residual, side.setup_seconds, side.solve_seconds);
   if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
   if (s.negative_eigenvalues.value_or(0) > 0)
     fmt::print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);

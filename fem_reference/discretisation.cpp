@@ -66,7 +66,6 @@ struct SelectedParts {
 
 /// deal.II's objects, alive only while the plain arrays are filled.
 struct DiscretisationBuilder {
-  using Cell = dealii::DoFHandler<3>::active_cell_iterator;
 
   DiscretisationBuilder(Discretisation& target, const cases::Scene& scene);
   void create_mesh();
@@ -74,7 +73,8 @@ struct DiscretisationBuilder {
   void compute_geometry();
   void add_pressure_modes();
   void apply_fixed_regions(const Prescribed& prescribed);
-  void fix(const Cell& cell, const SelectedParts& parts, const std::array<bool, 3>& components);
+  template<class Action>
+  void visit(const cases::Selection& selection, const Action& action) const;
   void create_tangent();
   void add_point_forces();
   void add_tractions();
@@ -200,35 +200,42 @@ void DiscretisationBuilder::add_pressure_modes() {
   }
 }
 
-void DiscretisationBuilder::fix(const Cell& cell, const SelectedParts& parts,
-                                const std::array<bool, 3>& components) {
-  const auto add = [&](dealii::types::global_dof_index dof, unsigned component) {
-    if (components[component]) constraints.add_line(dof);
-  };
-  for (unsigned c = 0; c < 3; ++c) {
-    for (unsigned v = 0; v < 8; ++v)
-      if (parts.vertices.count(static_cast<int>(cell->vertex_index(v))) != 0)
-        add(cell->vertex_dof_index(v, c), c);
-    if (out.element.degree == 1) continue;
-    for (unsigned l = 0; l < 12; ++l) {
-      const auto line = cell->line(l);
-      if (parts.edges.count(sorted_vertices<2>(line)) != 0) add(line->dof_index(c), c);
-    }
-    for (unsigned f = 0; f < 6; ++f) {
-      const auto face = cell->quad(f);
-      if (parts.faces.count(sorted_vertices<4>(face)) != 0) add(face->dof_index(c), c);
+/// Calls action(degree of freedom, component) for those on a selection's vertices, edges and faces; some
+/// several times.
+template<class Action>
+void DiscretisationBuilder::visit(const cases::Selection& selection, const Action& action) const {
+  const SelectedParts parts(selection);
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    if (cell->is_artificial()) continue;
+    for (unsigned c = 0; c < 3; ++c) {
+      for (unsigned v = 0; v < 8; ++v)
+        if (parts.vertices.count(static_cast<int>(cell->vertex_index(v))) != 0)
+          action(cell->vertex_dof_index(v, c), c);
+      if (out.element.degree == 1) continue;
+      for (unsigned l = 0; l < 12; ++l) {
+        const auto line = cell->line(l);
+        if (parts.edges.count(sorted_vertices<2>(line)) != 0) action(line->dof_index(c), c);
+      }
+      for (unsigned f = 0; f < 6; ++f) {
+        const auto face = cell->quad(f);
+        if (parts.faces.count(sorted_vertices<4>(face)) != 0) action(face->dof_index(c), c);
+      }
     }
   }
 }
 
 void DiscretisationBuilder::apply_fixed_regions(const Prescribed& prescribed) {
   constraints.reinit(relevant);
-  for (const auto& fixed : scene.fixed) {
-    const SelectedParts parts(fixed.selection);
-    for (const auto& cell : dofs.active_cell_iterators())
-      if (!cell->is_artificial()) fix(cell, parts, fixed.components);
-  }
+  for (const auto& fixed : scene.fixed)
+    visit(fixed.selection, [&](dealii::types::global_dof_index dof, unsigned component) {
+      if (fixed.components[component]) constraints.add_line(dof);
+    });
   constraints.close();
+  for (const auto& [selection, motion] : scene.moved) {
+    std::set<int> nodes;
+    visit(selection, [&](dealii::types::global_dof_index dof, unsigned) { nodes.insert(local_node(dof)); });
+    for (const int node : nodes) out.moved.emplace_back(node, motion);
+  }
   long free = 0;
   out.is_fixed.assign(3 * out.node_point.size(), 0);
   out.prescribed.assign(3 * out.node_point.size(), 0);
@@ -361,6 +368,16 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& the
 }
 
 Discretisation::~Discretisation() = default;
+
+void Discretisation::prescribe(double load_factor, std::vector<double>& displacement) const {
+  displacement.resize(prescribed.size());
+  for (std::size_t i = 0; i < prescribed.size(); ++i) displacement[i] = load_factor * prescribed[i];
+  for (const auto& [node, motion] : moved) {
+    const Vector3d value = cases::moved_by(motion, node_point[index(node)], load_factor);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (motion.components[c]) displacement[3 * index(node) + c] = value[static_cast<Eigen::Index>(c)];
+  }
+}
 
 CellGeometry Discretisation::geometry(int cell) const {
   const auto c = index(cell), points = index(points_per_cell), nodes = index(nodes_per_cell);

@@ -49,12 +49,15 @@ class Discretisation {
   std::vector<int> mesh_cell;        ///< number of each cell in the scene's mesh
   std::vector<int> mesh_node;        ///< number of each local node in the scene's mesh, -1 where it has none
   std::vector<char> is_fixed;        ///< per local degree of freedom
-  std::vector<double> prescribed;    ///< mm, per local degree of freedom, 0 where free
-  std::vector<Eigen::Vector3d> node_point; ///< rest position of each local node, mm
+  std::vector<double> prescribed;    ///< mm at full load, per local degree of freedom; 0 where free or moved
+  std::vector<std::pair<int, cases::Moved>> moved; ///< local nodes that the scene moves, and how
+  std::vector<Eigen::Vector3d> node_point;         ///< rest position of each local node, mm
   std::vector<double> load; ///< N per owned degree of freedom: point forces, tractions, torques, body force
   std::vector<double> shape_values; ///< N_a at point q: [q*nodes_per_cell + a]
   Mat tangent = nullptr;            ///< assembled by others
 
+  /// Where a load factor asks the fixed degrees of freedom to be: mm, one per local degree of freedom.
+  void prescribe(double load_factor, std::vector<double>& displacement) const;
   CellGeometry geometry(int cell) const;
   /// Rest position of a quadrature point, mm.
   Eigen::Vector3d quadrature_point(int cell, int point) const;

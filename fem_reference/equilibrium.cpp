@@ -109,10 +109,9 @@ void Equilibrium::begin_assembly(const State& state, double load_factor) {
   std::fill(local_condensed_.begin(), local_condensed_.end(), 0.);
   largest_mismatch_ = 0;
   const LocalValues displacement(state.displacement.get());
+  discretisation_.prescribe(load_factor, prescribed_gap_);
   for (std::size_t i = 0; i < prescribed_gap_.size(); ++i)
-    prescribed_gap_[i] = discretisation_.is_fixed[i]
-                             ? load_factor * discretisation_.prescribed[i] - displacement.data()[i]
-                             : 0;
+    prescribed_gap_[i] = discretisation_.is_fixed[i] ? prescribed_gap_[i] - displacement.data()[i] : 0;
 }
 
 bool Equilibrium::add_cell(int cell, const double* displacement, const State& state, Wanted wanted) {

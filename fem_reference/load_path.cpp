@@ -114,9 +114,9 @@ NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state
   return report;
 }
 
-NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state) {
+NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state, double largest_step) {
   State reached_state = equilibrium.rest(), increment = equilibrium.rest();
-  double reached = 0, step = 1, last_step = 0;
+  double reached = 0, step = largest_step, last_step = 0;
   NewtonReport whole;
   while (reached < 1) {
     step = std::min(step, 1 - reached);
@@ -134,14 +134,14 @@ NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& s
       equilibrium.copy(state, reached_state);
       last_step = target - reached;
       reached = target;
-      if (report.iterations <= easy_iterations) step *= 2;
+      if (report.iterations <= easy_iterations) step = std::min(2 * step, largest_step);
     } else {
       step = (target - reached) / 2;
     }
     if (step < smallest_step || whole.iterations > most_total_iterations)
       throw cases::SolveError("equilibrium lost at load factor " + std::to_string(reached) + ": " +
                                   report.failure,
-                              reached, report.residual);
+                              reached, report.residual, cases::Outcome::unknown, {whole.iterations});
   }
   whole.converged = true;
   return whole;

@@ -22,9 +22,11 @@ struct NewtonReport {
 /// than a fixed number of iterations.
 NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state, double load_factor);
 
-/// From rest to the full load. The first step is the whole load; a step that fails is halved, one that
+/// From rest to the full load. The first step is the largest allowed; a step that fails is halved, one that
 /// converges easily is doubled, and a step starts from the last increment extrapolated.
+/// @param largest_step  of the full load
 /// @throws SolveError when the step gets too small or the iterations too many
-NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state);
+NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state,
+                        double largest_step = 1);
 
 } // namespace fem_reference

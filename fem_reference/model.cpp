@@ -70,10 +70,10 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator)
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
-cases::Solution Model::solve() {
+cases::Solution Model::solve(double largest_load_step) {
   Implementation& m = *implementation_;
   State state = m.equilibrium.rest();
-  const NewtonReport report = carry_load(m.equilibrium, m.solver, state);
+  const NewtonReport report = carry_load(m.equilibrium, m.solver, state, largest_load_step);
   cases::Solution solution;
   solution.status = cases::Status::converged;
   solution.displacement = m.body_displacement(state);
@@ -84,6 +84,9 @@ cases::Solution Model::solve() {
   solution.newton_iterations = report.iterations;
   solution.linear_iterations = report.linear_iterations;
   solution.negative_eigenvalues = m.solver.negative_eigenvalues();
+  if (solution.negative_eigenvalues)
+    solution.outcome = *solution.negative_eigenvalues == 0 ? cases::Outcome::stable_equilibrium
+                                                           : cases::Outcome::unstable_equilibrium;
   for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
     if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
           0))

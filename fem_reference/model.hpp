@@ -19,8 +19,9 @@ class Model {
   Model(Model&&) noexcept;
 
   /// Static equilibrium under the scene's loads, from rest.
+  /// @param largest_load_step  of the full load; small steps follow a path that a large one would leave
   /// @throws SolveError with the load factor reached when the load cannot be carried
-  cases::Solution solve();
+  cases::Solution solve(double largest_load_step = 1);
 
  private:
   struct Implementation;

@@ -45,7 +45,7 @@ class DirectSystem : public EquilibriumSystem {
  public:
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_fixed),
-        load_(to_vector(problem, problem.force)) {
+        load_(on_free(to_vector(problem, problem.force))) {
     factorisation_.analyzePattern(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
 
@@ -53,7 +53,7 @@ class DirectSystem : public EquilibriumSystem {
 
   Vector imbalance(const Vector& displacement, double load_factor) override {
     return load_factor * load_ +
-           to_vector(problem_, internal_force(problem_.lattice, positions(displacement)));
+           on_free(to_vector(problem_, internal_force(problem_.lattice, positions(displacement))));
   }
 
   double potential(const Vector& displacement, double load_factor) override {
@@ -67,7 +67,7 @@ class DirectSystem : public EquilibriumSystem {
     const double shift =
         convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
     if (!factorise(displacement, term, shift)) return std::nullopt;
-    Vector step = factorisation_.solve(imbalance);
+    const Vector step = with_supports(factorisation_.solve(imbalance.head(tangent_.n_free())));
     if (!step.allFinite() || !(step.dot(imbalance) > 0)) return std::nullopt;
     return step;
   }
@@ -83,11 +83,11 @@ class DirectSystem : public EquilibriumSystem {
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
     const auto apply = [&](const Vector& v) -> Vector { return factorisation_.solve(v); };
     LargestMode mode = largest_mode(apply, tangent_.n_free());
-    return {1 / mode.eigenvalue - shift, std::move(mode.shape)};
+    return {1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
 
   bool is_mechanism() override {
-    const Vector rest = Vector::Zero(tangent_.n_free());
+    const Vector rest = Vector::Zero(load_.size());
     if (factorise(rest, TransverseTerm::exact, 0))
       return !(factorisation_.smallest_pivot_ratio(diagonal_) > rounding);
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
@@ -102,6 +102,22 @@ class DirectSystem : public EquilibriumSystem {
     return n;
   }
 
+  bool moves_supports() const override { return bool(problem_.supports); }
+
+  void move_supports(Vector& displacement, double load_factor) const override {
+    if (!problem_.supports) return;
+    const Vector there = to_vector(problem_, problem_.supports(load_factor));
+    displacement.tail(there.size() - tangent_.n_free()) = there.tail(there.size() - tangent_.n_free());
+  }
+
+  double reaction(const Vector& displacement) override {
+    const Points force = internal_force(problem_.lattice, positions(displacement));
+    double squared = 0;
+    for (std::size_t d = 0; d < problem_.is_fixed.size(); ++d)
+      if (problem_.is_fixed[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
+    return std::sqrt(squared);
+  }
+
  private:
   static constexpr double rounding = 1e-12; ///< far above 1e-16, far below 1e-8, the least honest pivot seen
 
@@ -113,6 +129,18 @@ class DirectSystem : public EquilibriumSystem {
   TransverseTerm factorised_term_{};
   double factorised_shift_ = 0;
   bool is_definite_ = false;
+
+  /// A vector of forces: 0 on supports.
+  Vector on_free(Vector all) const {
+    all.tail(all.size() - tangent_.n_free()).setZero();
+    return all;
+  }
+  /// A vector of the free degrees of freedom, and 0 on supports.
+  Vector with_supports(const Vector& free) const {
+    Vector all = Vector::Zero(load_.size());
+    all.head(free.size()) = free;
+    return all;
+  }
 
   Points positions(const Vector& displacement) const {
     Points moved = to_points(problem_, displacement);
@@ -143,20 +171,36 @@ std::unique_ptr<EquilibriumSystem> make_direct_system(const Problem& problem) {
   return std::make_unique<DirectSystem>(problem);
 }
 
-Points to_points(const Problem& problem, const Vector& free) {
-  Points points(problem.lattice.rest.size(), Eigen::Vector3d::Zero());
+namespace {
+
+/// Calls action(degree of freedom 3*point + component, its place in a vector).
+template<class Action>
+void for_each_entry(const Problem& problem, const Action& action) {
   Eigen::Index next = 0;
-  for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
-    if (!problem.is_fixed[d]) points[d / 3][static_cast<int>(d % 3)] = free[next++];
+  for (const bool held : {false, true}) {
+    if (held && !problem.supports) return;
+    for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
+      if (problem.is_fixed[d] == held) action(d, next++);
+  }
+}
+
+} // namespace
+
+Points to_points(const Problem& problem, const Vector& vector) {
+  Points points(problem.is_fixed.size() / 3, Eigen::Vector3d::Zero());
+  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
+    points[d / 3][static_cast<int>(d % 3)] = vector[place];
+  });
   return points;
 }
 
 Vector to_vector(const Problem& problem, const Points& points) {
-  Vector free(std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false));
-  Eigen::Index next = 0;
-  for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
-    if (!problem.is_fixed[d]) free[next++] = points[d / 3][static_cast<int>(d % 3)];
-  return free;
+  const auto n_free = std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false);
+  Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_fixed.size()) : n_free);
+  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
+    vector[place] = points[d / 3][static_cast<int>(d % 3)];
+  });
+  return vector;
 }
 
 } // namespace msm

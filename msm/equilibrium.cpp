@@ -1,6 +1,7 @@
 #include "msm/equilibrium.hpp"
 
 #include "cases/error.hpp"
+#include "msm/line_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +14,21 @@ namespace {
 class LoadPath {
  public:
   LoadPath(EquilibriumSystem& system, const EquilibriumSettings& settings)
-      : system_(system), settings_(settings), load_norm_(system.load().norm()) {}
+      : system_(system), settings_(settings) {}
 
   Equilibrium follow(const Vector& start) {
     now_ = previous_ = start;
-    inverted_ = system_.n_inverted(start);
+    system_.move_supports(now_, 0);
+    inverted_ = system_.n_inverted(now_);
     if (settings_.stability == Stability::require && start.isZero(0)) check_rest(start);
     double step = settings_.first_load_step;
-    if (step == 1 && settings_.guess) attempt(*settings_.guess, 1, Convexity::exact);
+    if (!start.isZero(0)) {
+      leash_ = from_anywhere; // what is nearest need not be near
+      if (attempt(now_, std::min(1.0, step), Convexity::clamped)) step = settings_.largest_load_step;
+      leash_ = 1;
+    }
+    if (step == 1 && settings_.guess && !system_.moves_supports())
+      attempt(*settings_.guess, 1, Convexity::exact);
     for (int n = 0; result_.load_reached < 1; ++n) {
       if (n == settings_.max_load_steps) give_up("the limit on load steps was reached");
       if (step < settings_.smallest_load_step)
@@ -30,7 +38,7 @@ class LoadPath {
       // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
       // step would leave the path.
       const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
-      if (!attempt(extrapolated(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
+      if (!attempt(predicted(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
         step /= 2;
       else if (result_.newton_iterations - iterations_before <= 8) // an easy step
         step = std::min(2 * step, settings_.largest_load_step);
@@ -40,18 +48,36 @@ class LoadPath {
 
  private:
   static constexpr double small_step = 1.0 / 32;
+  static constexpr int from_anywhere = 10; ///< the leash of a start that is no equilibrium
 
   EquilibriumSystem& system_;
   const EquilibriumSettings& settings_;
-  const double load_norm_;
   Equilibrium result_;
   Vector now_, previous_;    ///< the last two equilibria on the path
   double previous_step_ = 0; ///< between their loads; 0: there is one alone
   int inverted_ = 0;         ///< cells, now
+  int leash_ = 1;            ///< how many times the usual number of iterations one load step may take
 
   Vector extrapolated(double target) const {
     if (!(previous_step_ > 0)) return now_;
     return now_ + ((target - result_.load_reached) / previous_step_) * (now_ - previous_);
+  }
+
+  /// What a load step starts from. Supports that move take the body along as far as the tangent knows: moved
+  /// alone, they would turn the cells next to them inside out.
+  Vector predicted(double target) {
+    Vector trial = extrapolated(target);
+    if (!system_.moves_supports()) return trial;
+    Vector there = trial;
+    system_.move_supports(there, target);
+    const Vector gap = there - trial;
+    const double largest = gap.cwiseAbs().maxCoeff();
+    if (!(largest > 0)) return there;
+    constexpr double small = 1e-7; // mm: differences of forces then keep half of their digits
+    const Vector pull = (largest / small) * (system_.imbalance(trial + (small / largest) * gap, target) -
+                                             system_.imbalance(trial, target));
+    if (const auto step = system_.direction(trial, pull, 1e-3, Convexity::exact)) there += *step;
+    return there;
   }
 
   /// One load step. On success the path goes on from its end.
@@ -71,48 +97,37 @@ class LoadPath {
     return true;
   }
 
-  double relative(const Vector& imbalance) const {
-    return imbalance.norm() / (load_norm_ > 0 ? load_norm_ : 1.0);
-  }
-
   /// Without load the body must resist every motion.
   void check_rest(const Vector& rest) {
     if (system_.is_mechanism())
-      throw cases::SolveError(
-          "mass-spring equilibrium: some motion of the lattice at rest meets no stiffness", 0, 1,
-          cases::Outcome::mechanism);
+      give_up("some motion of the lattice at rest meets no stiffness", cases::Outcome::mechanism);
     if (!system_.is_stable(rest))
-      throw cases::SolveError("mass-spring equilibrium: the lattice is unstable at rest, because of springs "
-                              "of negative stiffness",
-                              0, 1, cases::Outcome::unstable_equilibrium);
-  }
-
-  /// Moves along the step as far as the potential falls enough (Armijo). Next to the solution the potential's
-  /// change drowns in rounding: there a falling imbalance decides.
-  bool line_search(Vector& at, const Vector& step, const Vector& before, double load_factor) {
-    const double start = system_.potential(at, load_factor);
-    const double slope = step.dot(before);
-    for (double factor = 1; factor > 1e-6; factor /= 2) {
-      Vector trial = at + factor * step;
-      const double change = system_.potential(trial, load_factor) - start;
-      const bool in_rounding = factor * slope <= 1e-9 * (std::abs(start) + slope);
-      if (change <= -1e-4 * factor * slope ||
-          (in_rounding && system_.imbalance(trial, load_factor).norm() < before.norm())) {
-        at = std::move(trial);
-        return true;
-      }
-    }
-    return false;
+      give_up("the lattice is unstable at rest, because of springs of negative stiffness",
+              cases::Outcome::unstable_equilibrium);
   }
 
   bool take_step(Vector& at, const Vector& imbalance, double forcing, double load_factor,
                  Convexity fallback) {
     auto step = system_.direction(at, imbalance, forcing, Convexity::exact);
-    if (step && line_search(at, *step, imbalance, load_factor)) return true;
+    if (step && line_search(system_, at, *step, imbalance, load_factor)) return true;
     if (fallback == Convexity::exact) return false;
     ++result_.convexified_steps;
     step = system_.direction(at, imbalance, forcing, fallback);
-    return step && line_search(at, *step, imbalance, load_factor);
+    return step && line_search(system_, at, *step, imbalance, load_factor);
+  }
+
+  /// Whether an imbalance is no larger than what the last digits of the displacement decide: no displacement
+  /// in double precision is in better balance. Supports that move without straining the body leave no
+  /// reaction to compare with.
+  bool is_rounding(const Vector& at, const Vector& imbalance, double load_factor) {
+    if (!system_.moves_supports() && !(relative_imbalance(system_, imbalance, at) < 1e-6)) return false;
+    Vector neighbour = at;
+    unsigned bits = 1;
+    for (double& entry : neighbour) {
+      bits = 1664525 * bits + 1013904223; // Numerical Recipes' generator: any signs will do
+      entry = std::nextafter(entry, (bits >> 31) != 0 ? INFINITY : -INFINITY);
+    }
+    return imbalance.norm() <= 4 * (system_.imbalance(neighbour, load_factor) - imbalance).norm();
   }
 
   /// Newton at one load. On success `at` is in balance; otherwise it is of no use. The forcing is choice 2 of
@@ -120,11 +135,12 @@ class LoadPath {
   bool newton(Vector& at, double load_factor, Convexity fallback) {
     double forcing = 0.1, norm_before = 0;
     // Off a saddle the way is long and winds through a narrow valley of the potential.
-    const int max_iterations = settings_.max_newton_per_step * (fallback == Convexity::shifted ? 4 : 1);
-    const int allowed = result_.convexified_steps + settings_.max_convexified_per_step;
+    const int max_iterations =
+        settings_.max_newton_per_step * std::max(leash_, fallback == Convexity::shifted ? 4 : 1);
+    const int allowed = result_.convexified_steps + leash_ * settings_.max_convexified_per_step;
     for (int iteration = 0; iteration <= max_iterations; ++iteration) {
       const Vector imbalance = system_.imbalance(at, load_factor);
-      const double norm = relative(imbalance);
+      const double norm = relative_imbalance(system_, imbalance, at);
       if (!std::isfinite(norm)) return false;
       if (norm <= settings_.tolerance) return true;
       if (iteration == max_iterations || result_.convexified_steps > allowed) return false;
@@ -132,10 +148,16 @@ class LoadPath {
         const double ratio = norm / norm_before;
         forcing = std::min(0.1, 0.9 * ratio * ratio);
       }
+      // Close to the solution each step gains much. Where it does not, rounding may be all that is left.
+      if (norm_before > 0 && norm > 0.1 * norm_before && is_rounding(at, imbalance, load_factor)) return true;
       norm_before = norm;
       forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
+      if (settings_.should_stop && settings_.should_stop()) give_up("it was stopped");
+      if (result_.newton_iterations == settings_.max_newton_iterations)
+        give_up("the limit on Newton iterations was reached");
       ++result_.newton_iterations;
-      if (!take_step(at, imbalance, forcing, load_factor, fallback)) return false;
+      if (!take_step(at, imbalance, forcing, load_factor, fallback))
+        return is_rounding(at, imbalance, load_factor);
     }
     return false;
   }
@@ -166,17 +188,22 @@ class LoadPath {
   }
 
   Equilibrium finish() {
-    result_.residual = relative(system_.imbalance(now_, 1));
+    result_.residual = relative_imbalance(system_, system_.imbalance(now_, 1), now_);
     result_.is_stable = settings_.stability == Stability::require; // every step was settled
-    if (settings_.lowest_eigenvalue == LowestEigenvalue::report)
-      result_.lowest_eigenvalue = system_.lowest_mode(now_).eigenvalue;
+    result_.lowest_eigenvalue = lowest_eigenvalue();
     result_.displacement = std::move(now_);
     return result_;
   }
 
+  std::optional<double> lowest_eigenvalue() {
+    if (settings_.lowest_eigenvalue == LowestEigenvalue::skip) return std::nullopt;
+    return system_.lowest_mode(now_).eigenvalue;
+  }
+
   [[noreturn]] void give_up(const std::string& reason, cases::Outcome outcome = cases::Outcome::unknown) {
     throw cases::SolveError("mass-spring equilibrium: " + reason, result_.load_reached,
-                            relative(system_.imbalance(now_, result_.load_reached)), outcome);
+                            relative_imbalance(system_, system_.imbalance(now_, result_.load_reached), now_),
+                            outcome, {result_.newton_iterations, lowest_eigenvalue(), inverted_});
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 
 namespace msm {
@@ -15,7 +16,8 @@ enum class Convexity {
 };
 
 /// A held and loaded lattice as Newton's method sees it. Vectors are displacements (mm) or forces (N) in
-/// whatever order the lattice keeps them; entries that are not free degrees of freedom are 0.
+/// whatever order the lattice keeps them; entries that are not free degrees of freedom are 0, but in
+/// displacements of a lattice whose supports move: there they are where the supports are.
 class EquilibriumSystem {
  public:
   virtual ~EquilibriumSystem() = default;
@@ -54,6 +56,14 @@ class EquilibriumSystem {
   /// Cells with a corner Jacobian <= 0.
   virtual int n_inverted(const Vector& displacement) = 0;
 
+  /// Whether supports are moved as the load factor grows.
+  virtual bool moves_supports() const { return false; }
+  /// Puts the supports where a load factor asks them to be.
+  virtual void move_supports(Vector& /*displacement*/, double /*load_factor*/) const {}
+  /// Norm of the forces that springs exert on supports, N: what a body that is only moved is measured
+  /// against.
+  virtual double reaction(const Vector& displacement) = 0;
+
   /// Iterations of the linear solver so far; 0 for a direct one.
   virtual long linear_iterations() const { return 0; }
 };
@@ -66,9 +76,12 @@ struct EquilibriumSettings {
   int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
   int max_convexified_per_step = 12; ///< of these; what is not settled by then has lost its way
   int max_load_steps = 400;
-  double first_load_step = 1;       ///< of the full load
-  double largest_load_step = 1;     ///< of the full load
-  double smallest_load_step = 1e-4; ///< of the full load; a step below it means a limit point
+  int max_newton_iterations = 4000;         ///< in all
+  long max_relaxation_iterations = 1000000; ///< of an explicit relaxation
+  std::function<bool()> should_stop = {};   ///< asked before every iteration; empty: never
+  double first_load_step = 1;               ///< of the full load
+  double largest_load_step = 1;             ///< of the full load
+  double smallest_load_step = 1e-4;         ///< of the full load; a step below it means a limit point
   LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
   Stability stability = Stability::require; ///< ignore: for a guess
   std::optional<Vector> guess;              ///< displacement at full load to try first
@@ -80,6 +93,7 @@ struct Equilibrium {
   double load_reached = 0;
   int load_steps = 0; ///< those that succeeded
   int newton_iterations = 0;
+  long relaxation_iterations = 0;
   int convexified_steps = 0; ///< Newton steps for which the exact tangent would not do
   int escapes = 0;           ///< from unstable equilibria met on the way
   bool is_stable = false;

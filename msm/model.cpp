@@ -3,6 +3,7 @@
 #include "cases/error.hpp"
 #include "msm/direct_system.hpp"
 #include "msm/grid/grid_system.hpp"
+#include "msm/relaxation.hpp"
 
 #include <algorithm>
 
@@ -28,10 +29,26 @@ Path choose_path(const cases::Scene& scene, const std::vector<CellStiffness>& st
   return can_multigrid && scene.mesh.nodes.size() >= multigrid_from ? Path::multigrid : Path::direct;
 }
 
+std::function<Points(double)> moving_supports(const cases::Scene& scene) {
+  if (scene.moved.empty()) return {};
+  return [moved = scene.moved, rest = scene.mesh.nodes](double load_factor) {
+    Points displacement(rest.size(), Eigen::Vector3d::Zero());
+    for (const auto& [selection, motion] : moved)
+      for (const int n : selection.nodes) {
+        const auto node = static_cast<std::size_t>(n);
+        const Eigen::Vector3d by = cases::moved_by(motion, rest[node], load_factor);
+        for (std::size_t a = 0; a < 3; ++a)
+          if (motion.components[a]) displacement[node][static_cast<int>(a)] = by[static_cast<int>(a)];
+      }
+    return displacement;
+  };
+}
+
 } // namespace
 
 struct Model::Implementation {
   Path path;
+  cases::Solver solver;
   int n_threads;
   Problem problem;
   std::optional<grid::GridProblem> grid;
@@ -39,11 +56,12 @@ struct Model::Implementation {
 
   Implementation(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                  const ModelOptions& options)
-      : path(choose_path(scene, stiffness, options.path)),
+      : path(choose_path(scene, stiffness, options.path)), solver(scene.definition.msm.solver),
         n_threads(options.n_threads), problem{scene.mesh,
                                               {},
                                               cases::nodal_forces(scene),
-                                              cases::fixed_degrees_of_freedom(scene)} {
+                                              cases::fixed_degrees_of_freedom(scene),
+                                              moving_supports(scene)} {
     if (path == Path::direct) {
       problem.lattice = make_lattice(scene.mesh, stiffness);
       system = make_direct_system(problem);
@@ -64,7 +82,8 @@ struct Model::Implementation {
     const Points rest(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
     Vector from = to_vector(start.empty() ? rest : start);
     if (grid) grid::clear_still(grid->body, from);
-    if (grid && start.empty() && settings.first_load_step == 1)
+    if (solver != cases::Solver::newton) return relax(*system, from, solver, settings);
+    if (grid && !grid->supports && start.empty() && settings.first_load_step == 1)
       settings.guess = grid::coarse_guess(*grid, n_threads);
     return find_equilibrium(*system, from, settings);
   }
@@ -100,6 +119,7 @@ cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& 
   solution.residual = equilibrium.residual;
   solution.load_reached = equilibrium.load_reached;
   solution.newton_iterations = equilibrium.newton_iterations;
+  solution.relaxation_iterations = equilibrium.relaxation_iterations;
   solution.linear_iterations = implementation_->system->linear_iterations();
   solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
   solution.displacement = implementation_->to_points(equilibrium.displacement);

@@ -9,7 +9,8 @@ namespace msm::grid {
 struct ConjugateGradients {
   Field<double> solution;
   int iterations = 0;
-  bool converged = false; ///< false too when a direction of no or negative curvature was met
+  bool converged = false;
+  bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
 };
 
 /// Preconditioned conjugate gradients for operator * solution = right_side, until the residual is at most
@@ -31,6 +32,7 @@ ConjugateGradients conjugate_gradients(const Operator& apply, const Precondition
     apply(direction, product);
     ++result.iterations;
     const double curvature = dot(direction, product, n_threads);
+    result.met_negative_curvature = curvature <= 0;
     if (!(curvature > 0) || !(slope > 0)) return result;
     const double length = slope / curvature;
     add(result.solution, length, direction, n_threads);

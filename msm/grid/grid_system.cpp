@@ -37,7 +37,9 @@ class GridSystem : public EquilibriumSystem {
  public:
   GridSystem(const GridProblem& problem, int n_threads)
       : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
-        bodies_(coarsenings(problem.body)), multigrid_(bodies_, n_threads) {}
+        bodies_(coarsenings(problem.body)) {
+    multigrid_.emplace(bodies_, n_threads);
+  }
 
   const Vector& load() const override { return problem_.load; }
 
@@ -66,9 +68,17 @@ class GridSystem : public EquilibriumSystem {
   }
 
   /// The tangent at rest has no negative eigenvalue; that it has no zero one shows
-  /// in conjugate gradients reaching every part of a random right side.
+  /// in conjugate gradients reaching every part of a random right side, and by a motion that it resists:
+  /// where rounding alone resists, the answer is a huge motion, whose Rayleigh quotient tells.
   bool is_mechanism() override {
-    return !solve(Vector::Zero(problem_.load.size()), probe(), 1e-6, Clamp::no);
+    const Vector rest = Vector::Zero(problem_.load.size());
+    const auto motion = solve(rest, probe(), 1e-6, Clamp::no);
+    if (!motion) return true;
+    Vector image = rest;
+    springs_.product(Clamp::no, rest, probe(), image);
+    const double typical = probe().dot(image) / probe().squaredNorm();
+    const double lowest = motion->dot(probe()) / motion->squaredNorm();
+    return !(lowest > 1e-12 * typical); // rounding leaves 1e-16, the softest honest lattice seen 1e-8
   }
 
   /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
@@ -80,7 +90,7 @@ class GridSystem : public EquilibriumSystem {
     using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
     Basis basis = Basis::Zero(size, 3), image = Basis::Zero(size, 3);
     Vector column = Vector::Zero(size), product = column;
-    multigrid_.apply(probe(), column); // rich in low modes
+    multigrid_->apply(probe(), column); // rich in low modes
     column.normalize();
     springs_.product(Clamp::no, displacement, column, product);
     basis.col(0) = column;
@@ -89,7 +99,7 @@ class GridSystem : public EquilibriumSystem {
     Eigen::Index n = 2;
     for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
       const Vector residual = image.col(0) - eigenvalue * basis.col(0);
-      multigrid_.apply(residual, column);
+      multigrid_->apply(residual, column);
       column.normalize();
       springs_.product(Clamp::no, displacement, column, product);
       basis.col(1) = column;
@@ -144,6 +154,27 @@ class GridSystem : public EquilibriumSystem {
     return n;
   }
 
+  bool moves_supports() const override { return bool(problem_.supports); }
+
+  void move_supports(Vector& displacement, double load_factor) const override {
+    if (!problem_.supports) return;
+    const Vector there = problem_.supports(load_factor);
+    for (const std::ptrdiff_t entry : problem_.body.still) displacement[entry] = there[entry];
+  }
+
+  double reaction(const Vector& displacement) override {
+    if (!loose_springs_) {
+      loose_body_ = problem_.body;
+      loose_body_.still.clear();
+      loose_springs_.emplace(loose_body_, n_threads_);
+    }
+    Vector force = Vector::Zero(displacement.size());
+    loose_springs_->force(displacement, force);
+    double squared = 0;
+    for (const std::ptrdiff_t entry : problem_.body.still) squared += force[entry] * force[entry];
+    return std::sqrt(squared);
+  }
+
   long linear_iterations() const override { return linear_iterations_; }
 
  private:
@@ -154,7 +185,9 @@ class GridSystem : public EquilibriumSystem {
   int n_threads_;
   SpringField<double> springs_;
   std::deque<Body> bodies_;
-  Multigrid multigrid_;
+  std::optional<Multigrid> multigrid_;
+  Body loose_body_; ///< the body with nothing held, for the forces on its supports
+  std::optional<SpringField<double>> loose_springs_;
   Vector linearised_at_, probe_, mode_at_;
   Mode mode_{};
   long linear_iterations_ = 0;
@@ -165,7 +198,7 @@ class GridSystem : public EquilibriumSystem {
 
   void linearise(const Vector& displacement) {
     if (linearised_at_.size() > 0 && linearised_at_ == displacement) return;
-    multigrid_.linearise(displacement);
+    multigrid_->linearise(displacement);
     linearised_at_ = displacement;
   }
 
@@ -177,12 +210,20 @@ class GridSystem : public EquilibriumSystem {
       springs_.product(clamp, displacement, v, out);
       if (shift != 0) add(out, shift, v, n_threads_);
     };
-    const auto precondition = [&](const Vector& r, Vector& out) { multigrid_.apply(r, out); };
-    const ConjugateGradients found =
-        conjugate_gradients(apply, precondition, right_side, forcing, max_iterations, n_threads_);
-    linear_iterations_ += found.iterations;
-    if (!found.converged) return std::nullopt;
-    return found.solution;
+    const auto precondition = [&](const Vector& r, Vector& out) { multigrid_->apply(r, out); };
+    // The cycle keeps what it learnt at the displacements before this one. After one where points coincide or
+    // fly off that may be wrong, and then a new cycle has to start afresh.
+    for (const bool may_be_misled : {true, false}) {
+      const ConjugateGradients found =
+          conjugate_gradients(apply, precondition, right_side, forcing, max_iterations, n_threads_);
+      linear_iterations_ += found.iterations;
+      if (found.converged) return found.solution;
+      if (found.met_negative_curvature || !may_be_misled) break;
+      multigrid_.emplace(bodies_, n_threads_);
+      linearised_at_.resize(0);
+      linearise(displacement);
+    }
+    return std::nullopt;
   }
 
   /// A fixed right side with a part in every motion.
@@ -238,6 +279,13 @@ std::optional<GridProblem> make_grid_problem(const Problem& problem,
   });
   result.load = to_field(problem, body, problem.force);
   clear_still(body, result.load);
+  if (problem.supports) {
+    result.supports = [&problem, layout = body.layout](double load_factor) {
+      Body shape; // to_field() wants the layout alone
+      shape.layout = layout;
+      return to_field(problem, shape, problem.supports(load_factor));
+    };
+  }
   return result;
 }
 
@@ -248,7 +296,7 @@ std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, 
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   const std::array<bool, 3> axes = axes_to_coarsen(problem.body);
   if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
-  GridProblem coarse{coarsen(problem.body, axes), {}};
+  GridProblem coarse{coarsen(problem.body, axes), {}, {}};
   const Layout& layout = coarse.body.layout;
   if (layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
   const Transfer<double> transfer(problem.body, coarse.body, axes, n_threads);

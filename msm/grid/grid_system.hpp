@@ -4,6 +4,7 @@
 #include "msm/grid/multigrid.hpp"
 #include "msm/problem.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -13,8 +14,11 @@ namespace msm::grid {
 struct GridProblem {
   Body body;
   Field<double> load;
+  /// Displacement (mm) of still entries at a load factor, as a field; empty: they stay at rest.
+  std::function<Field<double>(double load_factor)> supports{};
 };
 
+/// @param problem  must outlive what is returned, if its supports move
 /// @return nothing when the problem's mesh is no grid, or too thin for one cell along some axis
 std::optional<GridProblem> make_grid_problem(const Problem& problem,
                                              const std::vector<CellStiffness>& stiffness);

@@ -1,4 +1,4 @@
-#include "cases/names.hpp"
+#include "cases/hard_case.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -31,6 +31,10 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<ReferenceKind>(5);
   check_names<Quantity>(3);
   check_names<Status>(3);
+  check_names<Outcome>(6);
+  check_names<Solver>(4);
+  check_names<Side>(3);
+  check_names<Start>(3);
 }
 
 TEST_CASE("the nearest name is few edits away, or there is none") {

@@ -1,29 +1,20 @@
 #include "cases/read_case.hpp"
 
+#include "cases/hard_case.hpp"
 #include "cases/names.hpp"
 #include "cases/scene.hpp"
+#include "tests/cases/case_text.hpp"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 using namespace cases;
 namespace fs = std::filesystem;
+using case_text::Folder;
+using case_text::Mistake;
+using case_text::replaced;
 
 namespace {
-
-/// A folder of its own for each test process, removed at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof_read_case_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return (path / name).string();
-  }
-};
 
 // Line numbers matter below: `schema` is on line 1.
 const std::string good = R"(schema = 1
@@ -64,44 +55,13 @@ reference = "published"
 reason = "Table 4.5"
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
+void check_refused(const std::string& text, const Mistake& mistake) {
+  case_text::check_refused(text, mistake, [](const std::string& path) { read_case(path); });
 }
 
 Case read_text_as_case(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Folder folder;
   return read_case(folder.write("case.toml", text), overrides);
-}
-
-struct Mistake {
-  std::string from, to; ///< in the good file
-  int line;             ///< 0: not asked
-  std::string key;
-  std::vector<std::string> says;
-};
-
-void check_refused(const std::string& text, const Mistake& mistake) {
-  const Folder folder;
-  const std::string path = folder.write("case.toml", text);
-  INFO("replaced: " << mistake.from << "\nby: " << mistake.to);
-  try {
-    read_case(path);
-    FAIL("accepted");
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    INFO(message);
-    CHECK(error.where().file == path);
-    CHECK(error.where().key == mistake.key);
-    CHECK(error.where().line == mistake.line);
-    const std::string begin =
-        path + ":" + std::to_string(mistake.line) + ":" + std::to_string(error.where().column) + ": ";
-    CHECK(message.rfind(begin + (mistake.key.empty() ? "" : mistake.key + ": "), 0) == 0);
-    CHECK(error.where().column >= 1);
-    for (const std::string& part : mistake.says) CHECK_THAT(message, Catch::Contains(part));
-    CHECK(message.find('\n') == std::string::npos);
-  }
 }
 
 } // namespace
@@ -512,6 +472,47 @@ TEST_CASE("a mistake in a case file is refused with its line, its key, its value
        14,
        "load[0].centre",
        {"is missing"}},
+      // moved
+      {load,
+       "region = \"z+\"\nkind = \"nodal_force\"\nvalue = [1, 0, 0]\n[[moved]]\nregion = \"z+\"\n",
+       18,
+       "moved[0].displacement",
+       {"is missing", "angle"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\ndisplacement = [1, 0]\n",
+       20,
+       "moved[0].displacement",
+       {"three finite numbers"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\ncomponents = [\"z\"]\ndisplacement = [1, 0, 2]\n",
+       21,
+       "moved[0].displacement",
+       {"0 in the components that are not moved"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\ndisplacement = [1, 0, 0]\naxis = \"z\"\n",
+       21,
+       "moved[0].axis",
+       {"left out without angle"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\ndisplacement = [1, 0, 0]\nangle = 90\n",
+       20,
+       "moved[0].displacement",
+       {"left out beside angle"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\nangle = 90\naxis = \"z\"\n",
+       18,
+       "moved[0].centre",
+       {"is missing"}},
+      {load,
+       load + "[[moved]]\nregion = \"z+\"\nangle = 0\naxis = \"z\"\ncentre = [0, 0, 0]\n",
+       20,
+       "moved[0].angle",
+       {"other than 0"}},
+      {"[[load]]\n" + load,
+       "[[moved]]\nregion = \"z+\"\ndisplacement = [0, 0, 0]\n",
+       1,
+       "load",
+       {"is missing", "[[moved]]"}},
       // fem
       {"formulation = \"log_strain\"",
        "formulation = \"log-strain\"",
@@ -558,7 +559,11 @@ TEST_CASE("a mistake in a case file is refused with its line, its key, its value
        "msm.split",
        {"left out", "\"moduli\" | \"hybrid\""}},
       {"split = 0.8", "paths = [\"uniaxial\"]", 25, "msm.paths", {"left out", "\"multi_load\""}},
-      {"split = 0.8", "strain_range = [0, 0.1]", 25, "msm.strain_range", {"left out", "\"nonlinear_method\""}},
+      {"split = 0.8",
+       "strain_range = [0, 0.1]",
+       25,
+       "msm.strain_range",
+       {"left out", "\"nonlinear_method\""}},
       {"design = \"moduli\"",
        "design = \"multi_load\"\npaths = [\"uniaxal\"]",
        24,
@@ -589,6 +594,7 @@ TEST_CASE("a mistake in a case file is refused with its line, its key, its value
        24,
        "msm.volume_term",
        {"did you mean \"fitted\"?"}},
+      {"split = 0.8", "solver = \"newtn\"", 25, "msm.solver", {"\"fire\"", "did you mean \"newton\"?"}},
       {"split = 0.8", "stiffness = [1, 2, 3]", 25, "msm.stiffness", {"left out", "\"given\""}},
       {"split = 0.8", "volume_stiffness = 0.1", 25, "msm.volume_stiffness", {"left out", "\"given\""}},
       {msm, "design = \"given\"\n", 22, "msm.stiffness", {"is missing", "k_e, k_f, k_d"}},
@@ -742,13 +748,38 @@ TEST_CASE("a mistake in a setting of the command line is told as such") {
   }
 }
 
+TEST_CASE("a region is moved along, or turned about an axis, and then no load is needed") {
+  const std::string loads = "[[load]]\nregion = \"z+\"\nkind = \"nodal_force\"\nvalue = [0.002, 0, 0.0]\n";
+  const Case pressed = read_text_as_case(
+      replaced(good, loads, "[[moved]]\nregion = \"z+\"\ncomponents = [\"z\"]\ndisplacement = [0, 0, -5]\n"));
+  REQUIRE(pressed.moved.size() == 1);
+  CHECK(pressed.loads.empty());
+  CHECK(pressed.moved[0].components == std::array<bool, 3>{false, false, true});
+  CHECK(pressed.moved[0].displacement == Eigen::Vector3d(0, 0, -5));
+  CHECK(pressed.moved[0].angle == 0);
+  const Case turned = read_text_as_case(
+      replaced(good, loads, "[[moved]]\nregion = \"z+\"\nangle = 90\naxis = \"z\"\ncentre = [5, 5, 10]\n"));
+  REQUIRE(turned.moved.size() == 1);
+  CHECK(turned.moved[0].angle == 90);
+  CHECK(turned.moved[0].axis == Eigen::Vector3d::UnitZ());
+  CHECK(turned.moved[0].centre == Eigen::Vector3d(5, 5, 10));
+}
+
 TEST_CASE("every case file of the project is read, and its regions exist") {
   int n = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPRINGPROOF_SOURCE_DIR) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path().string());
-    CHECK_NOTHROW(make_scene(read_case(entry.path().string())));
     ++n;
+    if (entry.path().parent_path().filename() != "hard") {
+      CHECK_NOTHROW(make_scene(read_case(entry.path().string())));
+      continue;
+    }
+    HardCase hard;
+    CHECK_NOTHROW(hard = read_hard_case(entry.path().string()));
+    CHECK(hard.definition.name == entry.path().stem().string()); // they are asked for by it
+    CHECK(hard.definition.description.size() > 40);              // a sentence
+    if (!hard.is_heavy) CHECK_NOTHROW(make_scene(hard.definition));
   }
   CHECK(n >= 12); // the thesis's cube alone: two materials, three tests, two load sets
 }

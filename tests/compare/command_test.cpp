@@ -238,3 +238,47 @@ TEST_CASE("design --out draws the figures of its method") {
     CHECK(fs::file_size(fs::path(out) / name) > 100);
   }
 }
+
+TEST_CASE("stress puts a hard case to its models, and says in one document what became of each") {
+  const Folder folder;
+  const Outcome outcome =
+      springproof("stress --json mechanism disconnected_piece --out " + folder.path.string());
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  REQUIRE(document["cases"].size() == 2);
+  const auto& side = document["cases"][0]["sides"][0];
+  CHECK(document["cases"][0]["name"] == "mechanism");
+  CHECK(side["side"] == "msm");
+  CHECK(side["outcome"] == "mechanism");
+  CHECK(side["met"] == true);
+  CHECK(side["load_reached"] == 0.0);
+  for (const auto& refused : document["cases"][1]["sides"]) {
+    CHECK(refused["outcome"] == "refused");
+    CHECK_THAT(refused["message"].get<std::string>(), Catch::Contains("falls into 2 pieces"));
+  }
+  CHECK(nlohmann::json::parse(content(folder.path / "stress.json"))["cases"] == document["cases"]);
+  CHECK_THAT(content(folder.path / "stress.txt"), Catch::Contains("2 of 2 hard cases ended as expected"));
+}
+
+TEST_CASE("a hard case that ends otherwise than expected makes stress answer 1, and the others go on") {
+  const Folder folder;
+  std::string text = content(cases_folder + "/hard/mechanism.toml");
+  const std::string expected = "outcome = \"mechanism\"";
+  text.replace(text.find(expected), expected.size(), "outcome = \"limit point\"");
+  const fs::path wrong = folder.path / "wrong.toml";
+  std::ofstream(wrong) << text;
+  const Outcome outcome = springproof("stress " + wrong.string() + " negative_face_diagonal");
+  CHECK(outcome.status == 1);
+  CHECK_THAT(outcome.out, Catch::Contains("outcome mechanism, expected limit point"));
+  CHECK_THAT(outcome.out, Catch::Contains("1 of 2 hard cases ended as expected"));
+}
+
+TEST_CASE("a hard case that does not exist is refused with the nearest name, and run refuses hard cases") {
+  const Outcome unknown = springproof("stress mechansim");
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.error, Catch::Contains("did you mean \"mechanism\"?"));
+  const Outcome ordinary = springproof("run " + cases_folder + "/hard/mechanism.toml");
+  CHECK(ordinary.status == 2);
+  CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
+}

@@ -149,3 +149,49 @@ TEST_CASE("the same equilibrium is found from disturbed positions") {
     CHECK((from_there.displacement[n] - from_rest.displacement[n]).norm() <
           1e-6); // mm; residual 1e-9 of 1 N over 1e-3 N/mm
 }
+
+TEST_CASE("a body that one node holds is a mechanism, whatever path looks for its equilibrium") {
+  cases::Case loose = bodies::clamped_box({5, 5, 5}, bodies::tensile(0.01));
+  loose.fixed = {{bodies::region("z- x- y-")}};
+  const cases::Scene scene = cases::make_scene(loose);
+  for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid})
+    for (const double volume : {0.0, 0.14}) {
+      INFO("k_v = " << volume);
+      try {
+        msm::Model(scene, {bodies::cell(31, 47, 33, volume)}, {path, 1}).solve();
+        FAIL("an equilibrium was reported");
+      } catch (const cases::SolveError& error) {
+        CHECK(error.outcome() == cases::Outcome::mechanism);
+      }
+    }
+}
+
+TEST_CASE("a body half of which is a million times stiffer is solved as far as rounding allows") {
+  const cases::Scene scene = box_scene({6, 6, 6}, bodies::tensile(0.05));
+  std::vector<msm::CellStiffness> cells(scene.mesh.cells.size(), thesis_cell);
+  for (std::size_t c = cells.size() / 2; c < cells.size(); ++c) cells[c] = bodies::cell(31e6, 47e6, 33e6);
+  for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid}) {
+    const cases::Solution found = msm::Model(scene, cells, {path, 1}).solve();
+    CHECK(found.outcome == cases::Outcome::stable_equilibrium);
+    // 1e5 N/mm times 1e-15 mm, some 20 such forces added up, over a load of 0.35 N: 6e-9
+    CHECK(found.residual <= 1e-7);
+    // The stiff half moves as a rigid body: its height stays 3 mm.
+    const double top = 6 + found.displacement.back().z();
+    const auto middle = static_cast<std::size_t>(7 * 7 * 3 + 48); // the vertex below it, at z = 3
+    CHECK(top - (3 + found.displacement[middle].z()) == Approx(3).margin(1e-5)); // a millionth of the strain
+  }
+}
+
+TEST_CASE("a lattice turned inside out stays so without a volume term, and is turned back by one") {
+  const cases::Scene scene = box_scene({5, 5, 5}, bodies::shear(0.002));
+  msm::Points mirrored;
+  for (const Vector3d& node : scene.mesh.nodes) mirrored.emplace_back(0, 0, -2 * node.z());
+  const cases::Solution springs = msm::Model(scene, {thesis_cell}).solve({}, mirrored);
+  CHECK(springs.inverted_cells == 125);
+  CHECK(springs.outcome == cases::Outcome::stable_equilibrium);
+  msm::Model hybrid(scene, {bodies::cell(20, 25, 20, 0.14)});
+  const cases::Solution turned = hybrid.solve({}, mirrored), from_rest = hybrid.solve();
+  CHECK(turned.inverted_cells == 0);
+  for (std::size_t n = 0; n < mirrored.size(); ++n)
+    CHECK((turned.displacement[n] - from_rest.displacement[n]).norm() < 1e-6); // mm, as below
+}

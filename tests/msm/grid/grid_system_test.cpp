@@ -112,3 +112,26 @@ TEST_CASE("the multigrid path refuses negative springs and a body that is no gri
   scene.mesh.grid.reset();
   CHECK_THROWS_AS(Model(scene, {bodies::cell(31, 47, 33)}, {Path::multigrid, 1}), cases::InputError);
 }
+
+TEST_CASE("a displacement that is no body's spoils nothing that comes after it") {
+  const cases::Scene scene = cases::make_scene(bodies::clamped_box({10, 10, 10}, bodies::tensile(0.01)));
+  const std::vector<msm::CellStiffness> springs = {bodies::cell(31, 47, 33)};
+  const msm::Problem problem{
+      scene.mesh, {}, cases::nodal_forces(scene), cases::fixed_degrees_of_freedom(scene)};
+  const msm::grid::GridProblem grid = *msm::grid::make_grid_problem(problem, springs);
+  const auto system = msm::grid::make_grid_system(grid, 1);
+  const msm::Vector rest = msm::Vector::Zero(grid.load.size());
+  const auto before = system->direction(rest, grid.load, 1e-6, msm::Convexity::exact);
+  REQUIRE(before);
+  msm::Points collapsed; // every point in one place
+  for (const Eigen::Vector3d& node : scene.mesh.nodes) collapsed.push_back(-node);
+  const msm::Vector nonsense = msm::grid::to_field(problem, grid.body, collapsed);
+  for (const double size : {1.0, 1e30}) { // beyond single precision
+    const msm::Vector there = size * nonsense;
+    system->direction(there, grid.load, 1e-6, msm::Convexity::clamped);
+    const auto after = system->direction(rest, grid.load, 1e-6, msm::Convexity::exact);
+    REQUIRE(after);
+    CHECK((*after - *before).norm() <
+          1e-4 * before->norm()); // 1e-6 of the forces, and how soft the softest is
+  }
+}
