@@ -103,7 +103,8 @@ enum class Solver {
   newton,        ///< Newton's method with load steps
   force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
   fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
-  lbfgs          ///< limited-memory quasi-Newton
+  lbfgs,         ///< limited-memory quasi-Newton
+  snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
 };
 
 struct Msm {

@@ -206,19 +206,13 @@ namespace {
 /// Jacobian matrix (mm) of the trilinear map of the unit cube onto the cell, at a point of the unit cube.
 Eigen::Matrix3d jacobian(const std::array<Vector3d, 8>& vertices, const Vector3d& at) {
   Eigen::Matrix3d columns = Eigen::Matrix3d::Zero();
-  for (int v = 0; v < 8; ++v) {
-    const std::array<int, 3> corner{v & 1, (v >> 1) & 1, v >> 2};
-    for (int d = 0; d < 3; ++d) {
-      double slope = 1;
-      for (int a = 0; a < 3; ++a) {
-        if (a == d)
-          slope *= corner[index(a)] ? 1 : -1;
-        else
-          slope *= corner[index(a)] ? at[a] : 1 - at[a];
-      }
-      columns.col(d) += slope * vertices[index(v)];
+  for (int d = 0; d < 3; ++d) // the four edges along d, weighted by how near they are
+    for (int edge = 0; edge < 4; ++edge) {
+      const int e = (d + 1) % 3, f = (d + 2) % 3, on_e = edge & 1, on_f = edge >> 1,
+                v = (on_e << e) | (on_f << f);
+      const double weight = (on_e ? at[e] : 1 - at[e]) * (on_f ? at[f] : 1 - at[f]);
+      columns.col(d) += weight * (vertices[index(v | (1 << d))] - vertices[index(v)]);
     }
-  }
   return columns;
 }
 
@@ -234,8 +228,14 @@ double cell_volume(const std::array<Vector3d, 8>& vertices) {
 
 double smallest_corner_jacobian(const std::array<Vector3d, 8>& vertices) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (int v = 0; v < 8; ++v)
-    smallest = std::min(smallest, jacobian(vertices, Vector3d(v & 1, (v >> 1) & 1, v >> 2)).determinant());
+  for (int v = 0; v < 8; ++v) {
+    const Vector3d& here = vertices[index(v)];
+    const Vector3d x = vertices[index(v ^ 1)] - here, y = vertices[index(v ^ 2)] - here,
+                   z = vertices[index(v ^ 4)] - here;
+    const bool mirrored = (v ^ (v >> 1) ^ (v >> 2)) & 1; // an odd number of the edges leads backwards
+    const double determinant = x.dot(y.cross(z));
+    smallest = std::min(smallest, mirrored ? -determinant : determinant);
+  }
   return smallest;
 }
 

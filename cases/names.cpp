@@ -59,7 +59,8 @@ const NameTable<Solver>& names() {
   static const NameTable<Solver> table{{Solver::newton, "newton"},
                                        {Solver::force_scaling, "force_scaling"},
                                        {Solver::fire, "fire"},
-                                       {Solver::lbfgs, "lbfgs"}};
+                                       {Solver::lbfgs, "lbfgs"},
+                                       {Solver::snes, "snes"}};
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include "compare/solve_side.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
+#include "msm/snes/snes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,6 +36,21 @@ int rank() {
   int number = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &number);
   return number;
+}
+
+/// PETSc's solver takes all ranks, the others rank 0 alone.
+Side solve_springs(Comparison& comparison) {
+  const auto designed = [&] {
+    comparison.design = design_for(comparison.scene);
+    return stiffness_of_cells(*comparison.design);
+  };
+  if (comparison.scene.definition.msm.solver == cases::Solver::snes)
+    return solve_side(designed, [&](const std::vector<msm::CellStiffness>& stiffness) {
+      return msm::solve_by_snes(comparison.scene, stiffness, MPI_COMM_WORLD);
+    });
+  if (rank() != 0) return {};
+  return solve_side([&] { return msm::Model(comparison.scene, designed()); },
+                    [](msm::Model& model) { return model.solve(); });
 }
 
 } // namespace
@@ -77,13 +93,7 @@ Comparison compare_case(const cases::Case& definition, Only only) {
   if (only != Only::msm)
     comparison.fem = solve_side([&] { return fem_reference::Model(comparison.scene, MPI_COMM_WORLD); },
                                 [](fem_reference::Model& model) { return model.solve(); });
-  if (only != Only::fem && rank() == 0)
-    comparison.msm = solve_side(
-        [&] {
-          comparison.design = design_for(comparison.scene);
-          return msm::Model(comparison.scene, stiffness_of_cells(*comparison.design));
-        },
-        [](msm::Model& model) { return model.solve(); });
+  if (only != Only::fem) comparison.msm = solve_springs(comparison);
   comparison.measures = measure_all(comparison);
   for (const cases::Expectation& expectation : definition.expectations)
     comparison.judgements.push_back(judge(expectation, comparison.measures));

@@ -29,21 +29,6 @@ Path choose_path(const cases::Scene& scene, const std::vector<CellStiffness>& st
   return can_multigrid && scene.mesh.nodes.size() >= multigrid_from ? Path::multigrid : Path::direct;
 }
 
-std::function<Points(double)> moving_supports(const cases::Scene& scene) {
-  if (scene.moved.empty()) return {};
-  return [moved = scene.moved, rest = scene.mesh.nodes](double load_factor) {
-    Points displacement(rest.size(), Eigen::Vector3d::Zero());
-    for (const auto& [selection, motion] : moved)
-      for (const int n : selection.nodes) {
-        const auto node = static_cast<std::size_t>(n);
-        const Eigen::Vector3d by = cases::moved_by(motion, rest[node], load_factor);
-        for (std::size_t a = 0; a < 3; ++a)
-          if (motion.components[a]) displacement[node][static_cast<int>(a)] = by[static_cast<int>(a)];
-      }
-    return displacement;
-  };
-}
-
 } // namespace
 
 struct Model::Implementation {
@@ -57,11 +42,7 @@ struct Model::Implementation {
   Implementation(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                  const ModelOptions& options)
       : path(choose_path(scene, stiffness, options.path)), solver(scene.definition.msm.solver),
-        n_threads(options.n_threads), problem{scene.mesh,
-                                              {},
-                                              cases::nodal_forces(scene),
-                                              cases::fixed_degrees_of_freedom(scene),
-                                              moving_supports(scene)} {
+        n_threads(options.n_threads), problem(make_problem(scene)) {
     if (path == Path::direct) {
       problem.lattice = make_lattice(scene.mesh, stiffness);
       system = make_direct_system(problem);
@@ -86,14 +67,6 @@ struct Model::Implementation {
     if (grid && !grid->supports && start.empty() && settings.first_load_step == 1)
       settings.guess = grid::coarse_guess(*grid, n_threads);
     return find_equilibrium(*system, from, settings);
-  }
-
-  void measure_cells(cases::Solution& solution) const {
-    for (std::size_t c = 0; c < problem.mesh.cells.size(); ++c) {
-      const auto vertices = cases::cell_vertices(problem.mesh, c, solution.displacement);
-      solution.cell_volume.push_back(cases::cell_volume(vertices));
-      if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++solution.inverted_cells;
-    }
   }
 };
 
@@ -123,7 +96,7 @@ cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& 
   solution.linear_iterations = implementation_->system->linear_iterations();
   solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
   solution.displacement = implementation_->to_points(equilibrium.displacement);
-  implementation_->measure_cells(solution);
+  measure_cells(implementation_->problem.mesh, solution);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "cases/hex_mesh.hpp"
+#include "cases/scene.hpp"
+#include "cases/solution.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>
@@ -17,5 +18,12 @@ struct Problem {
   /// Displacement (mm) of the held points at a load factor, one per point; empty: they stay at rest.
   std::function<Points(double load_factor)> supports{};
 };
+
+/// A scene as springs see it, but for its lattice.
+Problem make_problem(const cases::Scene& scene);
+
+/// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
+/// inverted.
+void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
 
 } // namespace msm

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -87,25 +88,30 @@ class GridSystem : public EquilibriumSystem {
     if (mode_at_.size() > 0 && mode_at_ == displacement) return mode_;
     linearise(displacement);
     const Eigen::Index size = problem_.load.size();
-    using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
-    Basis basis = Basis::Zero(size, 3), image = Basis::Zero(size, 3);
-    Vector column = Vector::Zero(size), product = column;
-    multigrid_->apply(probe(), column); // rich in low modes
-    column.normalize();
-    springs_.product(Clamp::no, displacement, column, product);
-    basis.col(0) = column;
-    image.col(0) = product;
-    double eigenvalue = column.dot(product);
-    Eigen::Index n = 2;
+    using Columns = std::array<Vector, 3>; // the vector, its preconditioned residual, the last step
+    Columns basis, image;
+    for (std::size_t c = 0; c < 3; ++c) basis[c] = image[c] = Vector::Zero(size);
+    const auto examine = [&](std::size_t c, const Vector& right_side) {
+      multigrid_->apply(right_side, basis[c]);
+      scale(basis[c], 1 / norm(basis[c]));
+      springs_.product(Clamp::no, displacement, basis[c], image[c]);
+    };
+    examine(0, probe()); // rich in low modes
+    double eigenvalue = dot(basis[0], image[0], n_threads_);
+    std::size_t n = 2;
     for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
-      const Vector residual = image.col(0) - eigenvalue * basis.col(0);
-      multigrid_->apply(residual, column);
-      column.normalize();
-      springs_.product(Clamp::no, displacement, column, product);
-      basis.col(1) = column;
-      image.col(1) = product;
-      const Eigen::MatrixXd gram = basis.leftCols(n).transpose() * basis.leftCols(n),
-                            small = basis.leftCols(n).transpose() * image.leftCols(n);
+      Vector residual = image[0];
+      add(residual, -eigenvalue, basis[0], n_threads_);
+      examine(1, residual);
+      const auto products = [&](const Columns& left, const Columns& right) {
+        Eigen::MatrixXd all(n, n);
+        for (std::size_t r = 0; r < n; ++r)
+          for (std::size_t c = 0; c < n; ++c)
+            all(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+                dot(left[r], right[c], n_threads_);
+        return all;
+      };
+      const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
       const Eigen::LLT<Eigen::MatrixXd> factor(gram);
       if (factor.info() != Eigen::Success || !(factor.matrixL().toDenseMatrix().diagonal().minCoeff() > 1e-7))
         break; // nothing new in the residual
@@ -114,21 +120,21 @@ class GridSystem : public EquilibriumSystem {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
       const Eigen::VectorXd weights = factor.matrixU().solve(ritz.eigenvectors().col(0));
       const double before = std::exchange(eigenvalue, ritz.eigenvalues()[0]);
-      const auto combine = [&](Basis& columns) {
-        const Vector step = columns.middleCols(1, n - 1) * weights.tail(n - 1);
-        columns.col(0) = weights[0] * columns.col(0) + step;
-        columns.col(2) = step;
-      };
-      combine(basis);
-      combine(image);
-      const double scale = 1 / basis.col(0).norm(), step_scale = 1 / basis.col(2).norm();
-      for (Basis* columns : {&basis, &image}) {
-        columns->col(0) *= scale;
-        columns->col(2) *= step_scale;
+      for (Columns* columns : {&basis, &image}) {
+        auto& [now, residual_part, step] = *columns;
+        scale(step, n == 3 ? weights[2] : 0);
+        add(step, weights[1], residual_part, n_threads_);
+        scale(now, weights[0]);
+        add(now, 1.0, step, n_threads_);
+      }
+      const double to_unit = 1 / norm(basis[0]), step_to_unit = 1 / norm(basis[2]);
+      for (Columns* columns : {&basis, &image}) {
+        scale((*columns)[0], to_unit);
+        scale((*columns)[2], step_to_unit);
       }
       if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
     }
-    mode_ = {eigenvalue, basis.col(0)};
+    mode_ = {eigenvalue, basis[0]};
     mode_at_ = displacement;
     return mode_;
   }
@@ -136,6 +142,7 @@ class GridSystem : public EquilibriumSystem {
   int n_inverted(const Vector& displacement) override {
     const Body& body = problem_.body;
     int n = 0;
+#pragma omp parallel for num_threads(n_threads_) reduction(+ : n) if (n_threads_ > 1)
     for (int k = 0; k < body.cells[2]; ++k)
       for (int j = 0; j < body.cells[1]; ++j)
         for (int i = 0; i < body.cells[0]; ++i) {
@@ -154,7 +161,9 @@ class GridSystem : public EquilibriumSystem {
     return n;
   }
 
-  bool moves_supports() const override { return bool(problem_.supports); }
+  bool moves_supports() const override {
+    return bool(problem_.supports);
+  }
 
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
@@ -175,7 +184,9 @@ class GridSystem : public EquilibriumSystem {
     return std::sqrt(squared);
   }
 
-  long linear_iterations() const override { return linear_iterations_; }
+  long linear_iterations() const override {
+    return linear_iterations_;
+  }
 
  private:
   static constexpr int max_iterations = 300; ///< healthy lattices take less than 30
@@ -191,6 +202,14 @@ class GridSystem : public EquilibriumSystem {
   Vector linearised_at_, probe_, mode_at_;
   Mode mode_{};
   long linear_iterations_ = 0;
+
+  double norm(const Vector& v) const {
+    return std::sqrt(dot(v, v, n_threads_));
+  }
+  void scale(Vector& v, double factor) const {
+    for_each_piece(v.size(), n_threads_,
+                   [&](std::ptrdiff_t first, std::ptrdiff_t n) { v.segment(first, n) *= factor; });
+  }
 
   static bool has_springs(const CellSprings& cell) {
     return cell.edge[0] != 0 || cell.face_diagonal[0] != 0 || cell.internal_diagonal != 0 || cell.volume != 0;

@@ -178,6 +178,7 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
   });
   std::vector<bool> is_still(index(3 * layout.size));
   for (const std::ptrdiff_t entry : body_.still) is_still[index(entry)] = true;
+#pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_threads_ > 1 && layout.size > piece)
   for (int k = 0; k < layout.nodes[2]; ++k)
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i) {

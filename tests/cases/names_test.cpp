@@ -32,7 +32,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Quantity>(3);
   check_names<Status>(3);
   check_names<Outcome>(6);
-  check_names<Solver>(4);
+  check_names<Solver>(5);
   check_names<Side>(3);
   check_names<Start>(3);
 }

@@ -1,0 +1,67 @@
+#include "msm/snes/snes.hpp"
+
+#include "cases/error.hpp"
+#include "msm/model.hpp"
+#include "tests/msm/bodies.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <petscsys.h>
+
+namespace {
+
+msm::EquilibriumSettings tight() {
+  msm::EquilibriumSettings settings;
+  settings.tolerance = 1e-11; // so that what is compared is the answers, not where the solvers stop
+  return settings;
+}
+
+double largest_difference(const cases::Solution& a, const cases::Solution& b) {
+  double largest = 0;
+  for (std::size_t n = 0; n < a.displacement.size(); ++n)
+    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
+  return largest;
+}
+
+const msm::CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::cell(72.2, 11.1, 66.7, 0.148);
+
+} // namespace
+
+// On one rank by itself; on two under mpirun (compare/snes_on_two_ranks).
+TEST_CASE("SNES finds the equilibrium that the fast path finds", "[snes]") {
+  const auto& stiffness = GENERATE(springs, hybrid);
+  for (const cases::Case& body : {bodies::clamped_box({10, 10, 10}, bodies::tensile(0.05)),
+                                  bodies::clamped_box({10, 10, 10}, bodies::shear(0.01))}) {
+    const cases::Scene scene = cases::make_scene(body);
+    const cases::Solution fast = msm::Model(scene, {stiffness}).solve(tight());
+    const cases::Solution general = msm::solve_by_snes(scene, {stiffness}, PETSC_COMM_WORLD, tight());
+    CHECK(general.outcome == cases::Outcome::stable_equilibrium);
+    CHECK(largest_difference(fast, general) <= 1e-8); // mm, of displacements of millimetres
+  }
+}
+
+TEST_CASE("SNES with algebraic multigrid finds it too", "[snes]") {
+  PetscOptionsSetValue(nullptr, "-msm_ksp_type", "cg");
+  PetscOptionsSetValue(nullptr, "-msm_pc_type", "gamg");
+  const cases::Scene scene = cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.05)));
+  const cases::Solution fast = msm::Model(scene, {springs}).solve(tight());
+  const cases::Solution general = msm::solve_by_snes(scene, {springs}, PETSC_COMM_WORLD, tight());
+  PetscOptionsClearValue(nullptr, "-msm_ksp_type");
+  PetscOptionsClearValue(nullptr, "-msm_pc_type");
+  CHECK(general.outcome == cases::Outcome::stable_equilibrium);
+  CHECK(general.linear_iterations > general.newton_iterations); // it was not the factorisation
+  CHECK(largest_difference(fast, general) <= 1e-8);
+}
+
+TEST_CASE("SNES refuses a load beyond the limit point, with the load that it reached", "[snes]") {
+  // Soft springs (t = 0.7 of the Ogden material) under the thesis's large shear load: Zener ratio and Young's
+  // modulus matched, soft in volume.
+  const cases::Scene scene = cases::make_scene(bodies::clamped_box({10, 10, 10}, bodies::shear(0.01)));
+  try {
+    msm::solve_by_snes(scene, {bodies::cell(23.3, 6.5, 22.7)}, PETSC_COMM_WORLD);
+    FAIL("it carried the load");
+  } catch (const cases::SolveError& error) {
+    CHECK(error.outcome() == cases::Outcome::limit_point);
+    CHECK(error.load_reached() == Approx(0.735).margin(0.01));
+  }
+}
