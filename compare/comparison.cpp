@@ -94,10 +94,15 @@ Comparison compare_case(const cases::Case& definition, Only only) {
     comparison.fem = solve_side([&] { return fem_reference::Model(comparison.scene, MPI_COMM_WORLD); },
                                 [](fem_reference::Model& model) { return model.solve(); });
   if (only != Only::fem) comparison.msm = solve_springs(comparison);
-  comparison.measures = measure_all(comparison);
-  for (const cases::Expectation& expectation : definition.expectations)
-    comparison.judgements.push_back(judge(expectation, comparison.measures));
+  measure_sides(comparison);
   return comparison;
+}
+
+void measure_sides(Comparison& comparison) {
+  comparison.measures = measure_all(comparison);
+  comparison.judgements.clear();
+  for (const cases::Expectation& expectation : comparison.scene.definition.expectations)
+    comparison.judgements.push_back(judge(expectation, comparison.measures));
 }
 
 } // namespace compare

@@ -1,24 +1,9 @@
 #pragma once
 
 #include "compare/comparison.hpp"
-
-#include <chrono>
-#include <utility>
+#include "compare/stopwatch.hpp"
 
 namespace compare {
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last lap().
-  double seconds() const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return elapsed.count();
-  }
-  double lap() { return std::exchange(*this, Stopwatch()).seconds(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed side.
 /// @param make_model  answers a model   @param solve  answers the model's solution
