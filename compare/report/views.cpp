@@ -1,5 +1,7 @@
 #include "compare/report/views.hpp"
 
+#include "compare/thesis/draw_figures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -63,6 +65,13 @@ double largest_scale(const Overlay& overlay) {
 }
 
 } // namespace
+
+std::vector<BodyView> body_views(const ThesisResults& results) {
+  std::vector<BodyView> views;
+  for (const Comparison& comparison : results.cases)
+    views.push_back({comparison.scene.definition.name, thesis_overlay(results, comparison, "")});
+  return views;
+}
 
 Json views_to_json(const std::vector<BodyView>& views) {
   std::vector<Surface> surfaces;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/thesis/plot_bodies.hpp"
+#include "compare/thesis/results.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -13,6 +14,9 @@ struct BodyView {
   std::string id; ///< of the element on the page; the case's name
   Overlay overlay;
 };
+
+/// One view for each case, in their order. The bars' springs all stand against the finest bar's finite elements.
+std::vector<BodyView> body_views(const ThesisResults& results);
 
 /// The views' geometry for the page's script: {"unit_mm": 1e-4, "bodies": [{"rest": [x, y, z, ...], "faces":
 /// [a, b, c, d,

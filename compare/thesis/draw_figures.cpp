@@ -195,15 +195,11 @@ void draw_cubes(const std::string& folder, const ThesisResults& results, std::ve
 }
 
 void draw_bars(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
-  const Comparison* finest = find_case(results, "bar-4x4x16-ogden");
-  if (!finest) return;
   std::vector<Overlay> panels;
   for (const char* cells : {"1x1x4", "2x2x8", "4x4x16"})
-    if (const Comparison* bar = find_case(results, fmt::format("bar-{}-ogden", cells))) {
-      Overlay overlay = overlay_of(*bar, fmt::format("springs {}", cells));
-      overlay.fem = overlay_of(*finest, "").fem; // every panel stands against 4x4x16 elements
-      panels.push_back(overlay);
-    }
+    if (const Comparison* bar = find_case(results, fmt::format("bar-{}-ogden", cells)))
+      panels.push_back(thesis_overlay(results, *bar, fmt::format("springs {}", cells)));
+  if (panels.empty()) return;
   plot_bodies(folder, "figure_5_12", panels, 3);
   figures.push_back({"5.12", "figure_5_12",
                      "The bar, held at its foot, 0.05 N to the left shared by an edge of its free end: "
@@ -213,6 +209,13 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
 }
 
 } // namespace
+
+Overlay thesis_overlay(const ThesisResults& results, const Comparison& comparison, const std::string& title) {
+  Overlay overlay = overlay_of(comparison, title);
+  const Comparison* finest = find_case(results, "bar-4x4x16-ogden");
+  if (finest && comparison.scene.definition.name.rfind("bar-", 0) == 0) overlay.fem = overlay_of(*finest, "").fem;
+  return overlay;
+}
 
 std::vector<Figure> draw_figures(const std::string& folder, const ThesisResults& results) {
   std::vector<Figure> figures;
