@@ -14,5 +14,6 @@ void add_design_command(CLI::App& program, Action& chosen);
 void add_eigen_command(CLI::App& program, Action& chosen);
 void add_run_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
+void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see pool/solve_jobs.hpp
 
 } // namespace compare

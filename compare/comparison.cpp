@@ -2,29 +2,16 @@
 
 #include "compare/design.hpp"
 #include "compare/measure.hpp"
+#include "compare/stopwatch.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 
 namespace compare {
 
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> elapsed = now - std::exchange(start_, now);
-    return elapsed.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Builds a model and solves it; both sides have the same two steps.
 template<class MakeModel>
@@ -115,10 +102,15 @@ Comparison compare_case(const cases::Case& definition, Only only) {
       comparison.design = design_for(comparison.scene);
       return msm::Model(comparison.scene, stiffness_of_cells(*comparison.design));
     });
-  comparison.measures = measure_all(comparison);
-  for (const cases::Expectation& expectation : definition.expectations)
-    comparison.judgements.push_back(judge(expectation, comparison.measures));
+  measure_sides(comparison);
   return comparison;
+}
+
+void measure_sides(Comparison& comparison) {
+  comparison.measures = measure_all(comparison);
+  comparison.judgements.clear();
+  for (const cases::Expectation& expectation : comparison.scene.definition.expectations)
+    comparison.judgements.push_back(judge(expectation, comparison.measures));
 }
 
 } // namespace compare

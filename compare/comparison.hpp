@@ -68,6 +68,9 @@ enum class Only { both, fem, msm };
 /// @throws InputError
 Comparison compare_case(const cases::Case& definition, Only only = Only::both);
 
+/// Measures a comparison's sides and judges the case's expectations by that; what was there before goes.
+void measure_sides(Comparison& comparison);
+
 /// Asks CalculiX about a comparison's case, and puts its answers beside the others.
 void ask_calculix(Comparison& comparison);
 

@@ -10,11 +10,13 @@ namespace {
 
 enum ExitStatus { wrong_input = 2, internal_error = 3 };
 
-int run_action(const compare::Action& action) {
+enum class BlasWarning { give, withhold };
+
+int run_action(const compare::Action& action, BlasWarning warning) {
   const fem_reference::Session session;
   const bool speaks = session.rank() == 0; // every rank meets the same error; one tells it
   compare::use_one_blas_thread();
-  if (speaks && !compare::blas_is_openblas())
+  if (speaks && warning == BlasWarning::give && !compare::blas_is_openblas())
     std::cerr
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";
@@ -40,11 +42,13 @@ int main(int argc, char** argv) {
   compare::add_design_command(program, chosen);
   compare::add_eigen_command(program, chosen);
   compare::add_tables_command(program, chosen);
+  compare::add_worker_command(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = program.exit(error);
     return status == 0 ? 0 : wrong_input;
   }
-  return run_action(chosen);
+  // A worker's parent has given the warning.
+  return run_action(chosen, program.got_subcommand("worker") ? BlasWarning::withhold : BlasWarning::give);
 }

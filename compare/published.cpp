@@ -27,6 +27,31 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
+PublishedFigure of_cell(const std::string& table, double poissons_ratio, const std::string& measure,
+                        const std::string& unit, double value) {
+  return {table, "linear_elastic", poissons_ratio, "linear_method", poissons_ratio, "", "cell", measure, unit,
+          value};
+}
+
+void read_cell_figures(const std::string& folder, std::vector<PublishedFigure>& figures) {
+  const std::string springs = folder + "pseudo_stiffness.csv", values = folder + "eigenvalues.csv",
+                    metric = folder + "h_metric.csv";
+  const char* kinds[] = {"edge", "face_diagonal", "internal_diagonal"};
+  for (std::size_t kind = 0; kind < 3; ++kind) // row by row, as in print
+    for (const auto& row : read_csv(springs))
+      figures.push_back(of_cell(row.at(0), number(row.at(1), springs), kinds[kind], "1",
+                                number(row.at(2 + kind), springs)));
+  for (const auto& row : read_csv(values)) {
+    const double nu = number(row.at(1), values);
+    figures.push_back(
+        of_cell(row.at(0), nu, row.at(2) + "_eigenvalue_" + row.at(3), "N/mm", number(row.at(4), values)));
+    figures.push_back(
+        of_cell(row.at(0), nu, row.at(2) + "_multiplicity_" + row.at(3), "1", number(row.at(5), values)));
+  }
+  for (const auto& row : read_csv(metric))
+    figures.push_back(of_cell(row.at(0), number(row.at(1), metric), "h", "1", number(row.at(2), metric)));
+}
+
 } // namespace
 
 std::string cases_folder() {
@@ -56,6 +81,7 @@ std::vector<PublishedFigure> read_published_figures() {
   std::vector<PublishedFigure> figures;
   const std::string errors = folder + "errors.csv", volumes = folder + "volumes.csv",
                     bar = folder + "bar_deflection.csv";
+  read_cell_figures(folder, figures);
   for (const auto& row : read_csv(errors))
     figures.push_back({row.at(0), row.at(1), number(row.at(2), errors), row.at(3), number(row.at(4), errors),
                        row.at(5), row.at(6), row.at(7), "%", number(row.at(8), errors)});

@@ -8,17 +8,20 @@
 /// The thesis's printed figures, read from cases/published/.
 namespace compare {
 
-/// One printed figure: an error of tables 4.5 to 5.4 or of figure 5.12, or a volume of table 5.2.
+/// One printed figure: an error of tables 4.5 to 5.4 or of figure 5.12, a volume of table 5.2, or a figure of
+/// one cell in tables 4.1 to 4.3 (test "cell").
 struct PublishedFigure {
   std::string table;     ///< "4.5"
   std::string material;  ///< "linear_elastic" or "ogden"
   double poissons_ratio; ///< of the finite-element reference
   std::string design;    ///< "linear_method" or "nonlinear_method"
   double design_poissons_ratio;
-  std::string load_set; ///< "small" or "large"; empty for the bar
-  std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ...
-  std::string measure;  ///< "L_1" ... "beta_2", "volume", "deflection"
-  std::string unit;     ///< "%" for an error, "mm3" for the volume of the springs' body
+  std::string load_set; ///< "small" or "large"; empty for the bar and the cell
+  std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ..., "cell"
+  /// "L_1" ... "beta_2", "volume", "deflection"; of a cell "edge", "face_diagonal", "internal_diagonal" (k'
+  /// of eq. 4.21), "fem_eigenvalue_2", "msm_multiplicity_1" (numbered from 1), "h"
+  std::string measure;
+  std::string unit; ///< "%" for an error, "mm3" for the volume of the springs' body, "N/mm", or "1"
   double value;
 };
 
@@ -26,7 +29,7 @@ struct PublishedFigure {
 /// moves it.
 std::string cases_folder();
 
-/// All figures of errors.csv, volumes.csv and bar_deflection.csv.
+/// All figures of cases/published, table by table.
 /// @throws InputError naming the file when a row is broken
 std::vector<PublishedFigure> read_published_figures();
 

@@ -1,7 +1,9 @@
-#include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
-#include "compare/tables.hpp"
+#include "compare/stopwatch.hpp"
+#include "compare/thesis/regenerate.hpp"
+#include "compare/thesis/write.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -16,31 +18,42 @@ namespace {
 struct TablesOptions {
   std::vector<std::string> tables;
   std::string out;
-  bool json = false;
+  int workers = 0; ///< one per core
+  bool json = false, trace = false;
 };
 
-int tables(TablesOptions options) {
-  if (options.tables.empty()) options.tables = known_tables();
+void show_progress(int done, int all) {
+  constexpr int width = 40;
+  std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}",
+                           std::string(static_cast<std::size_t>(width * done / all), '#'), width, done, all,
+                           done == all ? "\n" : "");
+}
+
+void write_times(const std::vector<PhaseTime>& times) {
+  for (const PhaseTime& time : times)
+    std::cerr << fmt::format("{:<44} {:>8.2f} s\n", time.phase, time.seconds);
+}
+
+int tables(const TablesOptions& options) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const bool show_progress = rank == 0 && isatty(STDERR_FILENO);
-  const auto entries = regenerate(options.tables, [&](int done, int all) {
-    if (show_progress)
-      std::cerr << fmt::format("\r{} of {} comparisons{}", done, all, done == all ? "\n" : "");
+  const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
+  SolveOptions solving;
+  solving.n_workers = options.workers;
+  ThesisResults results = regenerate(options.tables, solving, [&](int done, int all) {
+    if (is_on_terminal) show_progress(done, all);
   });
-  const bool failed =
-      std::any_of(entries.begin(), entries.end(), [](const TableEntry& e) { return !e.nearest(); });
+  const bool failed = std::any_of(results.entries.begin(), results.entries.end(),
+                                  [](const TableEntry& e) { return !e.nearest(); });
   if (rank != 0) return failed;
+  Stopwatch stopwatch;
   if (options.json)
-    std::cout << tables_to_json(entries).dump(2) << '\n';
+    std::cout << results_to_json(results).dump(2) << '\n';
   else
-    write_tables_text(std::cout, entries);
-  if (!options.out.empty()) {
-    write_file(options.out + "/tables.txt", [&](std::ostream& out) { write_tables_text(out, entries); });
-    write_file(options.out + "/tables.csv", [&](std::ostream& out) { write_tables_csv(out, entries); });
-    write_file(options.out + "/tables.json",
-               [&](std::ostream& out) { out << tables_to_json(entries).dump(2) << '\n'; });
-  }
+    write_tables_text(std::cout, results, options.trace ? Commands::all : Commands::one_per_table);
+  if (!options.out.empty()) write_thesis_files(options.out, results);
+  results.times.push_back({"writing", stopwatch.lap()});
+  write_times(results.times);
   return failed;
 }
 
@@ -50,8 +63,13 @@ void add_tables_command(CLI::App& program, Action& chosen) {
   auto options = std::make_shared<TablesOptions>();
   CLI::App* command =
       program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
-  command->add_option("table", options->tables, "numbers of tables; all when left out");
-  command->add_option("--out", options->out, "folder for tables.txt, tables.csv and tables.json");
+  command->add_option("table", options->tables,
+                      "numbers of tables; without any: all, designs and advice too");
+  command->add_option("--out", options->out,
+                      "folder for the tables as text, CSV and JSON, and fields as .vtu");
+  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--trace", options->trace, "the command that repeats it under every number");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return tables(*options); }; });
 }

@@ -1,6 +1,7 @@
 #include "compare/write.hpp"
 
 #include "cases/names.hpp"
+#include "compare/csv_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -11,14 +12,6 @@ namespace {
 
 std::string field(const std::optional<double>& value) {
   return value ? fmt::format("{:.10g}", *value) : "";
-}
-
-/// RFC 4180: a text with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::optional<double> discretisation_error(const Comparison& comparison, std::size_t measure) {
@@ -34,7 +27,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
   for (const Comparison& c : comparisons)
     for (std::size_t i = 0; i < c.measures.size(); ++i) {
       const MeasuredValue& m = c.measures[i];
-      fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", field(c.scene.definition.name), field(m.name),
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", csv_text(c.scene.definition.name), csv_text(m.name),
                  m.unit, field(m.fem), field(m.msm), field(m.error_percent),
                  cases::name_of(c.fem.solution.status), cases::name_of(c.msm.solution.status),
                  field(discretisation_error(c, i)), field(m.peer));

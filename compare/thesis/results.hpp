@@ -42,6 +42,10 @@ struct TableEntry {
   const ComputedFigure* nearest() const;
 };
 
+/// For a beta_1 entry the computed figure whose from_beta_2 is what print holds, to 0.1 points; null if there
+/// is none.
+const ComputedFigure* explained_by_beta_2(const TableEntry& entry);
+
 /// Tables 4.1 to 4.3 and the dot diagrams: one cell of edge 2 mm, E = 1 MPa, springs by the linear method.
 struct CellAnalysis {
   double poissons_ratio;

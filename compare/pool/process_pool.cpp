@@ -1,0 +1,209 @@
+#include "compare/pool/process_pool.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace compare {
+
+namespace {
+
+std::system_error system_error(int code, const std::string& what) {
+  return {code, std::generic_category(), what};
+}
+
+/// MPI leaves its rank and its server's address in the environment: a worker that read them would take itself
+/// for this process.
+std::vector<char*> environment_without_mpi() {
+  std::vector<char*> kept;
+  for (char** variable = environ; *variable; ++variable) {
+    const std::string text = *variable;
+    const auto starts_with = [&](const char* prefix) { return text.rfind(prefix, 0) == 0; };
+    const bool is_setting = starts_with("OMPI_MCA_") || starts_with("OMPI_ALLOW_");
+    if (is_setting || !(starts_with("OMPI_") || starts_with("PMIX_") || starts_with("PRTE_")))
+      kept.push_back(*variable);
+  }
+  kept.push_back(nullptr);
+  return kept;
+}
+
+/// Answers are framed as "ok N\n" or "failed N\n" and N bytes.
+std::string frame(const JobAnswer& answer) {
+  const std::string& content = answer.bytes ? *answer.bytes : answer.reason;
+  return fmt::format("{} {}\n", answer.bytes ? "ok" : "failed", content.size()) + content;
+}
+
+std::optional<JobAnswer> unframe(const std::string& received) {
+  const std::size_t end_of_line = received.find('\n');
+  if (end_of_line == std::string::npos) return std::nullopt;
+  const std::size_t blank = received.find(' ');
+  const std::size_t size = std::stoul(received.substr(blank + 1));
+  if (received.size() < end_of_line + 1 + size) return std::nullopt;
+  const std::string content = received.substr(end_of_line + 1, size);
+  if (received.substr(0, blank) == "ok") return JobAnswer{content, ""};
+  return JobAnswer{std::nullopt, content};
+}
+
+std::string describe_end(int status) {
+  if (WIFSIGNALED(status))
+    return fmt::format("its process was ended by signal {} ({})", WTERMSIG(status),
+                       strsignal(WTERMSIG(status)));
+  return fmt::format("its process ended with status {} and no answer", WEXITSTATUS(status));
+}
+
+/// One worker process; it ends with this object, at once if it is at work.
+class Worker {
+ public:
+  explicit Worker(const std::vector<std::string>& command) {
+    // A socket and not two pipes, so that writing to a worker that has died is an error and no signal.
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw system_error(errno, "no socket for a worker");
+    socket_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    std::vector<std::string> words = command;
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const int error = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(),
+                                   environment_without_mpi().data());
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (error == 0) return;
+    close(socket_);
+    throw system_error(error, "the worker '" + command.front() + "' cannot be started");
+  }
+  ~Worker() {
+    if (process_ > 0 && job_) kill(process_, SIGKILL);
+    close(socket_);
+    if (process_ > 0) waitpid(process_, nullptr, 0);
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  int socket() const { return socket_; }
+  std::optional<std::size_t> job() const { return job_; }
+
+  /// A worker that has died by now does not read the job: read() will say so.
+  void give(std::size_t index, const std::string& job) {
+    job_ = index;
+    const std::string line = job + "\n";
+    for (std::size_t sent = 0; sent < line.size();) {
+      const ssize_t n = send(socket_, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      sent += static_cast<std::size_t>(n);
+    }
+  }
+
+  struct News {
+    std::optional<JobAnswer> answer; ///< of the job it had
+    bool has_ended;
+  };
+  /// Waits for the next bytes of the answer.
+  News read() {
+    char block[1 << 16];
+    const ssize_t n = ::read(socket_, block, sizeof block);
+    if (n < 0 && errno == EINTR) return {std::nullopt, false};
+    if (n <= 0) {
+      int status = 0;
+      waitpid(process_, &status, 0);
+      process_ = 0;
+      return {JobAnswer{std::nullopt, describe_end(status)}, true};
+    }
+    received_.append(block, static_cast<std::size_t>(n));
+    std::optional<JobAnswer> answer = unframe(received_);
+    if (answer) {
+      received_.clear();
+      job_.reset();
+    }
+    return {answer, false};
+  }
+
+ private:
+  pid_t process_ = 0;
+  int socket_ = -1;
+  std::string received_;
+  std::optional<std::size_t> job_;
+};
+
+} // namespace
+
+std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                                        const std::function<void(std::size_t)>& on_done) {
+  std::vector<JobAnswer> answers(jobs.size());
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::size_t next = 0;
+  const auto employ = [&](std::unique_ptr<Worker>& worker) {
+    worker.reset();
+    if (next == jobs.size()) return;
+    worker = std::make_unique<Worker>(pool.worker);
+    worker->give(next, jobs[next]);
+    ++next;
+  };
+  workers.resize(std::min(jobs.size(), static_cast<std::size_t>(std::max(1, pool.n_workers))));
+  for (auto& worker : workers) employ(worker);
+
+  for (std::size_t n_answered = 0; n_answered < jobs.size();) {
+    std::vector<pollfd> sockets; // poll() passes over a negative one
+    for (const auto& worker : workers) sockets.push_back({worker ? worker->socket() : -1, POLLIN, 0});
+    if (poll(sockets.data(), sockets.size(), -1) < 0 && errno != EINTR)
+      throw system_error(errno, "waiting for the workers");
+    for (std::size_t w = 0; w < workers.size(); ++w) {
+      if (!workers[w] || sockets[w].revents == 0) continue;
+      const std::size_t job = *workers[w]->job();
+      Worker::News news = workers[w]->read();
+      if (!news.answer) continue;
+      answers[job] = std::move(*news.answer);
+      ++n_answered;
+      on_done(job);
+      if (news.has_ended || next == jobs.size())
+        employ(workers[w]);
+      else {
+        workers[w]->give(next, jobs[next]);
+        ++next;
+      }
+    }
+  }
+  return answers;
+}
+
+void serve_jobs(const std::function<std::string(const std::string& job)>& work) {
+  // Ends with the process that asked, even in the midst of a job.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Libraries that print must not print into an answer.
+  const int answers = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  for (std::string job; std::getline(std::cin, job);) {
+    JobAnswer answer;
+    try {
+      answer.bytes = work(job);
+    } catch (const std::exception& error) {
+      answer.reason = error.what();
+    }
+    const std::string bytes = frame(answer);
+    for (std::size_t written = 0; written < bytes.size();) {
+      const ssize_t n = write(answers, bytes.data() + written, bytes.size() - written);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return;
+      written += static_cast<std::size_t>(n);
+    }
+  }
+}
+
+} // namespace compare

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "compare/comparison.hpp"
+
+#include <string>
+
+namespace compare {
+
+/// What solving found, both sides and the design, as bytes for another process of this program on this
+/// machine. The scene, the measures and the studies are not in it.
+std::string to_bytes(const Comparison& comparison);
+
+/// Takes over what to_bytes() wrote, to the last bit.  @throws std::runtime_error if the bytes are not whole
+void from_bytes(const std::string& bytes, Comparison& comparison);
+
+} // namespace compare

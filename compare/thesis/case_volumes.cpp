@@ -1,0 +1,60 @@
+#include "compare/thesis/build_results.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace compare {
+
+namespace {
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+ModelVolumes volumes_of(const cases::Solution& solution) {
+  if (solution.status != cases::Status::converged) return {};
+  return {sum(solution.cell_volume), box_plot(solution.cell_volume)};
+}
+
+/// The springs' case with the finite elements' answer put in.
+Comparison join(const Comparison& fem, const Comparison& msm) {
+  Comparison both = msm;
+  both.fem = fem.fem;
+  measure_sides(both);
+  return both;
+}
+
+bool has_own_poissons_ratio(const PublishedFigure& figure, const cases::Case& definition) {
+  const auto* elastic = std::get_if<cases::LinearElastic>(&definition.material);
+  return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
+}
+
+} // namespace
+
+CaseVolumes volumes_of(const Comparison& comparison) {
+  const cases::HexMesh& mesh = comparison.scene.mesh;
+  std::vector<double> rest;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    rest.push_back(cases::cell_volume(cases::cell_vertices(mesh, c)));
+  return {comparison.scene.definition.name, sum(rest), sum(rest) / static_cast<double>(rest.size()),
+          volumes_of(comparison.fem.solution), volumes_of(comparison.msm.solution)};
+}
+
+void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
+  std::set<std::string> seen;
+  for (const PublishedFigure& figure : figures) {
+    if (figure.test == "cell") continue;
+    const SolveJob fem = fem_job(figure, references_of(figure).front()), msm = thesis_msm_job(figure);
+    const Comparison &fem_side = solves.get(fem), &msm_side = solves.get(msm);
+    if (msm_side.scene.mesh.cells.empty()) continue; // not solved yet
+    // The first set of springs that the thesis has for the case file's own material stands for the case.
+    if (!has_own_poissons_ratio(figure, fem_side.scene.definition)) continue;
+    if (!seen.insert(fem.case_file).second) continue;
+    results.cases.push_back(join(fem_side, msm_side));
+    results.case_traces.push_back(trace_of(fem, msm));
+    results.volumes.push_back(volumes_of(results.cases.back()));
+  }
+}
+
+} // namespace compare

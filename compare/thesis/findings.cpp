@@ -1,0 +1,71 @@
+#include "compare/thesis/build_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace compare {
+
+namespace {
+
+/// Rounding of print, and of the stiffnesses behind it: what counts as the same figure, points.
+constexpr double same_figure = 0.1;
+
+/// Of the beta_1 rows some hold another quantity's error. The definition in the text gives a beta_1 that errs
+/// about as much as beta_2 does.
+std::string explain_beta_1(const TableEntry& entry) {
+  if (const ComputedFigure* c = explained_by_beta_2(entry))
+    return fmt::format(
+        "not beta_1: print holds the error of 45 deg + beta_2 of the small test, {:.2f} with {}",
+        *c->from_beta_2, c->reference);
+  return "not beta_1 as the text defines it, nor any other quantity that was tried";
+}
+
+/// The printed tilt of the left edge under the large shear lies above that reference which meets the tilt of
+/// the right edge, although both come from the same two solutions.
+std::string explain_alpha_1(const TableEntry& entry, const TableEntry* alpha_2) {
+  const ComputedFigure* right = alpha_2 ? alpha_2->nearest() : nullptr;
+  if (!right) return "";
+  const ComputedFigure& left = entry.computed[static_cast<std::size_t>(right - alpha_2->computed.data())];
+  if (!left.value || !(entry.published.value - *left.value > 1)) return "";
+  return fmt::format(
+      "print lies {:.1f} points above {}, which meets alpha_2 of the same two solutions within {:.1f}",
+      entry.published.value - *left.value, left.reference,
+      std::abs(*right->value - alpha_2->published.value));
+}
+
+bool is_same_test(const PublishedFigure& a, const PublishedFigure& b) {
+  return a.table == b.table && a.poissons_ratio == b.poissons_ratio && a.design == b.design &&
+         a.load_set == b.load_set && a.test == b.test;
+}
+
+const TableEntry* find_beside(const std::vector<TableEntry>& entries, const PublishedFigure& figure,
+                              const std::string& measure) {
+  for (const TableEntry& entry : entries)
+    if (is_same_test(entry.published, figure) && entry.published.measure == measure) return &entry;
+  return nullptr;
+}
+
+} // namespace
+
+const ComputedFigure* explained_by_beta_2(const TableEntry& entry) {
+  const ComputedFigure* nearest = nullptr;
+  const auto distance = [&](const ComputedFigure& c) {
+    return std::abs(*c.from_beta_2 - entry.published.value);
+  };
+  for (const ComputedFigure& c : entry.computed)
+    if (c.from_beta_2 && distance(c) <= same_figure && (!nearest || distance(c) < distance(*nearest)))
+      nearest = &c;
+  return nearest;
+}
+
+void explain(std::vector<TableEntry>& entries) {
+  for (TableEntry& entry : entries) {
+    const PublishedFigure& p = entry.published;
+    if (p.measure == "beta_1") entry.finding = explain_beta_1(entry);
+    if (p.measure == "alpha_1" && p.load_set == "large")
+      entry.finding = explain_alpha_1(entry, find_beside(entries, p, "alpha_2"));
+  }
+}
+
+} // namespace compare

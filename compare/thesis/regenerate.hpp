@@ -1,0 +1,23 @@
+#pragma once
+
+#include "compare/pool/solve_jobs.hpp"
+#include "compare/thesis/results.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace compare {
+
+/// Numbers of the tables that can be regenerated, in order. 5.12 is a figure: the bar.
+std::vector<std::string> known_tables();
+
+/// Solves what the tables need, each solve once, and computes every number of ThesisResults.
+/// @param tables    numbers; empty: all of them, and the comparison of designs and the advice, which look at
+///                  every table
+/// @param progress  told the number of solves done and in all
+/// @throws InputError for an unknown table
+ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOptions& options,
+                         const std::function<void(int done, int all)>& progress);
+
+} // namespace compare

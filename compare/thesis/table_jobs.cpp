@@ -1,0 +1,126 @@
+#include "compare/thesis/table_jobs.hpp"
+
+#include "cases/names.hpp"
+#include "cases/read_case.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <fmt/format.h>
+
+namespace compare {
+
+namespace {
+
+bool is_linear_elastic(const PublishedFigure& figure) {
+  return figure.material == "linear_elastic";
+}
+
+std::string path_of(const PublishedFigure& figure) {
+  return cases_folder() + "/" + case_file_of(figure);
+}
+
+std::vector<std::string> material_settings(const PublishedFigure& figure) {
+  if (!is_linear_elastic(figure)) return {};
+  return {fmt::format("material.poissons_ratio={}", figure.poissons_ratio)};
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+  for (const std::string& word : more)
+    if (std::find(to.begin(), to.end(), word) == to.end()) to.push_back(word);
+}
+
+std::string quoted(const std::string& word) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
+  return word.find_first_not_of(plain) == std::string::npos ? word : "'" + word + "'";
+}
+
+} // namespace
+
+std::string Reference::name() const {
+  return cases::name_of(formulation) + " " + cases::name_of(element);
+}
+
+std::vector<Reference> references_of(const PublishedFigure& figure) {
+  const cases::Fem declared = cases::read_case(path_of(figure)).fem;
+  std::vector<Reference> references{{declared.formulation, declared.element, true}};
+  if (!is_linear_elastic(figure)) return references;
+  for (const cases::Formulation other : {cases::Formulation::log_strain, cases::Formulation::small_strain})
+    if (other != declared.formulation) references.push_back({other, cases::Element::q1_bbar, false});
+  return references;
+}
+
+std::string case_file_of(const PublishedFigure& figure) {
+  if (figure.load_set.empty()) return fmt::format("thesis/{}/{}.toml", figure.material, figure.test);
+  return fmt::format("thesis/{}/cube_{}_{}.toml", figure.material, figure.test, figure.load_set);
+}
+
+SolveJob fem_job(const PublishedFigure& figure, const Reference& reference) {
+  std::vector<std::string> settings = material_settings(figure);
+  if (!reference.is_declared) {
+    settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
+    settings.push_back("fem.element=" + cases::name_of(reference.element));
+  }
+  return {path_of(figure), settings, Only::fem};
+}
+
+SolveJob designed_msm_job(const PublishedFigure& figure, const std::string& design) {
+  std::vector<std::string> settings = material_settings(figure);
+  settings.push_back("msm.design=" + design);
+  return {path_of(figure), settings, Only::msm};
+}
+
+SolveJob thesis_msm_job(const PublishedFigure& figure) {
+  if (figure.load_set.empty()) return {path_of(figure), {}, Only::msm};
+  const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio);
+  if (k)
+    return {path_of(figure),
+            {"msm.design=given", fmt::format("msm.stiffness=[{},{},{}]", (*k)[0], (*k)[1], (*k)[2])},
+            Only::msm};
+  SolveJob job = designed_msm_job(figure, figure.design);
+  if (figure.design_poissons_ratio != figure.poissons_ratio)
+    job.settings.push_back(fmt::format("msm.poissons_ratio={}", figure.design_poissons_ratio));
+  return job;
+}
+
+Trace trace_of(const SolveJob& fem, const SolveJob& msm) {
+  Trace trace{fem.case_file.substr(cases_folder().size() + 1), fem.settings, ""};
+  append(trace.settings, msm.settings);
+  std::vector<std::string> words{"build/springproof", "run", "cases/" + trace.case_file};
+  for (const std::string& setting : trace.settings) {
+    words.push_back("--set");
+    words.push_back(setting);
+  }
+  trace.command = shell_command(words);
+  return trace;
+}
+
+std::string shell_command(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  return line;
+}
+
+const Comparison& SolveSet::get(const SolveJob& job) {
+  assert(!is_solved_ || solves_.count(job) == 1);
+  return solves_[job];
+}
+
+void SolveSet::solve(const SolveOptions& options, const std::function<void(int done, int all)>& progress) {
+  std::vector<SolveJob> jobs;
+  for (const auto& entry : solves_) jobs.push_back(entry.first);
+  std::vector<Comparison> solved = solve_jobs(jobs, options, progress);
+  for (std::size_t j = 0; j < jobs.size(); ++j) solves_[jobs[j]] = std::move(solved[j]);
+  is_solved_ = true;
+}
+
+double SolveSet::seconds(Only side) const {
+  double sum = 0;
+  for (const auto& [job, comparison] : solves_) {
+    if (job.side != side) continue;
+    const Side& solved = side == Only::fem ? comparison.fem : comparison.msm;
+    sum += solved.setup_seconds + solved.solve_seconds;
+  }
+  return sum;
+}
+
+} // namespace compare

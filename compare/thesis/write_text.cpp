@@ -1,0 +1,167 @@
+#include "compare/thesis/write.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+namespace compare {
+
+namespace {
+
+/// What a column of a table stands for: the parts that tell its entries from those of other columns.
+std::array<std::string, 3> column_of(const PublishedFigure& p) {
+  return {p.design, fmt::format("nu = {:g}", p.poissons_ratio), p.load_set};
+}
+
+template<class Value>
+void add_unique(std::vector<Value>& values, const Value& value) {
+  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+}
+
+/// One table as a grid of its entries.
+struct Sheet {
+  std::vector<std::pair<std::string, std::string>> rows; ///< test, measure
+  std::vector<std::array<std::string, 3>> columns;
+  std::vector<const TableEntry*> entries;
+  Sheet(const std::vector<TableEntry>& all, const std::string& table) {
+    for (const TableEntry& entry : all) {
+      if (entry.published.table != table) continue;
+      entries.push_back(&entry);
+      add_unique(rows, {entry.published.test, entry.published.measure});
+      add_unique(columns, column_of(entry.published));
+    }
+  }
+  const PublishedFigure& figure() const { return entries.front()->published; }
+  const TableEntry* find(std::size_t row, std::size_t column) const {
+    for (const TableEntry* entry : entries)
+      if (rows[row] == std::pair(entry->published.test, entry->published.measure) &&
+          columns[column] == column_of(entry->published))
+        return entry;
+    return nullptr;
+  }
+};
+
+std::string number(const std::optional<double>& value, const PublishedFigure& figure) {
+  if (!value) return "-";
+  return figure.test == "cell" ? fmt::format("{:.4f}", *value) : fmt::format("{:.2f}", *value);
+}
+
+std::string title(const Sheet& sheet) {
+  const PublishedFigure& figure = sheet.figure();
+  const bool has_two = sheet.entries.front()->computed.size() > 1;
+  std::string what = "error r = (MSM - FEM)/FEM x 100 %";
+  if (figure.unit == "mm3") what = "volume of the springs' body, mm3";
+  if (figure.table == "4.1") what = "pseudo-stiffnesses k' of the springs, k = (L0/2) k' E";
+  if (figure.table == "4.2") what = "eigenvalues (N/mm for E = 1 MPa, L0 = 2 mm) and multiplicities";
+  if (figure.table == "4.3") what = "similarity h of the two matrices' eigenspaces";
+  return fmt::format("{} {}: {}{}", figure.table == "5.12" ? "Figure" : "Table", figure.table, what,
+                     has_two ? "; first the declared reference; * the one nearer to print" : "");
+}
+
+/// Rows of one measure: each reference, print, the difference of the nearest, and what explains a beta_1.
+class MeasureRows {
+ public:
+  MeasureRows(std::ostream& out, const Sheet& sheet, std::size_t row) : out_(out), sheet_(sheet), row_(row) {}
+
+  void write() const {
+    const auto& [test, measure] = sheet_.rows[row_];
+    const auto& references = any()->computed;
+    for (std::size_t k = 0; k < references.size(); ++k)
+      line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
+        const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
+        return number(entry.computed[k].value, entry.published) + (is_marked ? "*" : "");
+      });
+    line("", "", measure == "beta_1" ? "published (!)" : "published",
+         [](const TableEntry& entry) { return number(entry.published.value, entry.published); });
+    line("", "", "difference", [](const TableEntry& entry) {
+      const ComputedFigure* nearest = entry.nearest();
+      return number(nearest ? std::optional(*nearest->value - entry.published.value) : std::nullopt,
+                    entry.published);
+    });
+    const bool is_explained =
+        std::any_of(sheet_.entries.begin(), sheet_.entries.end(),
+                    [](const TableEntry* e) { return explained_by_beta_2(*e) != nullptr; });
+    if (measure == "beta_1" && is_explained)
+      line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
+        const ComputedFigure* c = explained_by_beta_2(entry);
+        return c ? number(c->from_beta_2, entry.published) : std::string();
+      });
+  }
+
+  /// @param cell  the text of one entry
+  template<class Cell>
+  void line(const std::string& test, const std::string& measure, const std::string& label,
+            const Cell& cell) const {
+    fmt::print(out_, "  {:<8} {:<18} {:<22}", test, measure, label);
+    for (std::size_t c = 0; c < sheet_.columns.size(); ++c) {
+      const TableEntry* entry = sheet_.find(row_, c);
+      fmt::print(out_, " {:>16}", entry ? cell(*entry) : std::string());
+    }
+    fmt::print(out_, "\n");
+  }
+
+ private:
+  const TableEntry* any() const {
+    for (std::size_t c = 0; c < sheet_.columns.size(); ++c)
+      if (const TableEntry* entry = sheet_.find(row_, c)) return entry;
+    return nullptr;
+  }
+  std::ostream& out_;
+  const Sheet& sheet_;
+  std::size_t row_;
+};
+
+void write_commands(std::ostream& out, const Sheet& sheet, Commands commands) {
+  const auto name_of = [](const PublishedFigure& p) {
+    std::string name = p.test + " " + p.measure;
+    for (const std::string& part : column_of(p)) name += part.empty() ? "" : ", " + part;
+    return name;
+  };
+  if (commands == Commands::one_per_table) {
+    const TableEntry& first = *sheet.entries.front();
+    fmt::print(out, "  {} again: {}\n", name_of(first.published), first.declared().trace.command);
+    return;
+  }
+  for (const TableEntry* entry : sheet.entries)
+    for (const ComputedFigure& c : entry->computed)
+      fmt::print(out, "  {} ({}): {}\n", name_of(entry->published), c.reference, c.trace.command);
+}
+
+void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
+  fmt::print(out, "\n{}\n", title(sheet));
+  for (std::size_t part = 0; part < 3; ++part) {
+    fmt::print(out, "  {:<8} {:<18} {:<22}", "", "", "");
+    for (const auto& column : sheet.columns) fmt::print(out, " {:>16}", column[part]);
+    fmt::print(out, "\n");
+  }
+  for (std::size_t row = 0; row < sheet.rows.size(); ++row) MeasureRows(out, sheet, row).write();
+  const bool has_beta_1 = std::any_of(sheet.entries.begin(), sheet.entries.end(),
+                                      [](const TableEntry* e) { return e->published.measure == "beta_1"; });
+  if (has_beta_1)
+    fmt::print(out,
+               "  (!) the printed beta_1 is not the rotation that the text defines; ours is: see the end\n");
+  for (const TableEntry* entry : sheet.entries)
+    for (const ComputedFigure& c : entry->computed)
+      if (!c.value)
+        fmt::print(out, "  no value: {} {} nu = {:g} ({}): {}\n", entry->published.test,
+                   entry->published.measure, entry->published.poissons_ratio, c.reference, c.reason);
+  write_commands(out, sheet, commands);
+}
+
+} // namespace
+
+void write_tables_text(std::ostream& out, const ThesisResults& results, Commands commands) {
+  std::vector<std::string> tables;
+  for (const TableEntry& entry : results.entries) add_unique(tables, entry.published.table);
+  for (const std::string& table : tables) write_sheet(out, Sheet(results.entries, table), commands);
+  if (commands == Commands::one_per_table)
+    fmt::print(out,
+               "\nThe command behind every other number: --trace, or the column `command` of tables.csv.\n");
+  write_designs_text(out, results.designs);
+  write_volumes_text(out, results.volumes);
+  write_advice_text(out, results.advice);
+  write_summary_text(out, summarise(results.entries));
+}
+
+} // namespace compare
