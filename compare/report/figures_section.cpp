@@ -11,10 +11,12 @@ namespace {
 std::string measures(const Comparison& comparison) {
   std::string html;
   for (const MeasuredValue& m : comparison.measures)
-    html += fmt::format("<br>{}: FEM {}, MSM {} {}{}", escape(m.name), number(m.fem), number(m.msm), escape(m.unit),
+    html += fmt::format("<br>{}: FEM {}, MSM {} {}{}", escape(m.name), number(m.fem), number(m.msm),
+                        escape(m.unit),
                         m.error_percent ? fmt::format(", error {:+.2f} %", *m.error_percent) : "");
   for (const Side* side : {&comparison.fem, &comparison.msm})
-    if (side->solution.status == cases::Status::failed) html += "<br>failed: " + escape(side->solution.message);
+    if (side->solution.status == cases::Status::failed)
+      html += "<br>failed: " + escape(side->solution.message);
   return html;
 }
 
@@ -26,30 +28,40 @@ std::string figures_section(const std::vector<Figure>& figures, const std::strin
     // Thousands of faces make a vector picture larger than its pixels.
     const std::string drawing = folder + "/" + figure.name;
     const std::string vector = data_address(drawing + ".svg", "image/svg+xml");
-    const std::string picture = vector.size() < 200'000 ? vector : data_address(drawing + ".png", "image/png");
-    html += fmt::format("<figure id=\"{0}\"><img src=\"{1}\" alt=\"Figure {2}\">\n<figcaption><b>Figure {2}.</b> {3} <span "
-                        "class=\"quiet\">Files: figures/{0}.svg, .png, .gp. Again: <code>{4}</code></span></figcaption></figure>\n",
-                        figure.name, picture, escape(figure.number), escape(figure.caption), escape(figure.command));
+    const std::string picture =
+        vector.size() < 200'000 ? vector : data_address(drawing + ".png", "image/png");
+    html += fmt::format(
+        "<figure id=\"{0}\"><img src=\"{1}\" alt=\"Figure {2}\">\n<figcaption><b>Figure {2}.</b> {3} <span "
+        "class=\"quiet\">Files: figures/{0}.svg, .png, .gp. Again: "
+        "<code>{4}</code></span></figcaption></figure>\n",
+        figure.name, picture, escape(figure.number), escape(figure.caption), escape(figure.command));
   }
   return html;
 }
 
-std::string views_section(const ThesisResults& results, const std::vector<BodyView>& views, const std::string& folder) {
+std::string views_section(const ThesisResults& results, const std::vector<BodyView>& views,
+                          const std::string& folder) {
   if (views.empty()) return "";
-  std::string html =
-      "<p>Drag to turn. <span class=\"fem-key\">Finite elements: blue translucent surface with its edges.</span> <span "
-      "class=\"springs-key\">Springs: orange lines (the surface's edges, and fainter its diagonals).</span> The slider multiplies "
-      "the displacements; × 1 is true. Both models on one mesh for ParaView: fields/CASE.vtu.</p>\n<div class=\"views\">\n";
+  std::string html = "<p>Drag to turn. <span class=\"fem-key\">Finite elements: blue translucent surface "
+                     "with its edges.</span> <span "
+                     "class=\"springs-key\">Springs: orange lines (the surface's edges, and fainter its "
+                     "diagonals).</span> The slider multiplies "
+                     "the displacements; × 1 is true. Both models on one mesh for ParaView: "
+                     "CASE.vtu.</p>\n<div class=\"views\">\n";
   for (std::size_t v = 0; v < views.size(); ++v) {
     const cases::Case& definition = results.cases[v].scene.definition;
-    html += fmt::format(
-        "<figure class=\"view\" id=\"view-{0}\"><img src=\"{1}\" alt=\"{0}: springs over finite elements\"><canvas></canvas>\n"
-        "<div class=\"controls\"><label>displacements <input type=\"range\" min=\"0\" max=\"2\" step=\"0.05\" value=\"1\"></label> "
-        "<output></output><label><input type=\"checkbox\" name=\"fem\" checked> finite elements</label><label><input "
-        "type=\"checkbox\" name=\"springs\" checked> springs</label></div>\n<figcaption><b>{0}</b><br>{2}.{3}<br><code>{4}</code>"
-        "</figcaption></figure>\n",
-        escape(views[v].id), data_address(folder + "/" + views[v].id + ".png", "image/png"), escape(definition.description),
-        measures(results.cases[v]), escape(results.case_traces[v].command));
+    html += fmt::format("<figure class=\"view\" id=\"view-{0}\"><img src=\"{1}\" alt=\"{0}: springs over "
+                        "finite elements\"><canvas></canvas>\n"
+                        "<div class=\"controls\"><label>displacements <input type=\"range\" min=\"0\" "
+                        "max=\"2\" step=\"0.05\" value=\"1\"></label> "
+                        "<output></output><label><input type=\"checkbox\" name=\"fem\" checked> finite "
+                        "elements</label><label><input "
+                        "type=\"checkbox\" name=\"springs\" checked> "
+                        "springs</label></div>\n<figcaption><b>{0}</b><br>{2}.{3}<br><code>{4}</code>"
+                        "</figcaption></figure>\n",
+                        escape(views[v].id), data_address(folder + "/" + views[v].id + ".png", "image/png"),
+                        escape(definition.description), measures(results.cases[v]),
+                        escape(results.case_traces[v].command));
   }
   return html + "</div>\n";
 }

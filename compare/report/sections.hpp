@@ -26,7 +26,8 @@ std::string volumes_section(const ThesisResults& results);
 std::string figures_section(const std::vector<Figure>& figures, const std::string& folder);
 
 /// @param folder  that holds each view's static picture, ID.png
-std::string views_section(const ThesisResults& results, const std::vector<BodyView>& views, const std::string& folder);
+std::string views_section(const ThesisResults& results, const std::vector<BodyView>& views,
+                          const std::string& folder);
 
 /// Settings and outcome of each case, versions, machine and times.
 std::string settings_section(const ThesisResults& results);

@@ -1,5 +1,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/thesis/sheet.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +9,13 @@ namespace compare::html {
 namespace {
 
 std::string counts(const SummaryGroup& group) {
-  std::string html = fmt::format("<tbody class=\"measure\">\n<tr><th class=\"text\" rowspan=\"{}\">{}, {} figures</th>",
-                                 group.within.size(), escape(group.name), group.n_entries);
+  std::string html =
+      fmt::format("<tbody class=\"measure\">\n<tr><th class=\"text\" rowspan=\"{}\">{}, {} figures</th>",
+                  group.within.size(), escape(group.name), group.n_entries);
   for (const Within& w : group.within)
-    html += fmt::format("{}<td>{:g} {}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", &w == &group.within.front() ? "" : "<tr>",
-                        w.bound, escape(group.unit), w.declared, w.other_only, w.neither);
+    html += fmt::format("{}<td>{:g} {}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        &w == &group.within.front() ? "" : "<tr>", w.bound, escape(group.unit), w.declared,
+                        w.other_only, w.neither);
   return html + "</tbody>\n";
 }
 
@@ -20,12 +23,14 @@ std::string beyond(const TableEntry& entry) {
   const PublishedFigure& p = entry.published;
   std::string computed;
   for (const ComputedFigure& c : entry.computed)
-    computed += fmt::format("{}{}: {}", computed.empty() ? "" : "<br>", escape(c.reference),
-                            c.value ? number(c.value, p.test == "cell" ? 4 : 2) : "no value, " + escape(c.reason));
-  return fmt::format("<tr><td class=\"text\"><a href=\"#table-{0}\">{0}</a></td><td class=\"text\">{1} {2} {3}, ν = {4:g}, {5}</td>"
-                     "<td>{6:g}</td><td>{7}</td><td class=\"long\">{8}</td></tr>\n",
-                     p.table, escape(p.load_set), escape(p.test), escape(p.measure), p.poissons_ratio, escape(p.design),
-                     p.value, computed, entry.finding.empty() ? "unexplained" : escape(entry.finding));
+    computed +=
+        fmt::format("{}{}: {}", computed.empty() ? "" : "<br>", escape(c.reference),
+                    c.value ? number(c.value, p.test == "cell" ? 4 : 2) : "no value, " + escape(c.reason));
+  return fmt::format(
+      "<tr><td class=\"text\"><a href=\"#table-{0}\">{0}</a></td><td class=\"text\">{1}</td><td>{2:g}</td>"
+      "<td>{3}</td><td class=\"long\">{4}</td></tr>\n",
+      p.table, escape(name_of(p)), p.value, computed,
+      entry.finding.empty() ? "unexplained" : escape(entry.finding));
 }
 
 } // namespace
@@ -33,15 +38,19 @@ std::string beyond(const TableEntry& entry) {
 std::string summary_section(const ThesisResults& results) {
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   if (groups.empty()) return "";
-  std::string html = "<div class=\"scroll\"><table data-table=\"summary\"><caption>Printed figures that are reproduced</caption>\n"
-                     "<thead><tr><th></th><th>within</th><th>by the declared reference</th><th>only by the other</th><th>by "
-                     "neither</th></tr></thead>\n";
+  std::string html =
+      "<div class=\"scroll\"><table data-table=\"summary\"><caption>Printed figures that are "
+      "reproduced</caption>\n"
+      "<thead><tr><th></th><th>within</th><th>by the declared reference</th><th>only by the other</th><th>by "
+      "neither</th></tr></thead>\n";
   for (const SummaryGroup& group : groups) html += counts(group);
   html += "</table></div>\n";
   for (const SummaryGroup& group : groups) {
     if (group.beyond.empty()) continue;
-    html += fmt::format("<details><summary>{}: {} not within {:g} {} of any reference</summary>\n<div class=\"scroll\"><table>"
-                        "<thead><tr><th class=\"text\">table</th><th class=\"text\">figure</th><th>published</th><th>computed</th>"
+    html += fmt::format("<details><summary>{}: {} not within {:g} {} of any reference</summary>\n<div "
+                        "class=\"scroll\"><table>"
+                        "<thead><tr><th class=\"text\">table</th><th "
+                        "class=\"text\">figure</th><th>published</th><th>computed</th>"
                         "<th class=\"text\">explanation</th></tr></thead><tbody>\n",
                         escape(group.name), group.beyond.size(), group.listing_bound, escape(group.unit));
     for (const TableEntry* entry : group.beyond) html += beyond(*entry);

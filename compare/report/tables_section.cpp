@@ -31,9 +31,9 @@ std::string provenance(const ComputedFigure& c) {
 std::string computed_cell(const Sheet& sheet, const TableEntry& entry, std::size_t reference) {
   const ComputedFigure& c = entry.computed[reference];
   const bool is_nearest = entry.computed.size() > 1 && entry.nearest() == &c;
-  return fmt::format("<td{}><a href=\"#{}\" title=\"{}\">{}{}</a></td>", is_nearest ? " class=\"nearest\"" : "",
-                     anchor(sheet, entry, reference), provenance(c), number(c.value, decimals(entry.published)),
-                     is_nearest ? "*" : "");
+  return fmt::format("<td{}><a href=\"#{}\" title=\"{}\">{}{}</a></td>",
+                     is_nearest ? " class=\"nearest\"" : "", anchor(sheet, entry, reference), provenance(c),
+                     number(c.value, decimals(entry.published)), is_nearest ? "*" : "");
 }
 
 /// The mark is a circle, the emptier the farther from print.
@@ -45,13 +45,17 @@ std::string difference_cell(const TableEntry& entry) {
   if (entry.published.test == "cell") return "<td>" + text + "</td>";
   const double size = std::abs(difference);
   const char* mark = size <= 0.1 ? "●" : size <= 0.5 ? "◕" : size <= 1 ? "◑" : size <= 2 ? "◔" : "○";
-  return fmt::format("<td class=\"{}\">{} {}</td>", size <= 1 ? "within" : size <= 2 ? "" : "beyond", mark, text);
+  return fmt::format("<td class=\"{}\">{} {}</td>",
+                     size <= 1   ? "within"
+                     : size <= 2 ? ""
+                                 : "beyond",
+                     mark, text);
 }
 
 /// A table row of one measure. @param cell  the cell of one entry
 template<class Cell>
-std::string line(const Sheet& sheet, std::size_t row, const std::string& heading, const std::string& row_class,
-                 const Cell& cell) {
+std::string line(const Sheet& sheet, std::size_t row, const std::string& heading,
+                 const std::string& row_class, const Cell& cell) {
   std::string html = row_class.empty() ? "<tr>" : "<tr class=\"" + row_class + "\">";
   html += heading;
   for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
@@ -75,8 +79,9 @@ std::string measure_rows(const Sheet& sheet, std::size_t row) {
                  [&](const TableEntry& entry) { return computed_cell(sheet, entry, k); });
   html += line(sheet, row, labelled("published"), "published", [](const TableEntry& entry) {
     const std::string value = number(entry.published.value, decimals(entry.published));
-    return entry.finding.empty() ? "<td>" + value + "</td>"
-                                 : fmt::format("<td title=\"{}\">{} <abbr>!</abbr></td>", escape(entry.finding), value);
+    return entry.finding.empty()
+               ? "<td>" + value + "</td>"
+               : fmt::format("<td title=\"{}\">{} <abbr>!</abbr></td>", escape(entry.finding), value);
   });
   html += line(sheet, row, labelled("difference"), "", difference_cell);
   return html + "</tbody>\n";
@@ -94,20 +99,22 @@ std::string head(const Sheet& sheet) {
 
 /// A line for each number: both models' measures and the command.
 std::string trace_table(const Sheet& sheet) {
-  std::string html = "<details><summary>Case file, settings and command of each number</summary>\n<div "
-                     "class=\"scroll\"><table><thead><tr><th class=\"text\">figure</th><th class=\"text\">reference</th><th>"
-                     "value</th><th>FEM</th><th>MSM</th><th class=\"text\">command (in the source folder)</th></tr></thead>"
-                     "<tbody>\n";
+  std::string html =
+      "<details><summary>Case file, settings and command of each number</summary>\n<div "
+      "class=\"scroll\"><table><thead><tr><th class=\"text\">figure</th><th class=\"text\">reference</th><th>"
+      "value</th><th>FEM</th><th>MSM</th><th class=\"text\">command (in the source folder)</th></tr></thead>"
+      "<tbody>\n";
   for (const TableEntry* entry : sheet.entries)
     for (std::size_t k = 0; k < entry->computed.size(); ++k) {
       const PublishedFigure& p = entry->published;
       const ComputedFigure& c = entry->computed[k];
       html += fmt::format(
-          "<tr id=\"{}\"><td class=\"text\">{} {} {}, ν = {:g}, {}</td><td class=\"text\">{}</td><td>{}</td><td>{}</td>"
-          "<td>{}</td><td class=\"long\"><code>{}</code>{}{}</td></tr>\n",
-          anchor(sheet, *entry, k), escape(p.load_set), escape(p.test), escape(p.measure), p.poissons_ratio,
-          escape(p.design), escape(c.reference), number(c.value, decimals(p)), number(c.fem, 4), number(c.msm, 4),
-          escape(c.trace.command), c.reason.empty() ? "" : "<br>no value: " + escape(c.reason),
+          "<tr id=\"{}\"><td class=\"text\">{}</td><td "
+          "class=\"text\">{}</td><td>{}</td><td>{}</td><td>{}</td><td "
+          "class=\"long\"><code>{}</code>{}{}</td></tr>\n",
+          anchor(sheet, *entry, k), escape(name_of(p)), escape(c.reference), number(c.value, decimals(p)),
+          number(c.fem, 4), number(c.msm, 4), escape(c.trace.command),
+          c.reason.empty() ? "" : "<br>no value: " + escape(c.reason),
           k + 1 < entry->computed.size() || entry->finding.empty() ? "" : "<br>" + escape(entry->finding));
     }
   return html + "</tbody></table></div></details>\n";
@@ -116,15 +123,19 @@ std::string trace_table(const Sheet& sheet) {
 } // namespace
 
 std::string tables_section(const ThesisResults& results) {
-  std::string html =
-      "<p>Each number of ours is a link to the line below its table that has its case file, settings and command; resting the "
-      "pointer on it shows them too. Where two finite-element references were computed, the declared one stands first and * marks "
-      "the one nearer to print, from which the difference is taken. Differences, in points of percent or mm³: ● within 0.1, ◕ 0.5, "
-      "◑ 1, ◔ 2, ○ more. An exclamation mark after a printed figure: something is known about it (rest the pointer on it).</p>\n";
+  std::string html = "<p>Each number of ours is a link to the line below its table that has its case file, "
+                     "settings and command; resting the "
+                     "pointer on it shows them too. Where two finite-element references were computed, the "
+                     "declared one stands first and * marks "
+                     "the one nearer to print, from which the difference is taken. Differences, in points of "
+                     "percent or mm³: ● within 0.1, ◕ 0.5, "
+                     "◑ 1, ◔ 2, ○ more. An exclamation mark after a printed figure: something is known about "
+                     "it (rest the pointer on it).</p>\n";
   for (const Sheet& sheet : sheets_of(results.entries)) {
-    html += fmt::format("<h3 id=\"table-{0}\">{1}</h3>\n<div class=\"scroll\"><table class=\"thesis\" data-table=\"{0}\">"
-                        "<caption>{2}</caption>\n{3}",
-                        sheet.table, name_of(sheet), escape(subject_of(sheet)), head(sheet));
+    html += fmt::format(
+        "<h3 id=\"table-{0}\">{1}</h3>\n<div class=\"scroll\"><table class=\"thesis\" data-table=\"{0}\">"
+        "<caption>{2}</caption>\n{3}",
+        sheet.table, name_of(sheet), escape(subject_of(sheet)), head(sheet));
     for (std::size_t row = 0; row < sheet.rows.size(); ++row) html += measure_rows(sheet, row);
     html += "</table></div>\n" + trace_table(sheet);
   }

@@ -15,7 +15,8 @@ struct BodyView {
   Overlay overlay;
 };
 
-/// One view for each case, in their order. The bars' springs all stand against the finest bar's finite elements.
+/// One view for each case, in their order. The bars' springs all stand against the finest bar's finite
+/// elements.
 std::vector<BodyView> body_views(const ThesisResults& results);
 
 /// The views' geometry for the page's script: {"unit_mm": 1e-4, "bodies": [{"rest": [x, y, z, ...], "faces":

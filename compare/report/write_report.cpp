@@ -4,7 +4,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
 #include "compare/version.hpp"
-#include "compare/write.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,13 +23,6 @@ std::string page_file(const std::string& name) {
 /// The static picture of each view, which stays on the page where scripts are off.
 void draw_stills(const std::string& folder, const std::vector<BodyView>& views) {
   for (const BodyView& view : views) plot_bodies(folder, view.id, {view.overlay}, 1);
-}
-
-/// Both models of every case on one mesh, for ParaView.
-void write_fields(const std::string& folder, const ThesisResults& results) {
-  for (const Comparison& comparison : results.cases)
-    write_file(folder + "/" + comparison.scene.definition.name + ".vtu",
-               [&](std::ostream& out) { write_vtu(out, comparison); });
 }
 
 std::string page(const std::vector<Section>& sections, const std::vector<BodyView>& views) {
@@ -54,11 +46,11 @@ std::string page(const std::vector<Section>& sections, const std::vector<BodyVie
 
 } // namespace
 
-void write_report(const std::string& folder, const ThesisResults& results, const std::vector<Figure>& figures) {
+void write_report(const std::string& folder, const ThesisResults& results,
+                  const std::vector<Figure>& figures) {
   const std::string pictures = folder + "/figures";
   const std::vector<BodyView> views = body_views(results);
   draw_stills(pictures, views);
-  write_fields(folder + "/fields", results);
   const std::string text =
       page({{"summary", "What is reproduced", html::summary_section(results)},
             {"which-design", "Which design to use", html::advice_section(results)},

@@ -8,10 +8,11 @@
 
 namespace compare {
 
-/// FOLDER/report.html: tables, figures, three-dimensional views, settings and times on one page that needs no other file
-/// and no network. The views' static pictures go to FOLDER/figures, the cases' fields for ParaView to FOLDER/fields.
+/// FOLDER/report.html: tables, figures, three-dimensional views, settings and times on one page that needs no
+/// other file and no network. The views' static pictures go to FOLDER/figures.
 /// @param figures  as draw_figures() left them in FOLDER/figures
 /// @throws InputError if something cannot be read or written
-void write_report(const std::string& folder, const ThesisResults& results, const std::vector<Figure>& figures);
+void write_report(const std::string& folder, const ThesisResults& results,
+                  const std::vector<Figure>& figures);
 
 } // namespace compare

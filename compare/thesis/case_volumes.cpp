@@ -30,6 +30,18 @@ bool has_own_poissons_ratio(const PublishedFigure& figure, const cases::Case& de
   return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
 }
 
+/// Solved for tables 4.5 and 4.6 anyway.
+void add_figure_4_15(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
+  std::set<std::string> seen;
+  for (const PublishedFigure& figure : figures) {
+    if (figure.table != "4.5" && figure.table != "4.6") continue;
+    if (figure.poissons_ratio != 0.25 || !seen.insert(case_file_of(figure)).second) continue;
+    const Comparison& fem = solves.get(fem_job(figure, references_of(figure).front()));
+    const Comparison& msm = solves.get(thesis_msm_job(figure));
+    if (!msm.scene.mesh.cells.empty()) results.figure_4_15.push_back(join(fem, msm));
+  }
+}
+
 } // namespace
 
 CaseVolumes volumes_of(const Comparison& comparison) {
@@ -55,6 +67,7 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
     results.case_traces.push_back(trace_of(fem, msm));
     results.volumes.push_back(volumes_of(results.cases.back()));
   }
+  add_figure_4_15(figures, solves, results);
 }
 
 } // namespace compare

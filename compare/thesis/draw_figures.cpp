@@ -31,8 +31,8 @@ const Record* find_named(const std::vector<Record>& records, const std::string& 
   return found == records.end() ? nullptr : &*found;
 }
 
-const Comparison* find_case(const ThesisResults& results, const std::string& name) {
-  return find_named(results.cases, name, [](const Comparison& c) { return c.scene.definition.name; });
+const Comparison* find_case(const std::vector<Comparison>& cases, const std::string& name) {
+  return find_named(cases, name, [](const Comparison& c) { return c.scene.definition.name; });
 }
 
 msm::CellStiffness published_cell(const std::string& design, const std::string& material,
@@ -131,27 +131,17 @@ void draw_dot_diagrams(const std::string& folder, const ThesisResults& results,
   }
 }
 
-std::vector<Comparison> solve_cubes_of_figure_4_15() {
-  const auto k = published_stiffness("linear_method", "linear_elastic", 0.25);
-  std::vector<Comparison> cubes;
-  for (const auto& [test, load_set] : cube_tests)
-    cubes.push_back(compare_case(cases::read_case(
-        fmt::format("{}/thesis/linear_elastic/cube_{}_{}.toml", cases_folder(), test, load_set),
-        {"material.poissons_ratio=0.25", "fem.formulation=log_strain", "fem.element=q1_bbar",
-         "msm.design=given", fmt::format("msm.stiffness=[{}, {}, {}]", k->at(0), k->at(1), k->at(2))})));
-  return cubes;
-}
-
 std::string label_of(const CubeTest& test) {
   return fmt::format("{}, {} load", test.test, test.load_set);
 }
 
 void draw_cubes(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
-  if (find_case(results, "cube-shear-small")) {
-    const std::vector<Comparison> cubes = solve_cubes_of_figure_4_15();
-    std::vector<Overlay> panels;
-    for (std::size_t c = 0; c < cubes.size(); ++c)
-      panels.push_back(overlay_of(cubes[c], label_of(cube_tests[c])));
+  std::vector<Overlay> panels;
+  for (const CubeTest& test : cube_tests)
+    if (const Comparison* cube =
+            find_case(results.figure_4_15, fmt::format("cube-{}-{}", test.test, test.load_set)))
+      panels.push_back(overlay_of(*cube, label_of(test)));
+  if (!panels.empty()) {
     plot_bodies(folder, "figure_4_15", panels, 2);
     figures.push_back(
         {"4.15", "figure_4_15",
@@ -162,12 +152,12 @@ void draw_cubes(const std::string& folder, const ThesisResults& results, std::ve
          "material.poissons_ratio=0.25 --set "
          "fem.formulation=log_strain --set msm.design=given --set msm.stiffness=[25,36,23] --out DIR"});
   }
-  std::vector<Overlay> panels;
+  panels.clear();
   std::vector<const CaseVolumes*> volumes;
   std::vector<std::string> labels;
   for (const CubeTest& test : cube_tests) {
     const std::string name = fmt::format("cube-{}-{}-ogden", test.test, test.load_set);
-    if (const Comparison* cube = find_case(results, name))
+    if (const Comparison* cube = find_case(results.cases, name))
       panels.push_back(overlay_of(*cube, label_of(test)));
     if (const CaseVolumes* of_case =
             find_named(results.volumes, name, [](const CaseVolumes& v) { return v.name; })) {
@@ -197,7 +187,7 @@ void draw_cubes(const std::string& folder, const ThesisResults& results, std::ve
 void draw_bars(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
   std::vector<Overlay> panels;
   for (const char* cells : {"1x1x4", "2x2x8", "4x4x16"})
-    if (const Comparison* bar = find_case(results, fmt::format("bar-{}-ogden", cells)))
+    if (const Comparison* bar = find_case(results.cases, fmt::format("bar-{}-ogden", cells)))
       panels.push_back(thesis_overlay(results, *bar, fmt::format("springs {}", cells)));
   if (panels.empty()) return;
   plot_bodies(folder, "figure_5_12", panels, 3);
@@ -212,8 +202,9 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
 
 Overlay thesis_overlay(const ThesisResults& results, const Comparison& comparison, const std::string& title) {
   Overlay overlay = overlay_of(comparison, title);
-  const Comparison* finest = find_case(results, "bar-4x4x16-ogden");
-  if (finest && comparison.scene.definition.name.rfind("bar-", 0) == 0) overlay.fem = overlay_of(*finest, "").fem;
+  const Comparison* finest = find_case(results.cases, "bar-4x4x16-ogden");
+  if (finest && comparison.scene.definition.name.rfind("bar-", 0) == 0)
+    overlay.fem = overlay_of(*finest, "").fem;
   return overlay;
 }
 

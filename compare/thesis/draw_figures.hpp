@@ -16,8 +16,8 @@ struct Figure {
   std::string command; ///< that draws it again, as typed in the source folder
 };
 
-/// Both models of one of the results' cases. Bars of any resolution stand against the finest one's finite elements (figure
-/// 5.12).
+/// Both models of one of the results' cases. Bars of any resolution stand against the finest one's finite
+/// elements (figure 5.12).
 Overlay thesis_overlay(const ThesisResults& results, const Comparison& comparison, const std::string& title);
 
 /// Draws the thesis's figures that the results have something for: designs (4.6 to 4.8, 5.4 to 5.8) always,

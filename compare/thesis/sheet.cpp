@@ -52,6 +52,12 @@ std::string name_of(const Sheet& sheet) {
   return (sheet.table == "5.12" ? "Figure " : "Table ") + sheet.table;
 }
 
+std::string name_of(const PublishedFigure& figure) {
+  std::string name = figure.test + " " + figure.measure;
+  for (const std::string& part : column_of(figure)) name += part.empty() ? "" : ", " + part;
+  return name;
+}
+
 std::string subject_of(const Sheet& sheet) {
   if (sheet.table == "4.1") return "pseudo-stiffnesses k' of the springs, k = (L0/2) k' E";
   if (sheet.table == "4.2") return "eigenvalues (N/mm for E = 1 MPa, L0 = 2 mm) and multiplicities";

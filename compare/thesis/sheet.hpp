@@ -25,6 +25,9 @@ std::vector<Sheet> sheets_of(const std::vector<TableEntry>& entries);
 /// "Table 4.5", "Figure 5.12".
 std::string name_of(const Sheet& sheet);
 
+/// "shear alpha_1, linear_method, nu = 0.35, small": one figure, told from the others of its table.
+std::string name_of(const PublishedFigure& figure);
+
 /// What the table's figures are, with their unit.
 std::string subject_of(const Sheet& sheet);
 
