@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mpi.h>
-#include <numeric>
 #include <sstream>
 #include <thread>
 #include <tuple>
@@ -70,6 +69,26 @@ void fail(Comparison& comparison, Only side, const std::string& reason) {
   if (side != Only::fem) fail_side(comparison.msm);
 }
 
+/// Makes every job's scene, and fails the jobs that make none.
+/// @return the indices of the others, dearest first
+std::vector<std::size_t> prepare(const std::vector<SolveJob>& jobs, std::vector<Comparison>& solved) {
+  std::vector<std::size_t> order;
+  std::vector<double> cost(jobs.size());
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    try {
+      solved[j].scene = cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings));
+    } catch (const cases::InputError& error) {
+      fail(solved[j], jobs[j].side, error.what());
+      continue;
+    }
+    cost[j] = dearness(solved[j].scene, jobs[j].side);
+    order.push_back(j);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
+  return order;
+}
+
 void solve_in_this_process(const SolveJob& job, Comparison& comparison) {
   const cases::Scene scene = comparison.scene;
   try {
@@ -98,18 +117,9 @@ std::string answer_job(const std::string& line) {
 std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const SolveOptions& options,
                                    const std::function<void(int done, int all)>& progress) {
   std::vector<Comparison> solved(jobs.size());
-  std::vector<double> cost;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    solved[j].scene = cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings));
-    cost.push_back(dearness(solved[j].scene, jobs[j].side));
-  }
-  std::vector<std::size_t> order(jobs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
-
+  const std::vector<std::size_t> order = prepare(jobs, solved);
   int n_done = 0, n_ranks = 1;
-  const auto count = [&] { progress(++n_done, static_cast<int>(jobs.size())); };
+  const auto count = [&] { progress(++n_done, static_cast<int>(order.size())); };
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   if (n_ranks > 1) {
     for (const std::size_t j : order) {

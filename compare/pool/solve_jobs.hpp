@@ -27,7 +27,6 @@ struct SolveOptions {
 /// side with its reason, and the others go on. Under MPI with several ranks the jobs run in this process one
 /// after the other, each distributed (collective).
 /// @param progress  told the number of jobs done and in all
-/// @throws InputError for a case file that cannot be read, before anything is solved
 std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const SolveOptions& options,
                                    const std::function<void(int done, int all)>& progress);
 

@@ -14,11 +14,12 @@ constexpr double same_figure = 0.1;
 /// Of the beta_1 rows some hold another quantity's error. The definition in the text gives a beta_1 that errs
 /// about as much as beta_2 does.
 std::string explain_beta_1(const TableEntry& entry) {
-  if (const ComputedFigure* c = explained_by_beta_2(entry))
-    return fmt::format(
-        "not beta_1: print holds the error of 45 deg + beta_2 of the small test, {:.2f} with {}",
-        *c->from_beta_2, c->reference);
-  return "not beta_1 as the text defines it, nor any other quantity that was tried";
+  const ComputedFigure* c = explained_by_beta_2(entry);
+  if (!c) return "not beta_1 as the text defines it, nor any other quantity that was tried";
+  const double reading = *nearest_from_beta_2(*c, entry.published.value);
+  return fmt::format(
+      "not beta_1: print holds the error of 45 deg + beta_2 of the small test, {:.2f} with {}{}", reading,
+      c->reference, reading == c->from_beta_2 ? "" : " and the printed error of beta_2");
 }
 
 /// The printed tilt of the left edge under the large shear lies above that reference which meets the tilt of
@@ -48,15 +49,24 @@ const TableEntry* find_beside(const std::vector<TableEntry>& entries, const Publ
 
 } // namespace
 
-const ComputedFigure* explained_by_beta_2(const TableEntry& entry) {
-  const ComputedFigure* nearest = nullptr;
-  const auto distance = [&](const ComputedFigure& c) {
-    return std::abs(*c.from_beta_2 - entry.published.value);
-  };
-  for (const ComputedFigure& c : entry.computed)
-    if (c.from_beta_2 && distance(c) <= same_figure && (!nearest || distance(c) < distance(*nearest)))
-      nearest = &c;
+std::optional<double> nearest_from_beta_2(const ComputedFigure& computed, double published) {
+  std::optional<double> nearest;
+  for (const auto& reading : {computed.from_beta_2, computed.from_printed_beta_2})
+    if (reading && (!nearest || std::abs(*reading - published) < std::abs(*nearest - published)))
+      nearest = reading;
   return nearest;
+}
+
+const ComputedFigure* explained_by_beta_2(const TableEntry& entry) {
+  const ComputedFigure* best = nullptr;
+  double distance = same_figure;
+  for (const ComputedFigure& c : entry.computed) {
+    const auto reading = nearest_from_beta_2(c, entry.published.value);
+    if (!reading || !(std::abs(*reading - entry.published.value) <= distance)) continue;
+    best = &c;
+    distance = std::abs(*reading - entry.published.value);
+  }
+  return best;
 }
 
 void explain(std::vector<TableEntry>& entries) {

@@ -15,14 +15,12 @@ const MeasuredValue* find_measure(const Comparison& comparison, const std::strin
 } // namespace
 
 MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure) {
-  const MeasuredValue *on_fem = find_measure(fem, measure), *on_msm = find_measure(msm, measure);
-  if (!on_fem || !on_msm) return {std::nullopt, std::nullopt, "the case has no measure " + measure};
-  MeasuredPair pair{on_fem->fem, on_msm->msm, ""};
-  if (!pair.fem)
-    pair.reason = "finite elements: " + fem.fem.solution.message;
-  else if (!pair.msm)
-    pair.reason = "springs: " + msm.msm.solution.message;
-  return pair;
+  const cases::Solution &on_fem = fem.fem.solution, &on_msm = msm.msm.solution;
+  if (on_fem.status != cases::Status::converged) return {{}, {}, "finite elements: " + on_fem.message};
+  const MeasuredValue *of_fem = find_measure(fem, measure), *of_msm = find_measure(msm, measure);
+  if (!of_fem) return {{}, {}, "the case has no measure " + measure};
+  if (on_msm.status != cases::Status::converged) return {of_fem->fem, {}, "springs: " + on_msm.message};
+  return {of_fem->fem, of_msm ? of_msm->msm : std::nullopt, ""};
 }
 
 std::optional<double> error_of(const MeasuredPair& pair) {

@@ -28,7 +28,8 @@ struct ComputedFigure {
   /// beta_1 alone: error of (45 deg + beta_2 of the small test), which is what some printed rows hold,
   /// percent.
   std::optional<double> from_beta_2;
-  std::string reason; ///< why there is no value; empty when there is one
+  std::optional<double> from_printed_beta_2; ///< the same with the error of beta_2 that is printed, not ours
+  std::string reason;                        ///< why there is no value; empty when there is one
   Trace trace;
 };
 
@@ -42,9 +43,11 @@ struct TableEntry {
   const ComputedFigure* nearest() const;
 };
 
-/// For a beta_1 entry the computed figure whose from_beta_2 is what print holds, to 0.1 points; null if there
-/// is none.
+/// For a beta_1 entry the computed figure whose from_beta_2 or from_printed_beta_2 is what print holds, to 0.1
+/// points; null if there is none.
 const ComputedFigure* explained_by_beta_2(const TableEntry& entry);
+/// That one of the two which is nearer to print; nothing if there is neither.
+std::optional<double> nearest_from_beta_2(const ComputedFigure& computed, double published);
 
 /// Tables 4.1 to 4.3 and the dot diagrams: one cell of edge 2 mm, E = 1 MPa, springs by the linear method.
 struct CellAnalysis {

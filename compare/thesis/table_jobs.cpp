@@ -66,6 +66,7 @@ SolveJob fem_job(const PublishedFigure& figure, const Reference& reference) {
 SolveJob designed_msm_job(const PublishedFigure& figure, const std::string& design) {
   std::vector<std::string> settings = material_settings(figure);
   settings.push_back("msm.design=" + design);
+  if (!is_linear_elastic(figure)) settings.push_back("msm.stiffness="); // the case file's given springs
   return {path_of(figure), settings, Only::msm};
 }
 

@@ -12,7 +12,10 @@ namespace {
 
 std::string number(const std::optional<double>& value, const PublishedFigure& figure) {
   if (!value) return "-";
-  return figure.test == "cell" ? fmt::format("{:.4f}", *value) : fmt::format("{:.2f}", *value);
+  const int digits = figure.test == "cell" ? 4 : 2;
+  const std::string text = fmt::format("{:.{}f}", *value, digits);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero ? fmt::format("{:.{}f}", 0.0, digits) : text; // never "-0.00"
 }
 
 std::string title(const Sheet& sheet) {
@@ -47,7 +50,7 @@ class MeasureRows {
     if (measure == "beta_1" && is_explained)
       line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
         const ComputedFigure* c = explained_by_beta_2(entry);
-        return c ? number(c->from_beta_2, entry.published) : std::string();
+        return c ? number(nearest_from_beta_2(*c, entry.published.value), entry.published) : std::string();
       });
   }
 
