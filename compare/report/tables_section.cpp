@@ -2,8 +2,10 @@
 #include "compare/report/sections.hpp"
 #include "compare/thesis/sheet.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace compare::html {
 
@@ -11,6 +13,7 @@ namespace {
 
 /// One cell of the springs is compared in absolute figures, which need more digits than percents.
 int decimals(const PublishedFigure& figure) {
+  if (figure.measure.find("multiplicity") != std::string::npos) return 0;
   return figure.test == "cell" ? 4 : 2;
 }
 
@@ -52,49 +55,83 @@ std::string difference_cell(const TableEntry& entry) {
                      mark, text);
 }
 
-/// A table row of one measure. @param cell  the cell of one entry
-template<class Cell>
-std::string line(const Sheet& sheet, std::size_t row, const std::string& heading,
-                 const std::string& row_class, const Cell& cell) {
-  std::string html = row_class.empty() ? "<tr>" : "<tr class=\"" + row_class + "\">";
-  html += heading;
-  for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
-    const TableEntry* entry = sheet.find(row, c);
-    html += entry ? cell(*entry) : "<td></td>";
-  }
-  return html + "</tr>\n";
+std::string published_cell(const TableEntry& entry) {
+  const std::string value = number(entry.published.value, decimals(entry.published));
+  if (entry.finding.empty()) return "<td>" + value + "</td>";
+  return fmt::format("<td title=\"{}\">{} <abbr>!</abbr></td>", escape(entry.finding), value);
 }
 
-std::string measure_rows(const Sheet& sheet, std::size_t row) {
+/// Whether a part of the columns' names tells them apart; one that does not goes into the caption.
+bool is_telling(const Sheet& sheet, std::size_t part) {
+  return std::any_of(sheet.columns.begin(), sheet.columns.end(),
+                     [&](const auto& column) { return column[part] != sheet.columns.front()[part]; });
+}
+
+std::string caption(const Sheet& sheet) {
+  std::string text = subject_of(sheet);
+  for (std::size_t part = 0; part < 3; ++part)
+    if (!is_telling(sheet, part) && !sheet.columns.front()[part].empty())
+      text += "; " + sheet.columns.front()[part];
+  return "<caption>" + escape(text) + "</caption>\n";
+}
+
+std::string measure_heading(const Sheet& sheet, std::size_t row, std::size_t n_lines) {
   const auto& [test, measure] = sheet.rows[row];
-  const std::vector<ComputedFigure>& references = sheet.first_of_row(row)->computed;
-  std::string heading = fmt::format("<th class=\"text\" rowspan=\"{}\">{} {}</th>", references.size() + 2,
-                                    escape(test), escape(measure));
-  const auto labelled = [&](const std::string& label) {
-    return std::exchange(heading, "") + "<th class=\"text\">" + escape(label) + "</th>";
-  };
-  std::string html = "<tbody class=\"measure\">\n";
-  for (std::size_t k = 0; k < references.size(); ++k)
-    html += line(sheet, row, labelled(references[k].reference), "",
-                 [&](const TableEntry& entry) { return computed_cell(sheet, entry, k); });
-  html += line(sheet, row, labelled("published"), "published", [](const TableEntry& entry) {
-    const std::string value = number(entry.published.value, decimals(entry.published));
-    return entry.finding.empty()
-               ? "<td>" + value + "</td>"
-               : fmt::format("<td title=\"{}\">{} <abbr>!</abbr></td>", escape(entry.finding), value);
-  });
-  html += line(sheet, row, labelled("difference"), "", difference_cell);
-  return html + "</tbody>\n";
+  return fmt::format("<th class=\"text\" rowspan=\"{}\">{} {}</th>", n_lines, escape(test), escape(measure));
 }
 
-std::string head(const Sheet& sheet) {
+std::string column_headings(const Sheet& sheet) {
   std::string html = "<thead>\n";
   for (std::size_t part = 0; part < 3; ++part) {
+    if (!is_telling(sheet, part)) continue;
     html += "<tr><th></th><th></th>";
     for (const auto& column : sheet.columns) html += "<th>" + escape(column[part]) + "</th>";
     html += "</tr>\n";
   }
   return html + "</thead>\n";
+}
+
+/// One measure of a table as in print, a column per variant; below each other the references, print,
+/// difference.
+std::string measure_lines(const Sheet& sheet, std::size_t row) {
+  const std::vector<ComputedFigure>& references = sheet.first_of_row(row)->computed;
+  std::string html = "<tbody class=\"measure\">\n";
+  std::string heading = measure_heading(sheet, row, references.size() + 2);
+  const auto line = [&](const std::string& label, const auto& cell) {
+    html += "<tr>" + std::exchange(heading, "") + "<th class=\"text\">" + escape(label) + "</th>";
+    for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
+      const TableEntry* entry = sheet.find(row, c);
+      html += entry ? cell(*entry) : "<td></td>";
+    }
+    html += "</tr>\n";
+  };
+  for (std::size_t k = 0; k < references.size(); ++k)
+    line(references[k].reference, [&](const TableEntry& entry) { return computed_cell(sheet, entry, k); });
+  line("published", published_cell);
+  line("difference", difference_cell);
+  return html + "</tbody>\n";
+}
+
+/// A table with a single variant: a line per measure.
+std::string flat_table(const Sheet& sheet) {
+  std::string html = "<thead><tr><th></th>";
+  for (const ComputedFigure& c : sheet.entries.front()->computed)
+    html += "<th>" + escape(c.reference) + "</th>";
+  html += "<th>published</th><th>difference</th></tr></thead>\n<tbody>\n";
+  for (std::size_t row = 0; row < sheet.rows.size(); ++row) {
+    const TableEntry& entry = *sheet.first_of_row(row);
+    html += "<tr>" + measure_heading(sheet, row, 1);
+    for (std::size_t k = 0; k < entry.computed.size(); ++k) html += computed_cell(sheet, entry, k);
+    html += published_cell(entry) + difference_cell(entry) + "</tr>\n";
+  }
+  return html + "</tbody>\n";
+}
+
+std::string table(const Sheet& sheet) {
+  if (sheet.columns.size() == 1) return flat_table(sheet);
+  std::string html = column_headings(sheet);
+  for (std::size_t row = 0; row < sheet.rows.size(); ++row) html += measure_lines(sheet, row);
+  return html;
 }
 
 /// A line for each number: both models' measures and the command.
@@ -132,12 +169,9 @@ std::string tables_section(const ThesisResults& results) {
                      "◑ 1, ◔ 2, ○ more. An exclamation mark after a printed figure: something is known about "
                      "it (rest the pointer on it).</p>\n";
   for (const Sheet& sheet : sheets_of(results.entries)) {
-    html += fmt::format(
-        "<h3 id=\"table-{0}\">{1}</h3>\n<div class=\"scroll\"><table class=\"thesis\" data-table=\"{0}\">"
-        "<caption>{2}</caption>\n{3}",
-        sheet.table, name_of(sheet), escape(subject_of(sheet)), head(sheet));
-    for (std::size_t row = 0; row < sheet.rows.size(); ++row) html += measure_rows(sheet, row);
-    html += "</table></div>\n" + trace_table(sheet);
+    html += fmt::format("<h3 id=\"table-{0}\">{1}</h3>\n<div class=\"scroll\"><table data-table=\"{0}\">\n",
+                        sheet.table, name_of(sheet));
+    html += caption(sheet) + table(sheet) + "</table></div>\n" + trace_table(sheet);
   }
   return html;
 }

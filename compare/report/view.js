@@ -86,6 +86,8 @@
       if (record.springs) this.sides.springs = springs_side(record.springs);
       this.scene = new THREE.Scene();
       for (const side of Object.values(this.sides)) this.scene.add(side.group);
+      // What lies behind fades into the page: lines alone say nothing of depth.
+      this.scene.fog = new THREE.Fog(new THREE.Color(getComputedStyle(document.body).backgroundColor));
       this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
       this.camera.up.set(0, 0, 1);
       this.camera.position.set(0.5, -0.9, 0.4);
@@ -121,6 +123,8 @@
       this.controls.target.copy(sphere.center);
       this.camera.position.copy(sphere.center).add(turned);
       this.radius = sphere.radius;
+      this.scene.fog.near = 1 - 0.4 * sphere.radius; // the camera stands 1 mm before the centre: parallel rays
+      this.scene.fog.far = 1 + 0.9 * sphere.radius;
       this.controls.update();
     }
     draw() {

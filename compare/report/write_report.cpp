@@ -22,7 +22,7 @@ std::string page_file(const std::string& name) {
 
 /// The static picture of each view, which stays on the page where scripts are off.
 void draw_stills(const std::string& folder, const std::vector<BodyView>& views) {
-  for (const BodyView& view : views) plot_bodies(folder, view.id, {view.overlay}, 1);
+  for (const BodyView& view : views) plot_bodies(folder, view.id, {view.overlay}, 1, 300);
 }
 
 std::string page(const std::vector<Section>& sections, const std::vector<BodyView>& views) {

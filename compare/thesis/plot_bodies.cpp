@@ -140,7 +140,7 @@ Overlay overlay_of(const Comparison& comparison, const std::string& title) {
 }
 
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,
-                 int columns) {
+                 int columns, int size) {
   const View view;
   std::vector<Drawing> drawings;
   for (const Overlay& panel : panels) drawings.push_back(drawing_of(panel, view));
@@ -152,14 +152,14 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
     }
   });
 
-  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns, height = 400 * rows + 90;
+  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns, height = size * rows + 90;
   std::string script = fmt::format(
       "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}\n"
       "set datafile missing '?'\nunset grid\nset size ratio -1\nset xlabel 'across, mm'\nset ylabel 'up, "
       "mm'\n{}"
       "set key noautotitle at screen 0.5,screen {:.4f} center bottom\n",
-      rows, columns, 75.0 / (400 * columns), 1 - 10.0 / (400 * columns), 135.0 / height, 1 - 40.0 / height,
-      75.0 / (400 * columns), 100.0 / height, window(drawings, view), 8.0 / height);
+      rows, columns, 75.0 / (size * columns), 1 - 10.0 / (size * columns), 135.0 / height, 1 - 40.0 / height,
+      75.0 / (size * columns), 100.0 / height, window(drawings, view), 8.0 / height);
   for (std::size_t p = 0; p < drawings.size(); ++p)
     script += fmt::format(
         "{5}set title '{0}'\nplot '{1}.csv' index {2} using 4:5 with filledcurves closed fc rgb '#dcecf6' fs "
@@ -168,7 +168,7 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
         "4:5 with lines lt 7 lw 0.8, 1/0 with lines lt 1 title 'finite elements', 1/0 with lines lt 2 "
         "dt solid title 'springs', 1/0 with lines lt 7 lw 1 title 'at rest'\n",
         drawings[p].title, name, 3 * p, 3 * p + 1, 3 * p + 2, p == 1 ? "unset key\n" : "");
-  draw(folder, name, script + "unset multiplot\n", 400 * columns, height);
+  draw(folder, name, script + "unset multiplot\n", size * columns, height);
 }
 
 } // namespace compare

@@ -27,6 +27,6 @@ Overlay overlay_of(const Comparison& comparison, const std::string& title);
 /// .png: finite elements as light faces with their edges, over them the surface's edge springs, dotted the
 /// outline at rest. Only faces that look at the viewer are drawn.
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,
-                 int columns);
+                 int columns, int size = 400);
 
 } // namespace compare

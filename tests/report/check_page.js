@@ -7,7 +7,12 @@
     found.tables.push({ name: table.dataset.table, rows: table.rows.length });
 
   const painted = (canvas) => {
-    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    const copy = document.createElement("canvas"); // reading the view's own canvas often would slow it down, says the browser
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const pixels = context.getImageData(0, 0, copy.width, copy.height).data;
     const count = { all: pixels.length / 4, bluish: 0, orange: 0 };
     for (let i = 0; i < pixels.length; i += 4) {
       if (pixels[i + 3] === 0) continue;
@@ -44,7 +49,7 @@
   }
   // Positions last: the page has its final layout now.
   for (const record of found.views) {
-    const box = document.getElementById("view-" + record.id).querySelector("canvas").getBoundingClientRect();
+    const box = document.getElementById(record.id).querySelector("canvas").getBoundingClientRect();
     record.box = [box.left + scrollX, box.top + scrollY, box.width, box.height].map(Math.round);
   }
   found.height = document.documentElement.scrollHeight;
