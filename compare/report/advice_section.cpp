@@ -8,10 +8,13 @@ namespace compare::html {
 
 namespace {
 
-std::string errors(const Advice::Errors& e) {
-  if (!e.worst) return "<td>–</td><td>–</td><td class=\"text\">a test failed</td>";
-  return fmt::format("<td>{}</td><td>{}</td><td class=\"text\">{}</td>", number(e.worst, 1),
-                     number(e.mean, 1), e.is_stable ? "stable" : "unstable");
+/// Worst, mean, and what became of the tests.
+std::string errors(const Advice& a, const Advice::Errors& e) {
+  if (!e.worst)
+    return fmt::format("<td>–</td><td>–</td><td class='text'>{}</td>",
+                       a.stiffness ? "a test failed" : "refused");
+  return fmt::format("<td>{}</td><td>{}</td><td class='text'>{}</td>", number(e.worst, 1), number(e.mean, 1),
+                     e.is_stable ? "stable" : "unstable");
 }
 
 std::string stiffness(const std::optional<msm::CellStiffness>& k) {
@@ -22,11 +25,12 @@ std::string stiffness(const std::optional<msm::CellStiffness>& k) {
 
 std::string row(const Advice& a) {
   return fmt::format(
-      "<tr{}><td>{:g}</td><td class=\"text\"><span title=\"{}\">{}</span>{}</td>{}{}{}<td class=\"long\">"
-      "<code>{}</code>{}</td></tr>\n",
-      a.is_recommended ? " class=\"recommended\"" : "", a.poissons_ratio, escape(a.trace.command),
-      escape(a.design), a.is_recommended ? " ← use" : "", stiffness(a.stiffness), errors(a.small),
-      errors(a.large), escape(a.trace.command), a.refusal.empty() ? "" : "<br>" + escape(a.refusal));
+      "<tr{}><td>{:g}</td><td class='text'><details><summary>{}{}</summary><code>{}</code>{}</details></td>{}"
+      "{}{}</tr>\n",
+      a.is_recommended ? " class='recommended'" : "", a.poissons_ratio, escape(a.design),
+      a.is_recommended ? " ← use" : "", escape(a.trace.command),
+      a.refusal.empty() ? "" : "<br>" + escape(a.refusal), stiffness(a.stiffness), errors(a, a.small),
+      errors(a, a.large));
 }
 
 /// A sentence that can be used as it stands, for E = 50 kPa; the page's script rewrites it for other
@@ -36,13 +40,12 @@ std::string recommendation(const Advice& a) {
   const msm::CellStiffness& k = *a.stiffness;
   const double springs = 1e3 * youngs_modulus; // N/m per unit, edge 1 mm
   const auto worst_volume = std::max(a.small.worst_volume.value_or(0), a.large.worst_volume.value_or(0));
-  return fmt::format("<li data-nu=\"{0:g}\" data-design=\"{1}\" data-edge=\"{2:.6g}\" data-face=\"{3:.6g}\" "
-                     "data-internal=\"{4:.6g}\" "
-                     "data-volume=\"{5:.6g}\">ν = {0:g}: <b>{1}</b>; for E = 50 kPa and cells of 1 mm "
-                     "k<sub>e</sub> = {6:.2f}, k<sub>f</sub> = "
-                     "{7:.2f}, k<sub>d</sub> = {8:.2f} N/m and k<sub>v</sub> = {9:.5f} MPa. <span "
-                     "class=\"expected\">Expected errors: up to {10} % "
-                     "under the small loads, {11} % under the large ones, {12} % in volume.</span></li>\n",
+  return fmt::format(R"(<li data-nu='{0:g}' data-design='{1}' data-edge='{2:.6g}' data-face='{3:.6g}'
+data-internal='{4:.6g}' data-volume='{5:.6g}'>ν = {0:g}: <b>{1}</b>; for E = 50 kPa and cells of
+1 mm k<sub>e</sub> = {6:.2f}, k<sub>f</sub> = {7:.2f}, k<sub>d</sub> = {8:.2f} N/m and
+k<sub>v</sub> = {9:.5f} MPa. <span class='expected'>Expected errors: up to {10} % under the
+small loads, {11} % under the large ones, {12} % in volume.</span></li>
+)",
                      a.poissons_ratio, escape(a.design), k.edge, k.face_diagonal, k.internal_diagonal,
                      k.volume, springs * k.edge, springs * k.face_diagonal, springs * k.internal_diagonal,
                      youngs_modulus * k.volume, number(a.small.worst, 1), number(a.large.worst, 1),
@@ -53,33 +56,29 @@ std::string recommendation(const Advice& a) {
 
 std::string advice_section(const ThesisResults& results) {
   if (results.advice.empty()) return "";
-  std::string html = "<p>For a linear elastic material the best stiffnesses grow with E and with the cell's "
-                     "edge L<sub>0</sub>, and depend on "
-                     "Poisson's ratio alone otherwise. So one line serves every material of that ratio: a "
-                     "spring's stiffness is the figure "
-                     "times E L<sub>0</sub>, the volume term's the figure times E. Recommended is the "
-                     "smallest worst error over both load sets "
-                     "among the designs that stay stable in every test. The errors are those of the thesis's "
-                     "cube, at equal strains (loads in "
-                     "proportion to E).</p>\n<form id=\"calculator\" hidden>E <input name=\"young\" "
-                     "type=\"number\" min=\"0\" step=\"any\" "
-                     "value=\"50\" size=\"7\"> kPa, ν <select name=\"nu\"></select>, cells of <input "
-                     "name=\"edge\" type=\"number\" "
-                     "min=\"0\" step=\"any\" value=\"1\" size=\"5\"> mm: <output></output></form>\n<ul "
-                     "id=\"recommended\">\n";
+  std::string html =
+      R"(<p>For a linear elastic material the best stiffnesses grow with E and with the cell's edge
+L<sub>0</sub>, and depend on Poisson's ratio alone otherwise. So one line serves every material
+of that ratio: a spring's stiffness is the figure times E L<sub>0</sub>, the volume term's the
+figure times E. Recommended is the smallest worst error over both load sets among the designs
+that stay stable in every test. The errors are those of the thesis's cube, at equal strains
+(loads in proportion to E).</p>
+<form id='calculator' hidden>E <input name='young' type='number' min='0' step='any' value='50'
+size='7'> kPa, ν <select name='nu'></select>, cells of <input name='edge' type='number' min='0'
+step='any' value='1' size='5'> mm: <output></output></form>
+<ul id='recommended'>
+)";
   for (const Advice& a : results.advice)
     if (a.is_recommended && a.stiffness) html += recommendation(a);
-  html += "</ul>\n<div class=\"scroll\"><table data-table=\"advice\"><caption>Every design on the cube: "
-          "|error| against the declared "
-          "reference, %</caption>\n<thead><tr><th rowspan=\"2\">ν</th><th class=\"text\" "
-          "rowspan=\"2\">design</th><th "
-          "colspan=\"3\">k/(E L<sub>0</sub>): edge, face, internal</th><th>k<sub>v</sub>/E</th><th "
-          "colspan=\"3\">small loads</th><th "
-          "colspan=\"3\">large loads</th><th class=\"text\" "
-          "rowspan=\"2\">command</th></tr>\n<tr><th>k<sub>e</sub></th><th>"
-          "k<sub>f</sub></th><th>k<sub>d</sub></th><th>k<sub>v</sub></th><th>worst</th><th>mean</th><th></"
-          "th><th>worst</th><th>mean"
-          "</th><th></th></tr></thead>\n<tbody>\n";
+  html += R"(</ul>
+<div class='scroll'><table data-table='advice'><caption>Every design on the cube: |error|
+against the declared reference, %</caption>
+<thead><tr><th rowspan='2'>ν</th><th class='text' rowspan='2'>design</th><th colspan='3'>k/(E
+L<sub>0</sub>): edge, face, internal</th><th>k<sub>v</sub>/E</th><th colspan='3'>small
+loads</th><th colspan='3'>large loads</th></tr>
+<tr><th>k<sub>e</sub></th><th>k<sub>f</sub></th><th>k<sub>d</sub></th><th>k<sub>v</sub></th><th>worst</th><th>mean</th><th></th><th>worst</th><th>mean</th><th></th></tr></thead>
+<tbody>
+)";
   for (const Advice& a : results.advice) html += row(a);
   return html + "</tbody></table></div>\n";
 }

@@ -43,6 +43,9 @@ std::string escape(const std::string& text) {
     case '"':
       result += "&quot;";
       break;
+    case '\'':
+      result += "&#39;";
+      break;
     default:
       result += c;
     }
@@ -50,7 +53,10 @@ std::string escape(const std::string& text) {
 }
 
 std::string number(const std::optional<double>& value, int decimals) {
-  return value ? fmt::format("{:.{}f}", *value, decimals) : "–";
+  if (!value) return "–";
+  const std::string text = fmt::format("{:.{}f}", *value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string read_whole(const std::string& path) {

@@ -6,7 +6,7 @@
 
 namespace compare::html {
 
-/// Text as it may stand between tags and inside a quoted attribute.
+/// Text as it may stand between tags and inside an attribute, in either kind of quotes.
 std::string escape(const std::string& text);
 
 /// A number as a table shows it, or a dash.

@@ -29,8 +29,8 @@ std::string page(const std::vector<Section>& sections, const std::vector<BodyVie
   std::string contents, body;
   for (const auto& [id, heading, content] : sections) {
     if (content.empty()) continue;
-    contents += fmt::format("<a href=\"#{}\">{}</a>\n", id, heading);
-    body += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, heading, content);
+    contents += fmt::format("<a href='#{}'>{}</a>\n", id, heading);
+    body += fmt::format("<section id='{}'>\n<h2>{}</h2>\n{}</section>\n", id, heading, content);
   }
   return html::fill(page_file("template.html"),
                     {{"style", page_file("report.css")},

@@ -1,3 +1,4 @@
+#include "cases/read_case.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
@@ -25,7 +26,9 @@ Comparison join(const Comparison& fem, const Comparison& msm) {
   return both;
 }
 
-bool has_own_poissons_ratio(const PublishedFigure& figure, const cases::Case& definition) {
+/// Whether the figure is of the case file's own material, not of the file with another Poisson's ratio set.
+bool has_own_poissons_ratio(const PublishedFigure& figure, const std::string& case_file) {
+  const cases::Case definition = cases::read_case(case_file);
   const auto* elastic = std::get_if<cases::LinearElastic>(&definition.material);
   return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
 }
@@ -61,7 +64,7 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
     const Comparison &fem_side = solves.get(fem), &msm_side = solves.get(msm);
     if (msm_side.scene.mesh.cells.empty()) continue; // not solved yet
     // The first set of springs that the thesis has for the case file's own material stands for the case.
-    if (!has_own_poissons_ratio(figure, fem_side.scene.definition)) continue;
+    if (!has_own_poissons_ratio(figure, fem.case_file)) continue;
     if (!seen.insert(fem.case_file).second) continue;
     results.cases.push_back(join(fem_side, msm_side));
     results.case_traces.push_back(trace_of(fem, msm));
