@@ -87,17 +87,13 @@ void apply_override(toml::table& document, const std::string& setting) {
   const Where where{"", 0, 0, path};
   if (equals == std::string::npos) throw InputError(where, "is not KEY=VALUE");
   const std::string text = trimmed(setting.substr(equals + 1));
+  if (text.empty()) throw InputError(where, "has no value, must be KEY=VALUE");
+
   const std::vector<Step> steps = parse_path(path, where);
   toml::table* table = &document;
   for (std::size_t s = 0; s + 1 < steps.size(); ++s) table = &descend(*table, steps[s], where);
-  const Step& last = steps.back();
-  if (text.empty()) {
-    if (last.index || !table->contains(last.key))
-      throw InputError(where, "has no value: that leaves out a key that is there, and it is not");
-    table->erase(last.key);
-    return;
-  }
   toml::table parsed = parse_value(text);
+  const Step& last = steps.back();
   parsed.get("value")->visit([&](auto& value) {
     if (last.index) {
       element(*table, last, where);

@@ -43,11 +43,11 @@ struct TableEntry {
   const ComputedFigure* nearest() const;
 };
 
-/// For a beta_1 entry the computed figure whose from_beta_2 or from_printed_beta_2 is what print holds, to 0.1
-/// points; null if there is none.
+/// For a beta_1 entry the computed figure whose from_beta_2 or from_printed_beta_2 is what print holds, to
+/// 0.1 points; null if there is none.
 const ComputedFigure* explained_by_beta_2(const TableEntry& entry);
-/// That one of the two which is nearer to print; nothing if there is neither.
-std::optional<double> nearest_from_beta_2(const ComputedFigure& computed, double published);
+/// That one of the two, over all references, which is nearest to print; nothing if there is none.
+std::optional<double> nearest_from_beta_2(const TableEntry& entry);
 
 /// Tables 4.1 to 4.3 and the dot diagrams: one cell of edge 2 mm, E = 1 MPa, springs by the linear method.
 struct CellAnalysis {

@@ -44,13 +44,13 @@ class MeasureRows {
       return number(nearest ? std::optional(*nearest->value - entry.published.value) : std::nullopt,
                     entry.published);
     });
-    const bool is_explained =
-        std::any_of(sheet_.entries.begin(), sheet_.entries.end(),
-                    [](const TableEntry* e) { return explained_by_beta_2(*e) != nullptr; });
-    if (measure == "beta_1" && is_explained)
+    const bool has_large = std::any_of(sheet_.columns.begin(), sheet_.columns.end(),
+                                       [](const auto& c) { return c[2] == "large"; });
+    // It explains the large rows in print; of the small ones nothing does.
+    if (measure == "beta_1" && has_large)
       line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
-        const ComputedFigure* c = explained_by_beta_2(entry);
-        return c ? number(nearest_from_beta_2(*c, entry.published.value), entry.published) : std::string();
+        if (entry.published.load_set != "large") return std::string();
+        return number(nearest_from_beta_2(entry), entry.published);
       });
   }
 

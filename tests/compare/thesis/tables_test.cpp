@@ -1,0 +1,91 @@
+// `springproof tables` as its users run it.
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("springproof-tables-" + std::to_string(::getpid()));
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Standard output of the program; the exit status must be 0.  @param words  as typed in a shell
+std::string output(const std::string& words) {
+  const std::string line =
+      "cd " SPRINGPROOF_SOURCE_DIR " && " SPRINGPROOF_PROGRAM " " + words + " 2>/dev/null";
+  FILE* pipe = popen(line.c_str(), "r");
+  REQUIRE(pipe);
+  std::string out;
+  std::array<char, 4096> block{};
+  while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
+  REQUIRE(WEXITSTATUS(pclose(pipe)) == 0);
+  return out;
+}
+
+/// The words behind the program's name in a command that a result carries.
+std::string words_of(const Json& entry) {
+  const std::string command = entry["command"], program = "build/springproof ";
+  REQUIRE(command.rfind(program, 0) == 0);
+  return command.substr(program.size());
+}
+
+} // namespace
+
+// The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
+TEST_CASE("the same tables come out byte for byte, on one worker and on three") {
+  const Folder folder;
+  const fs::path one = folder.path / "one", three = folder.path / "three";
+  CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
+        output("tables 4.1 4.3 5.12 --workers 3 --out " + three.string()));
+  int n_files = 0;
+  for (const auto& file : fs::directory_iterator(one)) {
+    CAPTURE(file.path());
+    CHECK(content(file.path()) == content(three / file.path().filename()));
+    ++n_files;
+  }
+  CHECK(n_files == 5 + 3); // tables as text, CSV, JSON; volumes and box plots; a .vtu for each bar
+}
+
+TEST_CASE("tables --json has the promised keys, and each command gives its number again") {
+  const Json document = Json::parse(output("tables 4.2 4.3 5.12 --json"));
+  CHECK(document["schema"] == 1);
+  const Json& entries = document["entries"];
+  REQUIRE(entries.size() == 2 * (6 + 9) + 11 + 3);
+  for (const Json& entry : entries)
+    for (const char* key :
+         {"table", "material", "poissons_ratio", "design", "design_poissons_ratio", "load_set", "test",
+          "measure", "unit", "published", "computed", "reference", "other", "case", "settings", "command"})
+      CHECK(entry.contains(key));
+  const Json& bar = entries.back(); // 4x4x16 cells
+  REQUIRE(bar["table"] == "5.12");
+  CHECK(std::abs(bar["computed"].get<double>() - bar["published"].get<double>()) <=
+        0.1); // what is known of it
+  const Json again = Json::parse(output(words_of(bar) + " --json"));
+  CHECK(again["cases"][0]["measures"][0]["error_percent"] == bar["computed"]);
+  const Json& h = entries[2 * (6 + 9) + 7]; // nu = 0.35
+  CHECK(Json::parse(output(words_of(h) + " --json"))["h"] == h["computed"]);
+  CHECK(document["summary"]["groups"].size() == 2);
+}
+
+TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
+  const Json entry = Json::parse(output("tables 4.1 --json"))["entries"][7];
+  const Json design = Json::parse(output(words_of(entry) + " --json"));
+  CHECK(design["stiffness_N_per_m"][0].get<double>() ==
+        Approx(entry["computed"].get<double>()).epsilon(1e-9)); // least squares at another E
+}
