@@ -48,7 +48,7 @@ double contribution(const msm::CellStiffness& part, double lateral_strain, doubl
 void plot_linear_method(const std::string& folder, cases::Element element) {
   std::string curves = "# poissons_ratio,engineering_strain,stress_over_E,lateral_strain\n",
               residuals = "# poissons_ratio,residual\n";
-  std::string stress_plot = "plot x lt 1 lw 3 title 'finite element'", lateral_plot = "plot ";
+  std::string stress_plot = "plot ", lateral_plot = "plot ";
   const std::vector<double>& ratios = thesis_poissons_ratios();
   for (std::size_t block = 0; block < ratios.size(); ++block) {
     const double nu = ratios[block];
@@ -67,7 +67,7 @@ void plot_linear_method(const std::string& folder, cases::Element element) {
         sequential_colour(static_cast<double>(block) / static_cast<double>(ratios.size() - 1));
     const std::string style = fmt::format(
         "with linespoints lw 1.5 dt solid pt {} pi 4 lc rgb '{}' title 'ν = {}'", block + 1, colour, nu);
-    stress_plot += fmt::format(", 'linear_method_curves.csv' index {} using 2:3 {}", block, style);
+    stress_plot += fmt::format("'linear_method_curves.csv' index {} using 2:3 {}, ", block, style);
     lateral_plot +=
         fmt::format("{}'linear_method_curves.csv' index {} using 2:4 {}, -{}*x dt 2 lc rgb '{}' notitle",
                     block == 0 ? "" : ", ", block, style, nu, colour);
@@ -76,7 +76,15 @@ void plot_linear_method(const std::string& folder, cases::Element element) {
   write_file(folder + "/linear_method_residual.csv", [&](std::ostream& out) { out << residuals; });
   const std::string axes =
       "set key outside right\nset xlabel 'axial engineering strain'\nset xrange [0:0.1]\n";
-  draw(folder, "figure_4_6", axes + "set ylabel 'engineering stress / E'\n" + stress_plot + "\n", 900);
+  stress_plot += "x lt 1 lw 3 dt (8,6) title 'finite element'\n";
+  // Close to incompressibility the cell is ten times too stiff: the others are seen in the enlarged panel
+  // alone.
+  draw(folder, "figure_4_6",
+       "set multiplot layout 1,2\n" + axes +
+           "set ylabel 'engineering stress / E'\nunset key\nset yrange [0:1]\n" + stress_plot +
+           "set key outside right\nset title 'enlarged'\nset yrange [0:0.14]\n" + stress_plot +
+           "unset multiplot\n",
+       1200, 520);
   draw(folder, "figure_4_7",
        axes + "set ylabel 'lateral engineering strain (dashed: finite element)'\n" + lateral_plot + "\n",
        900);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 namespace compare::html {
@@ -72,21 +73,20 @@ std::string data_address(const std::string& path, const std::string& type) {
 
 std::string fill(const std::string& text, const std::map<std::string, std::string>& values) {
   std::string result;
-  std::size_t from = 0, n_filled = 0;
-  while (true) {
-    const std::size_t open = text.find("{{", from);
+  std::set<std::string> placed;
+  std::size_t from = 0;
+  for (std::size_t open = text.find("{{"); open != std::string::npos; open = text.find("{{", from)) {
     result.append(text, from, open - from);
-    if (open == std::string::npos) break;
     const std::size_t close = text.find("}}", open);
     const auto value = values.find(text.substr(open + 2, close - open - 2));
     if (close == std::string::npos || value == values.end())
       throw std::logic_error("template: nothing is known for " + text.substr(open, 40));
     result += value->second;
-    ++n_filled;
+    placed.insert(value->first);
     from = close + 2;
   }
-  if (n_filled < values.size()) throw std::logic_error("template: a value has no place");
-  return result;
+  if (placed.size() < values.size()) throw std::logic_error("template: a value has no place");
+  return result + text.substr(from);
 }
 
 } // namespace compare::html
