@@ -24,39 +24,60 @@ msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const case
   return {k.edge / scale, k.face_diagonal / scale, k.internal_diagonal / scale, k.volume / youngs_modulus};
 }
 
+/// Errors of one load set, gathered measure by measure.
+class ErrorSum {
+ public:
+  void add(const std::string& measure, double error, const Trace& trace) {
+    const double size = std::abs(error);
+    if (measure == "volume") {
+      worst_volume_ = std::max(worst_volume_, size);
+      return;
+    }
+    sum_ += size;
+    ++n_;
+    if (n_ > 1 && size <= worst_) return;
+    worst_ = size;
+    trace_ = trace;
+  }
+  void write_into(Advice::Errors& errors) const {
+    if (n_ == 0) return;
+    errors.worst = worst_;
+    errors.mean = sum_ / n_;
+    errors.worst_volume = worst_volume_;
+    errors.trace = trace_;
+  }
+
+ private:
+  double worst_ = 0, sum_ = 0, worst_volume_ = 0;
+  int n_ = 0;
+  Trace trace_;
+};
+
 Advice::Errors errors_on_cube(PublishedFigure figure, const std::string& load_set, SolveSet& solves,
                               Advice& advice) {
   Advice::Errors errors;
   errors.is_stable = true;
-  double worst = 0, sum = 0, worst_volume = 0;
-  int n = 0;
+  ErrorSum sum;
   bool is_whole = true;
   figure.load_set = load_set;
   for (const char* test : {"tensile", "shear", "torsion"}) {
     figure.test = test;
-    const Comparison& fem = solves.get(fem_job(figure, references_of(figure).front()));
-    const Comparison& msm = solves.get(designed_msm_job(figure, advice.design));
+    const SolveJob fem_side = fem_job(figure, references_of(figure).front()),
+                   msm_side = designed_msm_job(figure, advice.design);
+    const Comparison &fem = solves.get(fem_side), &msm = solves.get(msm_side);
     errors.is_stable = errors.is_stable && is_sound(msm);
     if (msm.design) advice.stiffness = over_modulus_and_edge(msm.design->stiffness, msm.scene);
     for (const MeasuredValue& measure : fem.measures) {
       const MeasuredPair pair = measured_pair(fem, msm, measure.name);
-      const std::optional<double> error = error_of(pair);
-      if (!error) {
-        is_whole = false;
-        if (advice.refusal.empty()) advice.refusal = fmt::format("{} {}: {}", load_set, test, pair.reason);
-      } else if (measure.name == "volume") {
-        worst_volume = std::max(worst_volume, std::abs(*error));
-      } else {
-        worst = std::max(worst, std::abs(*error));
-        sum += std::abs(*error);
-        ++n;
+      if (const std::optional<double> error = error_of(pair)) {
+        sum.add(measure.name, *error, trace_of(fem_side, msm_side));
+        continue;
       }
+      is_whole = false;
+      if (advice.refusal.empty()) advice.refusal = fmt::format("{} {}: {}", load_set, test, pair.reason);
     }
   }
-  if (!is_whole || n == 0) return errors;
-  errors.worst = worst;
-  errors.mean = sum / n;
-  errors.worst_volume = worst_volume;
+  if (is_whole) sum.write_into(errors);
   return errors;
 }
 

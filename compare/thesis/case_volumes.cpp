@@ -52,8 +52,12 @@ CaseVolumes volumes_of(const Comparison& comparison) {
   std::vector<double> rest;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     rest.push_back(cases::cell_volume(cases::cell_vertices(mesh, c)));
-  return {comparison.scene.definition.name, sum(rest), sum(rest) / static_cast<double>(rest.size()),
-          volumes_of(comparison.fem.solution), volumes_of(comparison.msm.solution)};
+  return {comparison.scene.definition.name,
+          sum(rest),
+          sum(rest) / static_cast<double>(rest.size()),
+          volumes_of(comparison.fem.solution),
+          volumes_of(comparison.msm.solution),
+          {}};
 }
 
 void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
@@ -69,6 +73,7 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
     results.cases.push_back(join(fem_side, msm_side));
     results.case_traces.push_back(trace_of(fem, msm));
     results.volumes.push_back(volumes_of(results.cases.back()));
+    results.volumes.back().trace = results.case_traces.back();
   }
   add_figure_4_15(figures, solves, results);
 }

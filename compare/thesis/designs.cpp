@@ -15,9 +15,10 @@ namespace {
 class RowBuilder {
  public:
   RowBuilder(std::string table, std::string design)
-      : row_{std::move(table), std::move(design), 0, 0, std::nullopt, std::nullopt, "", {}} {}
+      : row_{std::move(table), std::move(design), 0, 0, std::nullopt, std::nullopt, "", {}, {}} {}
 
-  void add(const PublishedFigure& figure, const std::optional<double>& error, const std::string& reason) {
+  void add(const PublishedFigure& figure, const std::optional<double>& error, const std::string& reason,
+           const Trace& trace) {
     if (!error) {
       ++row_.n_missing;
       if (std::find(row_.reasons.begin(), row_.reasons.end(), reason) == row_.reasons.end())
@@ -29,6 +30,7 @@ class RowBuilder {
     row_.mean = sum_ / row_.n_figures;
     if (row_.worst && std::abs(*error) <= *row_.worst) return;
     row_.worst = std::abs(*error);
+    row_.worst_trace = trace;
     row_.worst_at = fmt::format("{}{}{} {}{}", figure.load_set, figure.load_set.empty() ? "" : " ",
                                 figure.test, figure.measure, nu_of(figure));
   }
@@ -64,28 +66,26 @@ void add_rows_of_table(const std::string& table, const std::vector<PublishedFigu
     if (seen.emplace(figure.poissons_ratio, figure.load_set, figure.test, figure.measure).second)
       questions.push_back(figure);
   }
-  const auto pair_of = [&](const PublishedFigure& figure, const SolveJob& msm) {
-    return measured_pair(solves.get(fem_job(figure, references_of(figure).front())), solves.get(msm),
-                         figure.measure);
+  const auto add_computed = [&](RowBuilder& row, const PublishedFigure& figure, const SolveJob& msm) {
+    const SolveJob fem = fem_job(figure, references_of(figure).front());
+    const MeasuredPair pair = measured_pair(solves.get(fem), solves.get(msm), figure.measure);
+    row.add(figure, error_of(pair), pair.reason, trace_of(fem, msm));
   };
   for (const std::string& design : thesis_designs) {
     RowBuilder printed(table, design + ", in print"), computed(table, design + ", the thesis's set");
     for (const PublishedFigure& figure : figures) {
       if (figure.table != table || figure.design != design) continue;
-      const SolveJob fem = fem_job(figure, references_of(figure).front());
-      printed.add(figure, printed_error(figure, solves.get(fem)), "");
-      const MeasuredPair pair = pair_of(figure, thesis_msm_job(figure));
-      computed.add(figure, error_of(pair), pair.reason);
+      const Comparison& fem = solves.get(fem_job(figure, references_of(figure).front()));
+      printed.add(figure, printed_error(figure, fem), "", {});
+      add_computed(computed, figure, thesis_msm_job(figure));
     }
     rows.push_back(printed.row());
     rows.push_back(computed.row());
   }
   for (const char* design : {"nonlinear_method", "moduli", "hybrid", "multi_load"}) {
     RowBuilder row(table, design);
-    for (const PublishedFigure& figure : questions) {
-      const MeasuredPair pair = pair_of(figure, designed_msm_job(figure, design));
-      row.add(figure, error_of(pair), pair.reason);
-    }
+    for (const PublishedFigure& figure : questions)
+      add_computed(row, figure, designed_msm_job(figure, design));
     rows.push_back(row.row());
   }
 }

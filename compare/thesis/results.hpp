@@ -67,6 +67,7 @@ struct CaseVolumes {
   double rest;          ///< of the whole body, mm³
   double rest_per_cell; ///< mm³
   ModelVolumes fem, msm;
+  Trace trace{}; ///< gives both bodies' volumes
 };
 
 /// One table with springs of one design: what the error is, whatever print says. Errors against the table's
@@ -79,6 +80,7 @@ struct DesignRow {
   std::optional<double> worst, mean; ///< of |error|, percent
   std::string worst_at;              ///< "large shear alpha_1 nu = 0.49"
   std::vector<std::string> reasons;  ///< of what is missing, each once
+  Trace worst_trace{};               ///< gives the worst figure
 };
 
 /// A design for linear elasticity at one Poisson's ratio, for any Young's modulus E and edge L0, with its
@@ -90,6 +92,7 @@ struct Advice {
   struct Errors {
     std::optional<double> worst, mean, worst_volume; ///< of |error|, percent; absent when a test failed
     bool is_stable = false; ///< every test converged to a stable equilibrium without inverted cells
+    Trace trace{};          ///< gives the worst error
   };
   Errors small, large;         ///< the cube's load sets
   std::string refusal;         ///< why there are no stiffnesses or errors; empty otherwise

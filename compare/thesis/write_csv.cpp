@@ -21,10 +21,10 @@ void write_box(std::ostream& out, const CaseVolumes& volumes, const char* model,
   const BoxPlot& b = *v.per_cell;
   std::vector<std::string> outliers;
   for (const double value : b.outliers) outliers.push_back(fmt::format("{:.8g}", value));
-  fmt::print(out, "{},{},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{},{}\n",
+  fmt::print(out, "{},{},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{},{},{}\n",
              csv_text(volumes.name), model, volumes.rest, *v.total, (*v.total / volumes.rest - 1) * 100,
              volumes.rest_per_cell, b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile,
-             b.upper_whisker, b.outliers.size(), fmt::join(outliers, " "));
+             b.upper_whisker, b.outliers.size(), fmt::join(outliers, " "), csv_text(volumes.trace.command));
 }
 
 } // namespace
@@ -49,10 +49,12 @@ void write_tables_csv(std::ostream& out, const std::vector<TableEntry>& entries)
 }
 
 void write_designs_csv(std::ostream& out, const std::vector<DesignRow>& rows) {
-  fmt::print(out, "table,design,figures,missing,mean_error_percent,worst_error_percent,worst_at,reasons\n");
+  fmt::print(out, "table,design,figures,missing,mean_error_percent,worst_error_percent,worst_at,reasons,"
+                  "command_of_worst\n");
   for (const DesignRow& row : rows)
-    fmt::print(out, "{},{},{},{},{},{},{},{}\n", row.table, csv_text(row.design), row.n_figures,
-               row.n_missing, field(row.mean), field(row.worst), csv_text(row.worst_at), joined(row.reasons));
+    fmt::print(out, "{},{},{},{},{},{},{},{},{}\n", row.table, csv_text(row.design), row.n_figures,
+               row.n_missing, field(row.mean), field(row.worst), csv_text(row.worst_at), joined(row.reasons),
+               csv_text(row.worst_trace.command));
 }
 
 void write_volumes_csv(std::ostream& out, const std::vector<Comparison>& cases) {
@@ -69,7 +71,7 @@ void write_box_plot_csv(std::ostream& out, const std::vector<CaseVolumes>& volum
   fmt::print(
       out,
       "case,model,rest_mm3,total_mm3,total_change_percent,rest_per_cell_mm3,lower_whisker,lower_quartile,"
-      "median,upper_quartile,upper_whisker,n_outliers,outliers\n");
+      "median,upper_quartile,upper_whisker,n_outliers,outliers,command\n");
   for (const CaseVolumes& v : volumes) {
     write_box(out, v, "fem", v.fem);
     write_box(out, v, "msm", v.msm);
@@ -80,19 +82,20 @@ void write_advice_csv(std::ostream& out, const std::vector<Advice>& advice) {
   fmt::print(out,
              "poissons_ratio,design,recommended,k_e_per_E_L0,k_f_per_E_L0,k_d_per_E_L0,k_v_per_E,"
              "small_worst_percent,small_mean_percent,small_volume_percent,small_stable,large_worst_percent,"
-             "large_mean_percent,large_volume_percent,large_stable,reason,command\n");
+             "large_mean_percent,large_volume_percent,large_stable,reason,command,command_of_small_worst,"
+             "command_of_large_worst\n");
   for (const Advice& a : advice) {
     const auto stiffness = [&](double msm::CellStiffness::*kind) {
       return field(a.stiffness ? std::optional((*a.stiffness).*kind) : std::nullopt);
     };
-    fmt::print(out, "{:g},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", a.poissons_ratio, a.design,
-               a.is_recommended ? 1 : 0, stiffness(&msm::CellStiffness::edge),
+    fmt::print(out, "{:g},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", a.poissons_ratio,
+               a.design, a.is_recommended ? 1 : 0, stiffness(&msm::CellStiffness::edge),
                stiffness(&msm::CellStiffness::face_diagonal),
                stiffness(&msm::CellStiffness::internal_diagonal), stiffness(&msm::CellStiffness::volume),
                field(a.small.worst), field(a.small.mean), field(a.small.worst_volume),
                a.small.is_stable ? 1 : 0, field(a.large.worst), field(a.large.mean),
                field(a.large.worst_volume), a.large.is_stable ? 1 : 0, csv_text(a.refusal),
-               csv_text(a.trace.command));
+               csv_text(a.trace.command), csv_text(a.small.trace.command), csv_text(a.large.trace.command));
   }
 }
 

@@ -92,7 +92,8 @@ Json design_to_json(const DesignRow& row) {
           {"mean_error_percent", or_null(row.mean)},
           {"worst_error_percent", or_null(row.worst)},
           {"worst_at", row.worst_at},
-          {"reasons", row.reasons}};
+          {"reasons", row.reasons},
+          {"command_of_worst", text_or_null(row.worst_trace.command)}};
 }
 
 Json box_to_json(const ModelVolumes& v) {
@@ -108,7 +109,8 @@ Json errors_to_json(const Advice::Errors& errors) {
   return {{"worst_error_percent", or_null(errors.worst)},
           {"mean_error_percent", or_null(errors.mean)},
           {"worst_volume_error_percent", or_null(errors.worst_volume)},
-          {"stable", errors.is_stable}};
+          {"stable", errors.is_stable},
+          {"command_of_worst", text_or_null(errors.trace.command)}};
 }
 
 Json advice_to_json(const Advice& a) {
@@ -151,7 +153,8 @@ Json results_to_json(const ThesisResults& results) {
                                          {"rest_mm3", v.rest},
                                          {"rest_per_cell_mm3", v.rest_per_cell},
                                          {"fem", box_to_json(v.fem)},
-                                         {"msm", box_to_json(v.msm)}};
+                                         {"msm", box_to_json(v.msm)},
+                                         {"command", v.trace.command}};
                            })},
           {"advice", list(results.advice, advice_to_json)},
           {"summary", summary}};

@@ -39,14 +39,16 @@ void write_recommendation(std::ostream& out, const Advice& a) {
   const double youngs_modulus = 0.05; // MPa, soft tissue
   const msm::CellStiffness& k = *a.stiffness;
   const double to_newton_per_metre = 1e3 * youngs_modulus; // of a cell of 1 mm
-  fmt::print(out,
-             "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = "
-             "{:.5f} MPa; "
-             "expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume "
-             "within {:.1f} %.\n",
-             a.poissons_ratio, a.design, to_newton_per_metre * k.edge, to_newton_per_metre * k.face_diagonal,
-             to_newton_per_metre * k.internal_diagonal, youngs_modulus * k.volume, *a.small.worst,
-             *a.large.worst, std::max(*a.small.worst_volume, *a.large.worst_volume));
+  fmt::print(
+      out,
+      "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = "
+      "{:.5f} MPa; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume "
+      "within {:.1f} %.\n",
+      a.poissons_ratio, a.design, to_newton_per_metre * k.edge, to_newton_per_metre * k.face_diagonal,
+      to_newton_per_metre * k.internal_diagonal, youngs_modulus * k.volume, *a.small.worst, *a.large.worst,
+      std::max(*a.small.worst_volume, *a.large.worst_volume));
+  fmt::print(out, "      its stiffnesses again (E = 1 MPa): {}\n      its worst errors again: {}\n      {}\n",
+             a.trace.command, a.small.trace.command, a.large.trace.command);
 }
 
 void write_beyond(std::ostream& out, const TableEntry& entry) {
