@@ -1,5 +1,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/report/traced.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,8 +14,8 @@ std::string errors(const Advice& a, const Advice::Errors& e) {
   if (!e.worst)
     return fmt::format("<td>–</td><td>–</td><td class='text'>{}</td>",
                        a.stiffness ? "a test failed" : "refused");
-  return fmt::format("<td>{}</td><td>{}</td><td class='text'>{}</td>", number(e.worst, 1), number(e.mean, 1),
-                     e.is_stable ? "stable" : "unstable");
+  return fmt::format("<td>{}</td><td>{}</td><td class='text'>{}</td>", traced(number(e.worst, 1), e.trace),
+                     number(e.mean, 1), e.is_stable ? "stable" : "unstable");
 }
 
 std::string stiffness(const std::optional<msm::CellStiffness>& k) {
@@ -23,14 +24,15 @@ std::string stiffness(const std::optional<msm::CellStiffness>& k) {
                      k->face_diagonal, k->internal_diagonal, k->volume);
 }
 
-std::string row(const Advice& a) {
-  return fmt::format(
-      "<tr{}><td>{:g}</td><td class='text'><details><summary>{}{}</summary><code>{}</code>{}</details></td>{}"
-      "{}{}</tr>\n",
-      a.is_recommended ? " class='recommended'" : "", a.poissons_ratio, escape(a.design),
-      a.is_recommended ? " ← use" : "", escape(a.trace.command),
-      a.refusal.empty() ? "" : "<br>" + escape(a.refusal), stiffness(a.stiffness), errors(a, a.small),
-      errors(a, a.large));
+/// @param previous  the line above; null for the first
+std::string row(const Advice& a, const Advice* previous) {
+  const bool is_first = !previous || previous->poissons_ratio != a.poissons_ratio;
+  return fmt::format("<tr class='{}{}'><td>{}</td><td class='text'>{}{}</td>{}{}{}</tr>\n",
+                     is_first ? "group " : "", a.is_recommended ? "recommended" : "",
+                     is_first ? fmt::format("{:g}", a.poissons_ratio) : "",
+                     traced(a.design + (a.is_recommended ? " ← use" : ""), a.trace),
+                     a.refusal.empty() ? "" : "<span class='reason'>" + escape(a.refusal) + "</span>",
+                     stiffness(a.stiffness), errors(a, a.small), errors(a, a.large));
 }
 
 /// A sentence that can be used as it stands, for E = 50 kPa; the page's script rewrites it for other
@@ -72,14 +74,18 @@ step='any' value='1' size='5'> mm: <output></output></form>
     if (a.is_recommended && a.stiffness) html += recommendation(a);
   html += R"(</ul>
 <div class='scroll'><table data-table='advice'><caption>Every design on the cube: |error|
-against the declared reference, %</caption>
+against the declared reference, %; a click on a design or a worst error shows its command</caption>
 <thead><tr><th rowspan='2'>ν</th><th class='text' rowspan='2'>design</th><th colspan='3'>k/(E
 L<sub>0</sub>): edge, face, internal</th><th>k<sub>v</sub>/E</th><th colspan='3'>small
 loads</th><th colspan='3'>large loads</th></tr>
 <tr><th>k<sub>e</sub></th><th>k<sub>f</sub></th><th>k<sub>d</sub></th><th>k<sub>v</sub></th><th>worst</th><th>mean</th><th></th><th>worst</th><th>mean</th><th></th></tr></thead>
 <tbody>
 )";
-  for (const Advice& a : results.advice) html += row(a);
+  const Advice* previous = nullptr;
+  for (const Advice& a : results.advice) {
+    html += row(a, previous);
+    previous = &a;
+  }
   return html + "</tbody></table></div>\n";
 }
 

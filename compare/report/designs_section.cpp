@@ -1,5 +1,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/report/traced.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +8,9 @@ namespace compare::html {
 
 namespace {
 
+/// @param name  as HTML
 std::string volume_row(const std::string& name, const char* model, const ModelVolumes& volumes, double rest) {
-  std::string html = fmt::format("<tr><td class='text'>{}</td><td class='text'>{}</td>", escape(name), model);
+  std::string html = fmt::format("<tr><td class='text'>{}</td><td class='text'>{}</td>", name, model);
   if (!volumes.total || !volumes.per_cell)
     return html + "<td class='text' colspan='8'>no equilibrium</td></tr>\n";
   const BoxPlot& b = *volumes.per_cell;
@@ -24,7 +26,7 @@ std::string designs_section(const ThesisResults& results) {
   if (results.designs.empty()) return "";
   std::string html =
       R"(<p>The same tests with springs of other designs: |error| against the table's declared reference. A
-method designs from the table's own material.</p>
+method designs from the table's own material. Click a worst error for its command.</p>
 <div class='scroll'><table data-table='designs'><thead><tr><th class='text'>table</th><th
 class='text'>design</th><th>figures</th><th>missing</th><th>mean, %</th><th>worst, %</th><th
 class='text'>where</th><th class='text'>why some are missing</th></tr></thead><tbody>
@@ -39,8 +41,8 @@ class='text'>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class='text'
 class='long'>{}</td></tr>
 )",
                         is_first ? " class='group'" : "", is_first ? row.table : "", escape(row.design),
-                        row.n_figures, row.n_missing, number(row.mean), number(row.worst),
-                        escape(row.worst_at), reasons);
+                        row.n_figures, row.n_missing, number(row.mean),
+                        traced(number(row.worst), row.worst_trace), escape(row.worst_at), reasons);
   }
   return html + "</tbody></table></div>\n";
 }
@@ -54,7 +56,7 @@ interquartile range of the box)</caption>
 %</th><th>whisker</th><th>quartile</th><th>median</th><th>quartile</th><th>whisker</th><th>outliers</th></tr></thead><tbody>
 )";
   for (const CaseVolumes& v : results.volumes)
-    html += volume_row(v.name, "FEM", v.fem, v.rest) + volume_row("", "MSM", v.msm, v.rest);
+    html += volume_row(traced(v.name, v.trace), "FEM", v.fem, v.rest) + volume_row("", "MSM", v.msm, v.rest);
   return html + "</tbody></table></div>\n";
 }
 

@@ -2,6 +2,7 @@
 #include "compare/machine.hpp"
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/report/traced.hpp"
 #include "compare/version.hpp"
 
 #include <fmt/format.h>
@@ -30,10 +31,10 @@ std::string case_row(const Comparison& comparison, const Trace& trace) {
     stiffness =
         fmt::format("{:.4g}, {:.4g}, {:.4g}", 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
   }
-  return fmt::format(
-      "<tr><td class='text' title='{}'>{}</td><td class='text'>{} {}</td>{}<td>{}</td>{}</tr>\n",
-      escape(trace.command), escape(trace.case_file), cases::name_of(fem.formulation),
-      cases::name_of(fem.element), outcome(comparison.fem), stiffness, outcome(comparison.msm));
+  return fmt::format("<tr><td class='text'>{}</td><td class='text'>{} {}</td>{}<td>{}</td>{}</tr>\n",
+                     traced(trace.case_file, trace), cases::name_of(fem.formulation),
+                     cases::name_of(fem.element), outcome(comparison.fem), stiffness,
+                     outcome(comparison.msm));
 }
 
 } // namespace

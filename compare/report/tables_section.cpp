@@ -1,5 +1,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/report/traced.hpp"
 #include "compare/thesis/sheet.hpp"
 
 #include <algorithm>
@@ -23,19 +24,11 @@ std::string anchor(const Sheet& sheet, const TableEntry& entry, std::size_t refe
   return fmt::format("trace-{}-{}-{}", sheet.table, n, reference);
 }
 
-/// What a pointer that rests on the number is shown.
-std::string provenance(const ComputedFigure& c) {
-  std::string text;
-  if (!c.trace.case_file.empty()) text += "case: " + c.trace.case_file + "\n";
-  for (const std::string& setting : c.trace.settings) text += "setting: " + setting + "\n";
-  return escape(text + "command: " + c.trace.command);
-}
-
 std::string computed_cell(const Sheet& sheet, const TableEntry& entry, std::size_t reference) {
   const ComputedFigure& c = entry.computed[reference];
   const bool is_nearest = entry.computed.size() > 1 && entry.nearest() == &c;
   return fmt::format("<td{}><a href='#{}' title='{}'>{}{}</a></td>", is_nearest ? " class='nearest'" : "",
-                     anchor(sheet, entry, reference), provenance(c),
+                     anchor(sheet, entry, reference), provenance(c.trace),
                      number(c.value, decimals(entry.published)), is_nearest ? "*" : "");
 }
 

@@ -123,8 +123,8 @@
       this.controls.target.copy(sphere.center);
       this.camera.position.copy(sphere.center).add(turned);
       this.radius = sphere.radius;
-      this.scene.fog.near = 1 - 0.4 * sphere.radius; // the camera stands 1 mm before the centre: parallel rays
-      this.scene.fog.far = 1 + 0.9 * sphere.radius;
+      this.scene.fog.near = 1 - 0.2 * sphere.radius; // the camera stands 1 mm before the centre: parallel rays
+      this.scene.fog.far = 1 + 1.3 * sphere.radius;
       this.controls.update();
     }
     draw() {
