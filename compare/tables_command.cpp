@@ -45,8 +45,10 @@ int tables(const TablesOptions& options) {
     if (is_on_terminal) show_progress(done, all);
   });
   if (rank != 0) return 0; // the springs' side is on rank 0 alone
-  const bool failed = std::any_of(results.entries.begin(), results.entries.end(),
-                                  [](const TableEntry& e) { return !e.nearest(); });
+  const auto lacks_value = [](const ComputedFigure& c) { return !c.value; };
+  const bool failed = std::any_of(results.entries.begin(), results.entries.end(), [&](const TableEntry& e) {
+    return std::any_of(e.computed.begin(), e.computed.end(), lacks_value);
+  });
   Stopwatch stopwatch;
   if (options.json)
     std::cout << results_to_json(results).dump(2) << '\n';

@@ -24,19 +24,25 @@ std::system_error system_error(int code, const std::string& what) {
   return {code, std::generic_category(), what};
 }
 
-/// MPI leaves its rank and its server's address in the environment: a worker that read them would take itself
-/// for this process.
-std::vector<char*> environment_without_mpi() {
-  std::vector<char*> kept;
-  for (char** variable = environ; *variable; ++variable) {
-    const std::string text = *variable;
-    const auto starts_with = [&](const char* prefix) { return text.rfind(prefix, 0) == 0; };
-    const bool is_setting = starts_with("OMPI_MCA_") || starts_with("OMPI_ALLOW_");
-    if (is_setting || !(starts_with("OMPI_") || starts_with("PMIX_") || starts_with("PRTE_")))
-      kept.push_back(*variable);
-  }
-  kept.push_back(nullptr);
-  return kept;
+/// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
+/// take itself for this process.
+const std::vector<std::string>& initial_environment() {
+  static const std::vector<std::string> variables = [] {
+    std::vector<std::string> copies;
+    for (char** variable = environ; *variable; ++variable) copies.emplace_back(*variable);
+    return copies;
+  }();
+  return variables;
+}
+
+[[maybe_unused]] const bool is_environment_kept = (initial_environment(), true); // before main()
+
+/// Pointers into the words, with a null at the end, as the system wants them.
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> result;
+  for (std::string& word : words) result.push_back(word.data());
+  result.push_back(nullptr);
+  return result;
 }
 
 /// Answers are framed as "ok N\n" or "failed N\n" and N bytes.
@@ -76,12 +82,9 @@ class Worker {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    std::vector<std::string> words = command;
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const int error = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(),
-                                   environment_without_mpi().data());
+    std::vector<std::string> words = command, variables = initial_environment();
+    const int error = posix_spawnp(&process_, words.front().c_str(), &actions, nullptr,
+                                   pointers(words).data(), pointers(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error == 0) return;
@@ -183,9 +186,18 @@ std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vect
   return answers;
 }
 
-void serve_jobs(const std::function<std::string(const std::string& job)>& work) {
-  // Ends with the process that asked, even in the midst of a job.
+bool is_under_mpi_launcher() {
+  for (const std::string& variable : initial_environment())
+    for (const char* mark : {"OMPI_COMM_WORLD_SIZE=", "PMI_SIZE=", "PMI_RANK=", "PMIX_RANK="})
+      if (variable.rfind(mark, 0) == 0) return true;
+  return false;
+}
+
+void end_with_parent() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+void serve_jobs(const std::function<std::string(const std::string& job)>& work) {
   // Libraries that print must not print into an answer.
   const int answers = dup(STDOUT_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);

@@ -121,7 +121,7 @@ std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const Solv
   int n_done = 0, n_ranks = 1;
   const auto count = [&] { progress(++n_done, static_cast<int>(order.size())); };
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-  if (n_ranks > 1) {
+  if (n_ranks > 1 || is_under_mpi_launcher()) {
     for (const std::size_t j : order) {
       solve_in_this_process(jobs[j], solved[j]);
       count();
