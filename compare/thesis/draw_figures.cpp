@@ -14,7 +14,7 @@ namespace compare {
 
 namespace {
 
-const std::string all_figures = "springproof tables --out DIR";
+const std::string all_figures = "build/springproof tables --out DIR";
 
 /// The cube's six tests in the order of figures 4.15 and 5.9: a row per test, small loads left and large ones
 /// right.
@@ -44,7 +44,8 @@ msm::CellStiffness published_cell(const std::string& design, const std::string& 
 
 void draw_linear_designs(const std::string& folder, std::vector<Figure>& figures) {
   plot_linear_method(folder, cases::Element::q1);
-  const std::string command = "springproof design --young 1 --poisson 0.35 --method linear_method --out DIR";
+  const std::string command =
+      "build/springproof design --young 1 --poisson 0.35 --method linear_method --out DIR";
   figures.push_back(
       {"4.6", "figure_4_6",
        "Pulled cells of the linear method, one curve per Poisson's ratio, with the nonlinear spring law: "
@@ -117,8 +118,8 @@ void draw_dot_diagrams(const std::string& folder, const ThesisResults& results,
       for (const CellAnalysis& cell : results.cells)
         if (std::abs(cell.poissons_ratio - nu) < 1e-9) {
           panels.push_back({fmt::format("ν = {:.2f},", nu), &cell.spaces});
-          command +=
-              fmt::format("{}springproof eigen --poisson {:g} --out DIR", command.empty() ? "" : "; ", nu);
+          command += fmt::format("{}build/springproof eigen --poisson {:g} --out DIR",
+                                 command.empty() ? "" : "; ", nu);
         }
     if (panels.empty()) continue;
     const std::string name = fmt::format("figure_A_{}", n);
@@ -146,11 +147,10 @@ void draw_cubes(const std::string& folder, const ThesisResults& results, std::ve
     figures.push_back(
         {"4.15", "figure_4_15",
          "The cube with E = 0.3 MPa and ν = 0.25, springs of the printed set (25, 36, 23 N/m) over finite "
-         "elements "
-         "(log_strain, q1_bbar). Displacements at true scale.",
-         "springproof run cases/thesis/linear_elastic/cube_TEST_LOADSET.toml --set "
+         "elements (log_strain, q1_bbar). Displacements at true scale.",
+         "build/springproof run cases/thesis/linear_elastic/cube_*.toml --set "
          "material.poissons_ratio=0.25 --set "
-         "fem.formulation=log_strain --set msm.design=given --set msm.stiffness=[25,36,23] --out DIR"});
+         "msm.design=given --set 'msm.stiffness=[25,36,23]' --out DIR"});
   }
   panels.clear();
   std::vector<const CaseVolumes*> volumes;
@@ -165,7 +165,7 @@ void draw_cubes(const std::string& folder, const ThesisResults& results, std::ve
       labels.push_back(fmt::format("{}\\n{}", test.test, test.load_set));
     }
   }
-  const std::string command = "springproof run cases/thesis/ogden/cube_TEST_LOADSET.toml --out DIR";
+  const std::string command = "build/springproof run cases/thesis/ogden/cube_*.toml --out DIR";
   if (!panels.empty()) {
     plot_bodies(folder, "figure_5_9", panels, 2);
     figures.push_back({"5.9", "figure_5_9",
@@ -195,7 +195,7 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
                      "The bar, held at its foot, 0.05 N to the left shared by an edge of its free end: "
                      "springs at three resolutions "
                      "over 4x4x16 finite elements. Displacements at true scale.",
-                     "springproof run cases/thesis/ogden/bar_*.toml --out DIR"});
+                     "build/springproof run cases/thesis/ogden/bar_*.toml --out DIR"});
 }
 
 } // namespace
