@@ -97,6 +97,13 @@ std::vector<PublishedFigure> read_published_figures() {
   return figures;
 }
 
+double published_cell_volume_change(const std::string& load_set) {
+  const std::string path = cases_folder() + "/published/cell_volumes.csv";
+  for (const auto& row : read_csv(path))
+    if (row.at(1) == load_set) return number(row.at(2), path);
+  throw cases::InputError(path + ": has no load set '" + load_set + "'");
+}
+
 std::optional<std::array<double, 3>>
 published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio) {
   const std::string path = cases_folder() + "/published/stiffness.csv";

@@ -33,6 +33,9 @@ std::string cases_folder();
 /// @throws InputError naming the file when a row is broken
 std::vector<PublishedFigure> read_published_figures();
 
+/// Largest change of a cell's volume without outliers, percent, for a load set; section 5.3.1.3.
+double published_cell_volume_change(const std::string& load_set);
+
 /// k_e, k_f, k_d in whole N/m where the thesis prints them for this design of the 1 mm cell, else nothing.
 std::optional<std::array<double, 3>>
 published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio);

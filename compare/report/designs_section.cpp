@@ -57,7 +57,13 @@ interquartile range of the box)</caption>
 )";
   for (const CaseVolumes& v : results.volumes)
     html += volume_row(traced(v.name, v.trace), "FEM", v.fem, v.rest) + volume_row("", "MSM", v.msm, v.rest);
-  return html + "</tbody></table></div>\n";
+  html += "</tbody></table></div>\n";
+  for (const CellVolumeChange& change : results.cell_volume_changes)
+    html += fmt::format(
+        "<p>Figure 5.10, {} loads: the springs' cells between the whiskers change their volume by up to "
+        "{} %; the thesis says {:g} %. Again: <code>build/springproof tables 5.2</code></p>\n",
+        escape(change.load_set), number(change.computed), change.published);
+  return html;
 }
 
 } // namespace compare::html

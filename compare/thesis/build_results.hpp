@@ -24,6 +24,10 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
 /// Total and per-cell volumes of both models.
 CaseVolumes volumes_of(const Comparison& comparison);
 
+/// Of the cases behind table 5.2; empty when that is not among the figures.
+std::vector<CellVolumeChange> cell_volume_changes(const std::vector<PublishedFigure>& figures,
+                                                  SolveSet& solves);
+
 /// Per table: the figures in print, the thesis's sets, and the methods nonlinear_method (true minimiser of
 /// eq. 5.9), moduli, hybrid and multi_load, each designed from the table's own material.
 std::vector<DesignRow> design_rows(const std::vector<PublishedFigure>& figures, SolveSet& solves);

@@ -45,6 +45,14 @@ void add_figure_4_15(const std::vector<PublishedFigure>& figures, SolveSet& solv
   }
 }
 
+/// Outermost whisker's distance from the rest volume, percent.
+std::optional<double> largest_change(const CaseVolumes& volumes) {
+  if (!volumes.msm.per_cell) return std::nullopt;
+  const double low = volumes.rest_per_cell - volumes.msm.per_cell->lower_whisker;
+  const double high = volumes.msm.per_cell->upper_whisker - volumes.rest_per_cell;
+  return std::max(low, high) / volumes.rest_per_cell * 100;
+}
+
 } // namespace
 
 CaseVolumes volumes_of(const Comparison& comparison) {
@@ -76,6 +84,23 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
     results.volumes.back().trace = results.case_traces.back();
   }
   add_figure_4_15(figures, solves, results);
+}
+
+std::vector<CellVolumeChange> cell_volume_changes(const std::vector<PublishedFigure>& figures,
+                                                  SolveSet& solves) {
+  std::vector<CellVolumeChange> changes;
+  for (const char* load_set : {"small", "large"}) {
+    std::vector<std::optional<double>> of_tests;
+    for (const PublishedFigure& figure : figures)
+      if (figure.table == "5.2" && figure.load_set == load_set)
+        of_tests.push_back(largest_change(volumes_of(solves.get(thesis_msm_job(figure)))));
+    if (of_tests.empty()) continue;
+    const bool is_whole =
+        std::all_of(of_tests.begin(), of_tests.end(), [](const auto& c) { return c.has_value(); });
+    changes.push_back({load_set, published_cell_volume_change(load_set),
+                       is_whole ? *std::max_element(of_tests.begin(), of_tests.end()) : std::nullopt});
+  }
+  return changes;
 }
 
 } // namespace compare

@@ -34,6 +34,7 @@ ThesisResults build(const std::vector<PublishedFigure>& figures, bool is_everyth
   ThesisResults results;
   results.entries = error_entries(figures, solves);
   add_cases(figures, solves, results);
+  results.cell_volume_changes = cell_volume_changes(figures, solves);
   if (is_everything) {
     results.designs = design_rows(figures, solves);
     results.advice = advise(solves);

@@ -70,6 +70,13 @@ struct CaseVolumes {
   Trace trace{}; ///< gives both bodies' volumes
 };
 
+/// Largest change of a cell's volume between the whiskers of figure 5.10, over the three tests of a load set.
+struct CellVolumeChange {
+  std::string load_set;
+  double published;               ///< thesis section 5.3.1.3, percent of the rest volume
+  std::optional<double> computed; ///< of the springs; absent if a test failed
+};
+
 /// One table with springs of one design: what the error is, whatever print says. Errors against the table's
 /// declared reference; volumes count as errors against the finite elements' volume.
 struct DesignRow {
@@ -132,7 +139,8 @@ struct ThesisResults {
   /// The cube of figure 4.15, nu = 0.25 with the printed set: the tests that the tables asked for have in common with it.
   std::vector<Comparison> figure_4_15;
   std::vector<CellAnalysis> cells;
-  std::vector<CaseVolumes> volumes; ///< one per case
+  std::vector<CaseVolumes> volumes;                  ///< one per case
+  std::vector<CellVolumeChange> cell_volume_changes; ///< with table 5.2
   std::vector<DesignRow> designs;
   std::vector<Advice> advice;
   std::vector<PhaseTime> times; ///< the only part that differs from run to run

@@ -18,7 +18,8 @@ void write_tables_text(std::ostream& out, const ThesisResults& results, Commands
 
 /// The parts of it behind the tables.
 void write_designs_text(std::ostream& out, const std::vector<DesignRow>& rows);
-void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes);
+void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes,
+                        const std::vector<CellVolumeChange>& changes);
 void write_advice_text(std::ostream& out, const std::vector<Advice>& advice);
 void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& groups);
 

@@ -156,6 +156,12 @@ Json results_to_json(const ThesisResults& results) {
                                          {"msm", box_to_json(v.msm)},
                                          {"command", v.trace.command}};
                            })},
+          {"cell_volume_changes", list(results.cell_volume_changes,
+                                       [](const CellVolumeChange& change) {
+                                         return Json{{"load_set", change.load_set},
+                                                     {"published_percent", change.published},
+                                                     {"computed_percent", or_null(change.computed)}};
+                                       })},
           {"advice", list(results.advice, advice_to_json)},
           {"summary", summary}};
 }

@@ -80,7 +80,8 @@ void write_designs_text(std::ostream& out, const std::vector<DesignRow>& rows) {
   }
 }
 
-void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes) {
+void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes,
+                        const std::vector<CellVolumeChange>& changes) {
   if (volumes.empty()) return;
   fmt::print(
       out,
@@ -92,6 +93,9 @@ void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volum
     write_model_volumes(out, v.name, "fem", v.fem);
     write_model_volumes(out, "", "msm", v.msm);
   }
+  for (const CellVolumeChange& change : changes)
+    fmt::print(out, "  largest change of a cell without outliers, Ogden, {} loads: {} %, published {:g} %\n",
+               change.load_set, number(change.computed), change.published);
 }
 
 void write_advice_text(std::ostream& out, const std::vector<Advice>& advice) {

@@ -112,7 +112,7 @@ void write_tables_text(std::ostream& out, const ThesisResults& results, Commands
     fmt::print(out,
                "\nThe command behind every other number: --trace, or the column `command` of tables.csv.\n");
   write_designs_text(out, results.designs);
-  write_volumes_text(out, results.volumes);
+  write_volumes_text(out, results.volumes, results.cell_volume_changes);
   write_advice_text(out, results.advice);
   write_summary_text(out, summarise(results.entries));
 }

@@ -93,3 +93,31 @@ TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
   CHECK(design["stiffness_N_per_m"][0].get<double>() ==
         Approx(entry["computed"].get<double>()).epsilon(1e-9)); // least squares at another E
 }
+
+// The project's main job, whole; the bounds are those that an independent computation of the thesis's cases
+// reaches.
+TEST_CASE(
+    "at least 75 of 90 errors in print are met within a point, all volumes within 2 mm3, the bar within 1.6 "
+    "points",
+    "[verification]") {
+  const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.2 5.3 5.4 5.12 --json"));
+  const auto group = [&](const std::string& name) {
+    for (const Json& candidate : document["summary"]["groups"])
+      if (candidate["name"] == name) return candidate;
+    FAIL("no group " << name);
+    return Json();
+  };
+  const auto n_beyond = [](const Json& of_group, double bound) {
+    for (const Json& within : of_group["within"])
+      if (within["bound"] == bound) return within["neither"].get<int>();
+    FAIL("no bound " << bound);
+    return 0;
+  };
+  CHECK(group("errors, beta_1 aside")["entries"] == 90);
+  CHECK(n_beyond(group("errors, beta_1 aside"), 1) <= 15);
+  CHECK(group("volumes (5.2)")["entries"] == 6);
+  CHECK(n_beyond(group("volumes (5.2)"), 2) == 0);
+  CHECK(group("bar (5.12)")["entries"] == 3);
+  CHECK(n_beyond(group("bar (5.12)"), 1.6) == 0);
+  for (const Json& entry : document["entries"]) CHECK(entry["computed"].is_number());
+}
