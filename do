@@ -7,8 +7,11 @@ set -eu
 cd "$(dirname "$0")"
 
 # packages.txt is the one list of dependencies. Nothing is run as root when nothing is missing.
+# install_missing tests: those that only the tests need too.
 install_missing() {
-  wanted=$(sed -e 's/#.*//' packages.txt)
+  last='/^# tests/'
+  [ "${1:-}" != tests ] || last='$'
+  wanted=$(sed -e "1,${last}!d" -e 's/#.*//' packages.txt)
   # shellcheck disable=SC2086
   installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p' || true)
   missing=
@@ -37,6 +40,7 @@ case $command in
   run)    build springproof; exec build/springproof run "$@" ;;
   build)  build ;;
   test)
+    install_missing tests
     build
     # MPI's launcher refuses root unless told twice; a container has no other user.
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

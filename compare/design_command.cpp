@@ -57,7 +57,8 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
                              const msm::CellStiffness& design) {
   const double edge = msm::cube_edge(request.cell);
   const msm::UniaxialCurve reference = msm::uniaxial_reference(request);
-  plot_uniaxial(folder, design, edge, reference);
+  plot_uniaxial(folder, "uniaxial", design, edge, reference);
+  plot_contributions(folder, "contributions", {{"", design, edge, reference.axial_strain}});
   plot_incompressible_family(folder);
   std::vector<msm::CellStiffness> others;
   if (std::holds_alternative<cases::Ogden>(request.material))

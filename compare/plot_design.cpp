@@ -24,6 +24,19 @@ std::vector<double> equally_spaced(double lowest, double highest, int n) {
   return values;
 }
 
+/// Viridis without its yellow end, which is lost on paper: a family of curves in the order of its parameter.
+/// @param t  0 (dark) to 1 (light)
+std::string sequential_colour(double t) {
+  constexpr int anchors[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {170, 205, 40}};
+  const double position = 4 * t;
+  const int i = std::min(3, static_cast<int>(position));
+  int mixed[3];
+  for (int c = 0; c < 3; ++c)
+    mixed[c] =
+        static_cast<int>(std::lround(anchors[i][c] + (position - i) * (anchors[i + 1][c] - anchors[i][c])));
+  return fmt::format("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2]);
+}
+
 /// Stress of one kind of spring alone at the whole cell's width, MPa.
 double contribution(const msm::CellStiffness& part, double lateral_strain, double strain, double edge) {
   const double k[] = {part.edge, part.face_diagonal, part.internal_diagonal};
@@ -35,9 +48,10 @@ double contribution(const msm::CellStiffness& part, double lateral_strain, doubl
 void plot_linear_method(const std::string& folder, cases::Element element) {
   std::string curves = "# poissons_ratio,engineering_strain,stress_over_E,lateral_strain\n",
               residuals = "# poissons_ratio,residual\n";
-  std::string stress_plot = "plot x lc rgb '#c00000' title 'finite element'", lateral_plot = "plot ";
-  int block = 0;
-  for (const double nu : thesis_poissons_ratios()) {
+  std::string stress_plot = "plot ", lateral_plot = "plot ";
+  const std::vector<double>& ratios = thesis_poissons_ratios();
+  for (std::size_t block = 0; block < ratios.size(); ++block) {
+    const double nu = ratios[block];
     const msm::DesignResult design =
         msm::design(design_request(cases::LinearElastic{1, nu}, msm::cube(1), cases::Msm{}, element));
     residuals += fmt::format("{},{:.8g}\n", nu, *design.residual);
@@ -49,58 +63,86 @@ void plot_linear_method(const std::string& folder, cases::Element element) {
                             lateral - 1);
     }
     curves += "\n\n";
-    stress_plot +=
-        fmt::format(", 'linear_method_curves.csv' index {} using 2:3 with lines lc {} title 'nu = {}'", block,
-                    block + 2, nu);
-    lateral_plot += fmt::format("{}'linear_method_curves.csv' index {} using 2:4 with lines lc {} title 'nu "
-                                "= {}', -{}*x lc {} dt 2 notitle",
-                                block == 0 ? "" : ", ", block, block + 2, nu, nu, block + 2);
-    ++block;
+    const std::string colour =
+        sequential_colour(static_cast<double>(block) / static_cast<double>(ratios.size() - 1));
+    const std::string style = fmt::format(
+        "with linespoints lw 1.5 dt solid pt {} pi 4 lc rgb '{}' title 'ν = {}'", block + 1, colour, nu);
+    stress_plot += fmt::format("'linear_method_curves.csv' index {} using 2:3 {}, ", block, style);
+    lateral_plot +=
+        fmt::format("{}'linear_method_curves.csv' index {} using 2:4 {}, -{}*x dt 2 lc rgb '{}' notitle",
+                    block == 0 ? "" : ", ", block, style, nu, colour);
   }
   write_file(folder + "/linear_method_curves.csv", [&](std::ostream& out) { out << curves; });
   write_file(folder + "/linear_method_residual.csv", [&](std::ostream& out) { out << residuals; });
   const std::string axes =
       "set key outside right\nset xlabel 'axial engineering strain'\nset xrange [0:0.1]\n";
-  draw(folder, "figure_4_6", axes + "set ylabel 'engineering stress / E'\n" + stress_plot + "\n", 900);
+  stress_plot += "x lt 1 lw 3 dt (8,6) title 'finite element'\n";
+  // Close to incompressibility the cell is ten times too stiff: the others are seen in the enlarged panel
+  // alone.
+  draw(folder, "figure_4_6",
+       "set multiplot layout 1,2\n" + axes +
+           "set ylabel 'engineering stress / E'\nunset key\nset yrange [0:1]\n" + stress_plot +
+           "set key outside right\nset title 'enlarged'\nset yrange [0:0.14]\n" + stress_plot +
+           "unset multiplot\n",
+       1200, 520);
   draw(folder, "figure_4_7",
-       axes + "set ylabel 'lateral strain (dashed: finite element)'\n" + lateral_plot + "\n", 900);
+       axes + "set ylabel 'lateral engineering strain (dashed: finite element)'\n" + lateral_plot + "\n",
+       900);
   draw(folder, "figure_4_8",
-       "unset key\nset xlabel 'Poisson ratio'\nset ylabel '|K_{FEM} - K_{MSM}|_F / (E L_0)'\n"
-       "plot 'linear_method_residual.csv' using 1:2 with linespoints pt 7 lc rgb '#204080'\n");
+       "unset key\nset xlabel 'Poisson ratio ν'\nset ylabel '‖K_{FEM} − K_{MSM}‖_F / (E L_0)'\n"
+       "plot 'linear_method_residual.csv' using 1:2 with linespoints lt 2\n");
 }
 
-void plot_uniaxial(const std::string& folder, const msm::CellStiffness& design, double edge,
-                   const msm::UniaxialCurve& reference) {
+void plot_uniaxial(const std::string& folder, const std::string& name, const msm::CellStiffness& design,
+                   double edge, const msm::UniaxialCurve& reference) {
   const msm::UniaxialCurve curve = msm::uniaxial_response(design, edge, reference.axial_strain);
-  write_file(folder + "/uniaxial.csv", [&](std::ostream& out) {
-    fmt::print(out, "# "
-                    "log_strain,stress_reference,stress_cell,lateral_reference,lateral_cell,stress_edges,"
-                    "stress_face_diagonals,"
-                    "stress_internal_diagonals\n");
+  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
+    fmt::print(
+        out, "# log_strain,stress_reference,stress_cell,lateral_reference,lateral_cell (stresses in MPa)\n");
+    for (std::size_t i = 0; i < curve.axial_strain.size(); ++i)
+      fmt::print(out, "{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}\n", curve.axial_strain[i], reference.stress[i],
+                 curve.stress[i], reference.lateral_strain[i], curve.lateral_strain[i]);
+  });
+  draw(folder, name,
+       fmt::format("set multiplot layout 1,2\nset key left top\nset xlabel 'axial logarithmic strain'\n"
+                   "set ylabel 'Cauchy stress, MPa'\n"
+                   "plot '{0}.csv' using 1:2 with lines lt 1 title 'reference', "
+                   "'' using 1:3 with linespoints lt 2 title 'mass-spring cell'\n"
+                   "set key right top\nset ylabel 'lateral logarithmic strain'\n"
+                   "plot '{0}.csv' using 1:4 with lines lt 1 title 'reference', "
+                   "'' using 1:5 with linespoints lt 2 title 'mass-spring cell'\nunset multiplot\n",
+                   name),
+       1100, 500);
+}
+
+void plot_contributions(const std::string& folder, const std::string& name,
+                        const std::vector<PulledCell>& cells) {
+  std::string data,
+      script = fmt::format("set multiplot layout 1,{}\nset key left top\nset yrange [0:*]\n"
+                           "set xlabel 'axial logarithmic strain'\nset ylabel 'Cauchy stress, MPa'\n",
+                           cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const msm::CellStiffness& k = cells[c].stiffness;
+    const msm::UniaxialCurve curve = msm::uniaxial_response(k, cells[c].edge, cells[c].axial_strain);
+    data += fmt::format("{}# {}: log_strain,stress,stress_edges,stress_face_diagonals,"
+                        "stress_internal_diagonals (MPa)\n",
+                        c == 0 ? "" : "\n\n", cells[c].title);
     for (std::size_t i = 0; i < curve.axial_strain.size(); ++i) {
       const double strain = curve.axial_strain[i], lateral = curve.lateral_strain[i];
-      fmt::print(out, "{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}\n", strain,
-                 reference.stress[i], curve.stress[i], reference.lateral_strain[i], lateral,
-                 contribution({design.edge, 0, 0, 0}, lateral, strain, edge),
-                 contribution({0, design.face_diagonal, 0, 0}, lateral, strain, edge),
-                 contribution({0, 0, design.internal_diagonal, 0}, lateral, strain, edge));
+      data += fmt::format("{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}\n", strain, curve.stress[i],
+                          contribution({k.edge, 0, 0, 0}, lateral, strain, cells[c].edge),
+                          contribution({0, k.face_diagonal, 0, 0}, lateral, strain, cells[c].edge),
+                          contribution({0, 0, k.internal_diagonal, 0}, lateral, strain, cells[c].edge));
     }
-  });
-  draw(folder, "uniaxial",
-       "set multiplot layout 1,2\nset key left top\nset xlabel 'axial logarithmic strain'\nset ylabel "
-       "'Cauchy stress, MPa'\n"
-       "plot 'uniaxial.csv' using 1:2 with lines lc rgb '#c00000' title 'reference', "
-       "'' using 1:3 with linespoints lc rgb '#204080' title 'mass-spring cell'\n"
-       "set key right top\nset ylabel 'lateral logarithmic strain'\n"
-       "plot 'uniaxial.csv' using 1:4 with lines lc rgb '#c00000' title 'reference', "
-       "'' using 1:5 with linespoints lc rgb '#204080' title 'mass-spring cell'\nunset multiplot\n",
-       1100, 500);
-  draw(
-      folder, "contributions",
-      "set key left top\nset xlabel 'axial logarithmic strain'\nset ylabel 'Cauchy stress, MPa'\n"
-      "plot 'uniaxial.csv' using 1:3 with lines lw 2 lc rgb 'black' title 'all springs', '' using 1:6 with "
-      "lines title 'edges', "
-      "'' using 1:7 with lines title 'face diagonals', '' using 1:8 with lines title 'internal diagonals'\n");
+    script += fmt::format(
+        "set title '{0}'\nplot '{1}.csv' index {2} using 1:2 with lines lt 7 dt solid lw 3 title 'all "
+        "springs', '' index {2} using 1:3 with linespoints lt 2 pi 3 title 'edges', "
+        "'' index {2} using 1:4 with linespoints lt 3 pi 3 title 'face diagonals', "
+        "'' index {2} using 1:5 with linespoints lt 4 pi 3 title 'internal diagonals'\n",
+        cells[c].title, name, c);
+  }
+  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) { out << data; });
+  draw(folder, name, script + "unset multiplot\n", 100 + 500 * static_cast<int>(cells.size()), 500);
 }
 
 void plot_incompressible_family(const std::string& folder) {
@@ -125,17 +167,18 @@ void plot_incompressible_family(const std::string& folder) {
                               k.internal_diagonal, strains[i], curve.stress[i], curve.lateral_strain[i]);
         data += "\n";
       }
-  write_file(folder + "/family.csv", [&](std::ostream& out) { out << data; });
+  write_file(folder + "/figure_5_5.csv", [&](std::ostream& out) { out << data; });
   draw(folder, "figure_5_5",
-       fmt::format(
-           "set multiplot layout 1,2 title '{} sets of stiffnesses'\nset xlabel 'axial logarithmic strain'\n"
-           "set ylabel 'Cauchy stress, MPa'\nunset key\nplot 'family.csv' using 4:5 with lines lc rgb "
-           "'#204080'\n"
-           "set ylabel 'lateral logarithmic strain'\nset key right top\n"
-           "plot 'family.csv' using 4:6 with lines lc rgb '#204080' notitle, -x/2 lw 2 lc rgb '#c00000' "
-           "title 'incompressible'\n"
-           "unset multiplot\n",
-           n_sets),
+       fmt::format("set multiplot layout 1,2 title '{} sets of stiffnesses'\nset xlabel 'axial "
+                   "logarithmic strain'\n"
+                   "set ylabel 'Cauchy stress, MPa'\nunset key\n"
+                   "plot 'figure_5_5.csv' using 4:5 with lines lt 2 lw 0.7 dt solid\n"
+                   "set ylabel 'lateral logarithmic strain'\nset key right top\n"
+                   "plot 'figure_5_5.csv' using 4:6 with lines lt 2 lw 0.7 dt solid title 'mass-spring "
+                   "cells', -x/2 lt 1 "
+                   "lw 3 dt (8,6) title 'incompressible'\n"
+                   "unset multiplot\n",
+                   n_sets),
        1100, 500);
 }
 
@@ -180,10 +223,11 @@ void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, d
   draw(
       folder, "valley",
       fmt::format(
-          "set datafile missing '?'\nset title 'log_{{10}} phi; condition number {:.3g}'\nset "
+          "set datafile missing '?'\nset title 'log_{{10}} φ; condition number {:.3g}'\nset "
           "xlabel '{}'\nset ylabel '{}'\n"
-          "set view map\nset contour base\nset cntrparam levels 12\nunset key\nset pm3d map\nset "
-          "palette rgb 33,13,10\n"
+          "set view map\nset border 15\nunset grid\nset contour base\nset cntrparam levels 12\nunset "
+          "key\nset pm3d map\nset "
+          "palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
           "splot 'valley.csv' using 1:2:(log10($3)) with pm3d nocontour, '' using 1:2:(log10($3)) with lines "
           "nosurface lc rgb '#555555', 'valley_sets.csv' using 1:2:(log10($3)) with points pt 7 ps 1.2 "
           "lc rgb 'black' nocontour\n",

@@ -15,10 +15,22 @@ namespace compare {
 /// method for the thesis's Poisson's ratios, pulled to 10 %, and the fit's residual.
 void plot_linear_method(const std::string& folder, cases::Element element);
 
-/// Figures 5.4, 5.6 and 5.7 (curves of the cell and its reference) and 5.8 (what each kind of spring
-/// contributes to the stress).
-void plot_uniaxial(const std::string& folder, const msm::CellStiffness& design, double edge,
-                   const msm::UniaxialCurve& reference);
+/// Figures 5.4, 5.6 and 5.7: stress and lateral strain of a pulled cell and of its reference.
+/// @param name  of the files    @param edge  L0, mm
+void plot_uniaxial(const std::string& folder, const std::string& name, const msm::CellStiffness& design,
+                   double edge, const msm::UniaxialCurve& reference);
+
+/// A cell pulled along z with free sides.
+struct PulledCell {
+  std::string title;
+  msm::CellStiffness stiffness;
+  double edge;                      ///< L0, mm
+  std::vector<double> axial_strain; ///< logarithmic
+};
+
+/// Figure 5.8: what each kind of spring contributes to the stress, a panel for each cell.
+void plot_contributions(const std::string& folder, const std::string& name,
+                        const std::vector<PulledCell>& cells);
 
 /// Figure 5.5: the curves of all stiffnesses from 0 to 0.1 N/mm in steps of 0.02 whose lateral error, the
 /// second term of eq. 5.9, is at most 0.01 against e_x = -e_z/2.

@@ -32,10 +32,12 @@ void write_dots(std::ostream& out, const EigenspaceAnalysis& analysis) {
     }
 }
 
-std::string dot_diagram_script(const EigenspaceAnalysis& analysis) {
+/// One panel: lines between the eigenspaces of both cells, blocks of equivalent ones shaded, and the dots.
+/// @param block  of the data file that holds the panel's dots
+std::string dot_panel(const EigenspaceAnalysis& analysis, const std::string& title, const std::string& data,
+                      std::size_t block) {
   std::string script =
-      "set size square\nset xrange [0.5:24.5]\nset yrange [24.5:0.5]\nunset key\n"
-      "set xlabel 'eigenvectors of the mass-spring cell'\nset ylabel 'eigenvectors of the finite element'\n";
+      fmt::format("unset arrow\nunset object\nset title '{} h = {:.2f}'\n", title, analysis.h);
   for (const Eigenspace& space : analysis.msm_spaces)
     script += fmt::format("set arrow from {0},0.5 to {0},24.5 nohead lc rgb '#999999'\n", space.offset + 0.5);
   for (const Eigenspace& space : analysis.fem_spaces)
@@ -44,13 +46,14 @@ std::string dot_diagram_script(const EigenspaceAnalysis& analysis) {
     const Eigenspace &fem = analysis.fem_spaces[static_cast<std::size_t>(e.fem_space)],
                      &msm = analysis.msm_spaces[static_cast<std::size_t>(e.msm_space)];
     script +=
-        fmt::format("set object rectangle from {},{} to {},{} fc rgb '#f4b6b6' fs solid noborder behind\n",
+        fmt::format("set object rectangle from {},{} to {},{} fc rgb '#f5d3bd' fs solid noborder behind\n",
                     msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
                     fem.offset + fem.dimension + 0.5);
   }
-  return script + fmt::format("set title 'h = {:.2f}'\n", analysis.h) +
-         "plot 'dot_diagram.csv' using 1:2:3:($4 > 0 ? 0xc00000 : 0x204080) with points pt 7 ps variable lc "
-         "rgb variable\n";
+  return script +
+         fmt::format("plot '{0}' index {1} using 1:($4 > 0 ? 1/0 : $2):3 with points pt 7 ps variable lt 1, "
+                     "'' index {1} using 1:($4 > 0 ? $2 : 1/0):3 with points pt 5 ps variable lt 2\n",
+                     data, block);
 }
 
 std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
@@ -84,7 +87,8 @@ void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::
 void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
                       const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
   std::vector<PointField> fields;
-  std::string script = "unset border\nunset tics\nunset key\nset view 65,25\nset view equal xyz\n";
+  std::string script =
+      "unset border\nunset tics\nunset key\nunset grid\nset view 65,25\nset view equal xyz\n";
   const int n_pictures = static_cast<int>(spaces.size()) - 1;
   script += fmt::format("set multiplot layout {},3\n", (n_pictures + 2) / 3);
   for (std::size_t s = 0; s < spaces.size(); ++s) {
@@ -95,8 +99,8 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
     const std::string data = fmt::format("{}_{}.csv", name, s + 1);
     write_file(folder + "/" + data, [&](std::ostream& out) { write_edges(out, rest, shapes.col(0)); });
     script += fmt::format(
-        "set title '({}) {:.3g}, dimension {}'\nsplot '{}' using 1:2:3 with lines lc rgb '#aaaaaa', "
-        "'' using 4:5:6 with lines lw 2 lc rgb '#204080'\n",
+        "set title '({}) {:.3g}, dimension {}'\nsplot '{}' using 1:2:3 with lines lt 8 lw 1 dt solid, "
+        "'' using 4:5:6 with lines lt 2 dt solid\n",
         s + 1, spaces[s].eigenvalue, spaces[s].dimension, data);
   }
   draw(folder, name, script + "unset multiplot\n", 900, 300 * ((n_pictures + 2) / 3));
@@ -106,10 +110,29 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
 
 } // namespace
 
+void plot_dot_diagrams(const std::string& folder, const std::string& name,
+                       const std::vector<DotDiagram>& panels) {
+  const int n = static_cast<int>(panels.size());
+  std::string script = fmt::format(
+      "set multiplot layout 1,{}\nset border 15\nunset grid\nset size square\nset xrange [0.5:24.5]\n"
+      "set yrange [24.5:0.5]\nset xtics 4\nset ytics 4\nunset key\n"
+      "set xlabel 'eigenvectors of the mass-spring cell'\n"
+      "set ylabel 'eigenvectors of the finite element'\n",
+      n);
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    script += dot_panel(*panels[p].analysis, panels[p].title, name + ".csv", p);
+  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
+    for (std::size_t p = 0; p < panels.size(); ++p) {
+      if (p > 0) fmt::print(out, "\n\n"); // gnuplot's mark of a new block
+      write_dots(out, *panels[p].analysis);
+    }
+  });
+  draw(folder, name, script + "unset multiplot\n", 100 + 500 * n, 580);
+}
+
 void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
                              const msm::CellVertices& vertices) {
-  write_file(folder + "/dot_diagram.csv", [&](std::ostream& out) { write_dots(out, analysis); });
-  draw(folder, "dot_diagram", dot_diagram_script(analysis), 700, 700);
+  plot_dot_diagrams(folder, "dot_diagram", {{"", &analysis}});
   write_file(folder + "/coupling.csv", [&](std::ostream& out) {
     const Eigen::IOFormat csv(8, Eigen::DontAlignCols, ",", "\n");
     out << analysis.coupling.format(csv) << '\n';
@@ -136,8 +159,8 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
   write_file(folder + "/body_modes.vtu", [&](std::ostream& out) { write_vtu(out, mesh, fields); });
   draw(folder, "body_modes",
        "set multiplot layout 2,1\nset key off\nset xlabel 'mode'\nset ylabel 'eigenvalue, msm/fem'\n"
-       "plot 'body_modes.csv' using 1:4 with linespoints pt 7 lc rgb '#204080'\nset ylabel 'angle, degrees'\n"
-       "plot 'body_modes.csv' using 1:5 with linespoints pt 7 lc rgb '#c00000'\nunset multiplot\n");
+       "plot 'body_modes.csv' using 1:4 with linespoints lt 2\nset ylabel 'angle, degrees'\n"
+       "plot 'body_modes.csv' using 1:5 with linespoints lt 2\nunset multiplot\n");
 }
 
 } // namespace compare

@@ -1,4 +1,5 @@
 #include "compare/commands.hpp"
+#include "compare/report/write_report.hpp"
 #include "compare/stopwatch.hpp"
 #include "compare/thesis/regenerate.hpp"
 #include "compare/thesis/write.hpp"
@@ -55,6 +56,12 @@ int tables(const TablesOptions& options) {
     write_tables_text(std::cout, results, options.trace ? Commands::all : Commands::one_per_table);
   if (!options.out.empty()) write_thesis_files(options.out, results);
   results.times.push_back({"writing", stopwatch.lap()});
+  if (!options.out.empty()) {
+    const std::vector<Figure> figures = draw_figures(options.out + "/figures", results);
+    results.times.push_back({"figures", stopwatch.lap()});
+    write_report(options.out, results, figures);
+    results.times.push_back({"report", stopwatch.lap()});
+  }
   write_times(results.times);
   return failed;
 }
@@ -67,8 +74,9 @@ void add_tables_command(CLI::App& program, Action& chosen) {
       program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
   command->add_option("table", options->tables,
                       "numbers of tables; without any: all, designs and advice too");
-  command->add_option("--out", options->out,
-                      "folder for the tables as text, CSV and JSON, and fields as .vtu");
+  command->add_option(
+      "--out", options->out,
+      "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
   command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--trace", options->trace, "the command that repeats it under every number");

@@ -155,8 +155,8 @@ void plot_pareto_front(const std::string& folder, const std::vector<DesignAttemp
        "set key top left\nset logscale x\nset xlabel 'worst error on the cube, %'\nset ylabel 'logarithmic "
        "strain to which the "
        "lattice is stable'\nset offsets graph 0.1, graph 0.3, graph 0.1, graph 0.1\n"
-       "plot 'pareto.csv' using 2:($4 == 0 ? $3 : 1/0) with points pt 7 lc rgb '#999999' title 'dominated', "
-       "'' using 2:($4 == 1 ? $3 : 1/0) with points pt 7 lc rgb '#c00000' title 'Pareto front', "
+       "plot 'pareto.csv' using 2:($4 == 0 ? $3 : 1/0) with points pt 6 lc rgb '#777777' title 'dominated', "
+       "'' using 2:($4 == 1 ? $3 : 1/0) with points pt 7 ps 1.3 lc rgb '#D55E00' title 'Pareto front', "
        "'' using 2:3:(stringcolumn(1)) with labels left offset 1,0 font ',9' notitle\n",
        900, 600);
 }

@@ -16,6 +16,16 @@ void write_free_modes_text(std::ostream& out, const FreeBodyModes& modes);
 nlohmann::ordered_json eigenspaces_to_json(const EigenspaceAnalysis& analysis);
 nlohmann::ordered_json free_modes_to_json(const FreeBodyModes& modes);
 
+/// One panel of a dot diagram.
+struct DotDiagram {
+  std::string title;
+  const EigenspaceAnalysis* analysis;
+};
+
+/// Dot diagrams side by side as NAME.csv, .svg and .png (thesis figure 4.11 and appendix A).
+void plot_dot_diagrams(const std::string& folder, const std::string& name,
+                       const std::vector<DotDiagram>& panels);
+
 /// Into a folder: the dot diagram of thesis appendix A (dot_diagram.csv, .svg, .png), coupling.csv, the
 /// shapes of all eigenspaces of both cells (fem_modes.vtu, msm_modes.vtu) and as picture sheets
 /// (fem_modes.svg, ... ; thesis figures 4.9 and 4.10).

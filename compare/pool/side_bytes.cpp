@@ -93,6 +93,7 @@ void transfer(Archive& archive, cases::Solution& s) {
   transfer(archive, s.residual);
   transfer(archive, s.load_reached);
   transfer(archive, s.newton_iterations);
+  transfer(archive, s.relaxation_iterations);
   transfer(archive, s.linear_iterations);
   transfer(archive, s.lowest_eigenvalue);
   transfer(archive, s.negative_eigenvalues);

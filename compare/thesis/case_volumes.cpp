@@ -1,3 +1,4 @@
+#include "cases/read_case.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
@@ -25,9 +26,23 @@ Comparison join(const Comparison& fem, const Comparison& msm) {
   return both;
 }
 
-bool has_own_poissons_ratio(const PublishedFigure& figure, const cases::Case& definition) {
+/// Whether the figure is of the case file's own material, not of the file with another Poisson's ratio set.
+bool has_own_poissons_ratio(const PublishedFigure& figure, const std::string& case_file) {
+  const cases::Case definition = cases::read_case(case_file);
   const auto* elastic = std::get_if<cases::LinearElastic>(&definition.material);
   return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
+}
+
+/// Solved for tables 4.5 and 4.6 anyway.
+void add_figure_4_15(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
+  std::set<std::string> seen;
+  for (const PublishedFigure& figure : figures) {
+    if (figure.table != "4.5" && figure.table != "4.6") continue;
+    if (figure.poissons_ratio != 0.25 || !seen.insert(case_file_of(figure)).second) continue;
+    const Comparison& fem = solves.get(fem_job(figure, references_of(figure).front()));
+    const Comparison& msm = solves.get(thesis_msm_job(figure));
+    if (!msm.scene.mesh.cells.empty()) results.figure_4_15.push_back(join(fem, msm));
+  }
 }
 
 /// Outermost whisker's distance from the rest volume, percent.
@@ -61,13 +76,14 @@ void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, Th
     const Comparison &fem_side = solves.get(fem), &msm_side = solves.get(msm);
     if (msm_side.scene.mesh.cells.empty()) continue; // not solved yet
     // The first set of springs that the thesis has for the case file's own material stands for the case.
-    if (!has_own_poissons_ratio(figure, fem_side.scene.definition)) continue;
+    if (!has_own_poissons_ratio(figure, fem.case_file)) continue;
     if (!seen.insert(fem.case_file).second) continue;
     results.cases.push_back(join(fem_side, msm_side));
     results.case_traces.push_back(trace_of(fem, msm));
     results.volumes.push_back(volumes_of(results.cases.back()));
     results.volumes.back().trace = results.case_traces.back();
   }
+  add_figure_4_15(figures, solves, results);
 }
 
 std::vector<CellVolumeChange> cell_volume_changes(const std::vector<PublishedFigure>& figures,

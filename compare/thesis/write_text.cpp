@@ -1,3 +1,4 @@
+#include "compare/thesis/sheet.hpp"
 #include "compare/thesis/write.hpp"
 
 #include <algorithm>
@@ -9,39 +10,6 @@ namespace compare {
 
 namespace {
 
-/// What a column of a table stands for: the parts that tell its entries from those of other columns.
-std::array<std::string, 3> column_of(const PublishedFigure& p) {
-  return {p.design, fmt::format("nu = {:g}", p.poissons_ratio), p.load_set};
-}
-
-template<class Value>
-void add_unique(std::vector<Value>& values, const Value& value) {
-  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-}
-
-/// One table as a grid of its entries.
-struct Sheet {
-  std::vector<std::pair<std::string, std::string>> rows; ///< test, measure
-  std::vector<std::array<std::string, 3>> columns;
-  std::vector<const TableEntry*> entries;
-  Sheet(const std::vector<TableEntry>& all, const std::string& table) {
-    for (const TableEntry& entry : all) {
-      if (entry.published.table != table) continue;
-      entries.push_back(&entry);
-      add_unique(rows, {entry.published.test, entry.published.measure});
-      add_unique(columns, column_of(entry.published));
-    }
-  }
-  const PublishedFigure& figure() const { return entries.front()->published; }
-  const TableEntry* find(std::size_t row, std::size_t column) const {
-    for (const TableEntry* entry : entries)
-      if (rows[row] == std::pair(entry->published.test, entry->published.measure) &&
-          columns[column] == column_of(entry->published))
-        return entry;
-    return nullptr;
-  }
-};
-
 std::string number(const std::optional<double>& value, const PublishedFigure& figure) {
   if (!value) return "-";
   const int digits = figure.test == "cell" ? 4 : 2;
@@ -51,14 +19,8 @@ std::string number(const std::optional<double>& value, const PublishedFigure& fi
 }
 
 std::string title(const Sheet& sheet) {
-  const PublishedFigure& figure = sheet.figure();
   const bool has_two = sheet.entries.front()->computed.size() > 1;
-  std::string what = "error r = (MSM - FEM)/FEM x 100 %";
-  if (figure.unit == "mm3") what = "volume of the springs' body, mm3";
-  if (figure.table == "4.1") what = "pseudo-stiffnesses k' of the springs, k = (L0/2) k' E";
-  if (figure.table == "4.2") what = "eigenvalues (N/mm for E = 1 MPa, L0 = 2 mm) and multiplicities";
-  if (figure.table == "4.3") what = "similarity h of the two matrices' eigenspaces";
-  return fmt::format("{} {}: {}{}", figure.table == "5.12" ? "Figure" : "Table", figure.table, what,
+  return fmt::format("{}: {}{}", name_of(sheet), subject_of(sheet),
                      has_two ? "; first the declared reference; * the one nearer to print" : "");
 }
 
@@ -69,7 +31,7 @@ class MeasureRows {
 
   void write() const {
     const auto& [test, measure] = sheet_.rows[row_];
-    const auto& references = any()->computed;
+    const auto& references = sheet_.first_of_row(row_)->computed;
     for (std::size_t k = 0; k < references.size(); ++k)
       line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
         const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
@@ -105,22 +67,12 @@ class MeasureRows {
   }
 
  private:
-  const TableEntry* any() const {
-    for (std::size_t c = 0; c < sheet_.columns.size(); ++c)
-      if (const TableEntry* entry = sheet_.find(row_, c)) return entry;
-    return nullptr;
-  }
   std::ostream& out_;
   const Sheet& sheet_;
   std::size_t row_;
 };
 
 void write_commands(std::ostream& out, const Sheet& sheet, Commands commands) {
-  const auto name_of = [](const PublishedFigure& p) {
-    std::string name = p.test + " " + p.measure;
-    for (const std::string& part : column_of(p)) name += part.empty() ? "" : ", " + part;
-    return name;
-  };
   if (commands == Commands::one_per_table) {
     const TableEntry& first = *sheet.entries.front();
     fmt::print(out, "  {} again: {}\n", name_of(first.published), first.declared().trace.command);
@@ -155,9 +107,7 @@ void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
 } // namespace
 
 void write_tables_text(std::ostream& out, const ThesisResults& results, Commands commands) {
-  std::vector<std::string> tables;
-  for (const TableEntry& entry : results.entries) add_unique(tables, entry.published.table);
-  for (const std::string& table : tables) write_sheet(out, Sheet(results.entries, table), commands);
+  for (const Sheet& sheet : sheets_of(results.entries)) write_sheet(out, sheet, commands);
   if (commands == Commands::one_per_table)
     fmt::print(out,
                "\nThe command behind every other number: --trace, or the column `command` of tables.csv.\n");

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace compare::html {
+
+/// Text as it may stand between tags and inside an attribute, in either kind of quotes.
+std::string escape(const std::string& text);
+
+/// A number as a table shows it, or a dash.
+std::string number(const std::optional<double>& value, int decimals = 2);
+
+/// "data:TYPE;base64,...": a file's content as an address of its own, so that the page needs no other file.
+/// @throws InputError if the file cannot be read
+std::string data_address(const std::string& path, const std::string& type);
+
+/// @throws InputError if the file cannot be read
+std::string read_whole(const std::string& path);
+
+/// A template's text with every {{name}} replaced.  @throws std::logic_error if a name has no value or is not
+/// in the text
+std::string fill(const std::string& text, const std::map<std::string, std::string>& values);
+
+} // namespace compare::html
