@@ -1,4 +1,3 @@
-#include "msm/grid/kernels.hpp"
 #include "msm/model.hpp"
 
 #include <benchmark/benchmark.h>
@@ -53,28 +52,5 @@ BENCHMARK_CAPTURE(solve, hybrid, hybrid)
     ->ArgsProduct({{10, 20, 40}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-
-/// What one thread of this machine can do at most: chains of fused multiply-adds in registers. The forces'
-/// flops (see force_bench.cpp) are to be held against it.
-__attribute__((target_clones("avx512f", "arch=haswell", "default"))) void fused_multiply_adds(double* values,
-                                                                                              int n) {
-  constexpr int lanes = 128; // sixteen of the widest registers
-  double a[lanes];
-  for (int l = 0; l < lanes; ++l) a[l] = values[l];
-  for (int i = 0; i < n; ++i)
-    for (int l = 0; l < lanes; ++l) a[l] = a[l] * 0.999 + 0.001;
-  for (int l = 0; l < lanes; ++l) values[l] = a[l];
-}
-void peak(benchmark::State& state) {
-  double values[128] = {};
-  constexpr int n = 1000;
-  for (auto _ : state) {
-    fused_multiply_adds(values, n);
-    benchmark::DoNotOptimize(values);
-  }
-  state.counters["flops"] = benchmark::Counter(2.0 * 128 * n, benchmark::Counter::kIsIterationInvariantRate);
-  state.SetLabel(msm::grid::instruction_set());
-}
-BENCHMARK(peak);
 
 } // namespace
