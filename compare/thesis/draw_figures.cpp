@@ -49,9 +49,8 @@ void draw_linear_designs(const std::string& folder, std::vector<Figure>& figures
   figures.push_back(
       {"4.6", "figure_4_6",
        "Pulled cells of the linear method, one curve per Poisson's ratio, with the nonlinear spring law: "
-       "engineering stress per unit of Young's modulus. The finite element's answer is the line of slope 1. "
-       "Data: "
-       "linear_method_curves.csv.",
+       "engineering stress per unit of Young's modulus; the right panel enlarges the lower part. The finite "
+       "element's answer is the line of slope 1. Data: linear_method_curves.csv.",
        command});
   figures.push_back({"4.7", "figure_4_7",
                      "The same cells: how much their sides draw in. Dashed, in the same colour, the finite "
