@@ -1,5 +1,6 @@
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
+#include "compare/published.hpp"
 #include "compare/write_stress.hpp"
 
 #include <algorithm>
@@ -23,12 +24,14 @@ struct StressOptions {
   bool json = false;
 };
 
-const fs::path hard_cases = fs::path(SPRINGPROOF_CASES_DIR) / "hard";
+fs::path hard_cases() {
+  return fs::path(cases_folder()) / "hard";
+}
 
 /// Files of all hard cases, in the order of their names.
 std::vector<std::string> all_files() {
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(hard_cases))
+  for (const auto& entry : fs::directory_iterator(hard_cases()))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
@@ -37,7 +40,7 @@ std::vector<std::string> all_files() {
 /// @param name  of a file in cases/hard, without its ending, or a path
 std::string file_of(const std::string& name) {
   if (fs::path(name).extension() == ".toml") return name;
-  const fs::path file = hard_cases / (name + ".toml");
+  const fs::path file = hard_cases() / (name + ".toml");
   if (fs::exists(file)) return file.string();
   std::vector<std::string> known;
   for (const std::string& path : all_files()) known.push_back(fs::path(path).stem().string());
