@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       const compare::Side side = compare::solve_springs(expected.side, hard_case, 1);
       const std::vector<std::string> found = compare::misses(hard_case, expected, side);
       std::cout << hard_case.definition.name << ' ' << cases::name_of(expected.side) << ": "
-                << cases::name_of(side.solution.outcome) << ", " << side.solve_seconds << " s\n";
+                << cases::name_of(side.solution.outcome) << ", " << side.solve_seconds << " s" << std::endl;
       for (const std::string& miss : found) std::cout << "  DIFFERS: " << miss << '\n';
       n_missed += found.empty() ? 0 : 1;
     }
