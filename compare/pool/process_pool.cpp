@@ -35,7 +35,10 @@ const std::vector<std::string>& initial_environment() {
   return variables;
 }
 
-[[maybe_unused]] const bool is_environment_kept = (initial_environment(), true); // before main()
+/// Before any other object of the program is made: one of them may start MPI, which marks the environment.
+__attribute__((constructor(101))) void keep_environment() {
+  initial_environment();
+}
 
 /// Pointers into the words, with a null at the end, as the system wants them.
 std::vector<char*> pointers(std::vector<std::string>& words) {

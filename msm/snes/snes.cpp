@@ -68,7 +68,7 @@ class Part {
   OwnedVec make_vector() const {
     Vec vector = nullptr;
     check(VecCreateGhostBlock(communicator_, 3, 3 * n_own_, PETSC_DECIDE,
-                                       static_cast<PetscInt>(ghosts_.size()), ghosts_.data(), &vector));
+                              static_cast<PetscInt>(ghosts_.size()), ghosts_.data(), &vector));
     return OwnedVec(vector);
   }
 
@@ -80,11 +80,10 @@ class Part {
     check(MatSetBlockSize(matrix, 3));
     std::vector<PetscInt> on_diagonal, elsewhere;
     count_neighbours(on_diagonal, elsewhere);
-    check(
-        MatXAIJSetPreallocation(matrix, 3, on_diagonal.data(), elsewhere.data(), nullptr, nullptr));
+    check(MatXAIJSetPreallocation(matrix, 3, on_diagonal.data(), elsewhere.data(), nullptr, nullptr));
     check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
     check(MatSetOption(matrix, MAT_SPD,
-                                PETSC_TRUE)); // where it is not, CHOLMOD and conjugate gradients find out
+                       PETSC_TRUE)); // where it is not, the pivots' signs or conjugate gradients tell
     attach_rigid_motions(matrix);
     return OwnedMat(matrix);
   }
@@ -166,8 +165,7 @@ class Part {
         const PetscInt row_block = static_cast<PetscInt>(global(index(i))),
                        column_block = static_cast<PetscInt>(global(index(j)));
         const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_rows = values;
-        check(
-            MatSetValuesBlocked(matrix, 1, &row_block, 1, &column_block, by_rows.data(), ADD_VALUES));
+        check(MatSetValuesBlocked(matrix, 1, &row_block, 1, &column_block, by_rows.data(), ADD_VALUES));
       };
       put_block(row, column, block);
       if (row != column) put_block(column, row, block.transpose());
@@ -306,18 +304,16 @@ OwnedSnes make_solver(Part& part, Mat matrix, Vec residual, const EquilibriumSet
   check(SNESGetLineSearch(snes, &line_search));
   check(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
   check(SNESSetTolerances(snes, settings.tolerance * part.reference_force(), 0, 0,
-                                   settings.max_newton_per_step, PETSC_DEFAULT));
+                          settings.max_newton_per_step, PETSC_DEFAULT));
   check(SNESGetKSP(snes, &linear));
   check(KSPGetPC(linear, &preconditioner));
   PetscInt n_unknowns = 0;
-  int n_ranks = 1;
   check(MatGetSize(matrix, &n_unknowns, nullptr));
-  MPI_Comm_size(communicator, &n_ranks);
   if (n_unknowns <= direct_up_to) {
     check(KSPSetType(linear, KSPPREONLY));
     check(PCSetType(preconditioner, PCCHOLESKY));
-    check(
-        PCFactorSetMatSolverType(preconditioner, n_ranks == 1 ? MATSOLVERCHOLMOD : MATSOLVERMUMPS));
+    check(PCFactorSetMatSolverType(preconditioner,
+                                   MATSOLVERMUMPS)); // PETSc's CHOLMOD ends all on indefinite ones
   } else {
     check(KSPSetType(linear, KSPCG));
     check(PCSetType(preconditioner, PCGAMG));
@@ -337,8 +333,7 @@ bool is_definite(SNES snes, Mat matrix, Vec displacement, Part& part) {
   PetscBool is_direct = PETSC_FALSE;
   check(SNESGetKSP(snes, &linear));
   check(KSPGetPC(linear, &preconditioner));
-  check(
-      PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCCHOLESKY, &is_direct));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCCHOLESKY, &is_direct));
   check(part.tangent(displacement, matrix));
   Vec right = nullptr, solution = nullptr;
   check(MatCreateVecs(matrix, &solution, &right));
@@ -347,8 +342,7 @@ bool is_definite(SNES snes, Mat matrix, Vec displacement, Part& part) {
   check(VecGetOwnershipRange(right, &first, &last));
   std::mt19937 generator(3u + static_cast<unsigned>(first));
   std::normal_distribution<double> normal;
-  for (PetscInt d = first; d < last; ++d)
-    check(VecSetValue(right, d, normal(generator), INSERT_VALUES));
+  for (PetscInt d = first; d < last; ++d) check(VecSetValue(right, d, normal(generator), INSERT_VALUES));
   check(VecAssemblyBegin(right));
   check(VecAssemblyEnd(right));
   check(KSPSetOperators(linear, matrix, matrix));
@@ -358,10 +352,6 @@ bool is_definite(SNES snes, Mat matrix, Vec displacement, Part& part) {
   check(KSPGetConvergedReason(linear, &reason));
   if (!is_direct || reason <= 0) return reason > 0;
   Mat factor = nullptr;
-  MatSolverType package = nullptr;
-  check(PCFactorGetMatSolverType(preconditioner, &package));
-  if (std::string(package) != MATSOLVERMUMPS)
-    return true; // CHOLMOD's Cholesky factors exist for definite matrices alone
   PetscInt negative = 0;
   check(PCFactorGetMatrix(preconditioner, &factor));
   check(MatMumpsGetInfog(factor, 12, &negative));
@@ -406,7 +396,10 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
                               solution.load_reached, 1, cases::Outcome::limit_point);
     const double target = std::min(1.0, solution.load_reached + step);
     check(VecCopy(now.get(), trial.get()));
-    if (!attempt(snes.get(), part, trial.get(), target, solution)) {
+    const bool ends_well =
+        attempt(snes.get(), part, trial.get(), target, solution) &&
+        (settings.stability == Stability::ignore || is_definite(snes.get(), matrix.get(), trial.get(), part));
+    if (!ends_well) { // the path from rest is one of stable equilibria
       step /= 2;
       continue;
     }
@@ -419,9 +412,10 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   check(VecNorm(residual.get(), NORM_2, &norm));
   solution.residual = norm / part.reference_force();
   solution.status = cases::Status::converged;
-  solution.outcome = is_definite(snes.get(), matrix.get(), now.get(), part)
-                         ? cases::Outcome::stable_equilibrium
-                         : cases::Outcome::unstable_equilibrium;
+  solution.outcome =
+      settings.stability == Stability::require || is_definite(snes.get(), matrix.get(), now.get(), part)
+          ? cases::Outcome::stable_equilibrium
+          : cases::Outcome::unstable_equilibrium;
   solution.unknowns =
       static_cast<std::size_t>(std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false));
   solution.displacement = part.gather(now.get());

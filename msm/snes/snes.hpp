@@ -10,10 +10,10 @@
 namespace msm {
 
 /// Static equilibrium of a scene's lattice, on any mesh, by PETSc: SNES' Newton method with a line search on
-/// the potential, an assembled matrix of 3x3 blocks, and CHOLMOD (on one rank) or MUMPS (on several) for
-/// small lattices; above 30,000 unknowns conjugate gradients with algebraic multigrid (GAMG) that knows the
-/// rigid motions. Load steps are halved where SNES fails. Collective: points are dealt out to the ranks, each
-/// of which knows the whole scene and gets the whole answer. PETSC_OPTIONS reach it with the prefix msm_.
+/// the potential, an assembled matrix of 3x3 blocks, and MUMPS for small lattices; above 30,000 unknowns
+/// conjugate gradients with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved
+/// where SNES fails. Collective: points are dealt out to the ranks, each of which knows the whole scene and
+/// gets the whole answer. PETSC_OPTIONS reach it with the prefix msm_.
 /// @param stiffness  one for every cell of the scene's mesh, or a single one for all
 /// @param start      displacement (mm) to start from, one per node; empty: rest
 /// @throws cases::SolveError with the load reached when the load cannot be carried
