@@ -124,8 +124,8 @@ class Part {
     check(VecRestoreArray(vector, &entries));
   }
 
-  /// Minus the forces on the points at a displacement; 0 where held. SNES' function: it has the tangent as
-  /// its derivative.
+  /// Minus the forces on the points at a displacement, N; where held, how far from where they should be, mm.
+  /// SNES' function: it has the tangent as its derivative.
   PetscErrorCode residual(Vec displacement, Vec out) {
     PetscFunctionBeginUser;
     const Points positions = local_positions(displacement);
@@ -142,7 +142,22 @@ class Part {
     PetscCall(VecGhostUpdateEnd(force_.get(), ADD_VALUES, SCATTER_REVERSE));
     PetscCall(VecCopy(force_.get(), out));
     PetscCall(VecAXPY(out, -load_factor, applied_.get()));
-    set_fixed(out, nullptr);
+    // An iterative solver moves the held points a little: the next step has to bring them back.
+    Vec wanted = nullptr;
+    PetscCall(VecDuplicate(displacement, &wanted));
+    const OwnedVec owned(wanted);
+    PetscCall(VecCopy(displacement, wanted));
+    move_supports(wanted);
+    const PetscScalar *is = nullptr, *should_be = nullptr;
+    PetscScalar* entries_out = nullptr;
+    PetscCall(VecGetArrayRead(displacement, &is));
+    PetscCall(VecGetArrayRead(wanted, &should_be));
+    PetscCall(VecGetArray(out, &entries_out));
+    for (const PetscInt d : fixed_)
+      entries_out[d - 3 * first_] = is[d - 3 * first_] - should_be[d - 3 * first_];
+    PetscCall(VecRestoreArray(out, &entries_out));
+    PetscCall(VecRestoreArrayRead(wanted, &should_be));
+    PetscCall(VecRestoreArrayRead(displacement, &is));
     PetscFunctionReturn(0);
   }
 
