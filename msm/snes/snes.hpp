@@ -10,7 +10,7 @@
 namespace msm {
 
 /// Static equilibrium of a scene's lattice, on any mesh, by PETSc: SNES' Newton method with a line search on
-/// the potential, an assembled matrix of 3x3 blocks, and MUMPS for small lattices; above 30,000 unknowns
+/// the imbalance, an assembled matrix of 3x3 blocks, and MUMPS for small lattices; above 30,000 unknowns
 /// conjugate gradients with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved
 /// where SNES fails. Collective: points are dealt out to the ranks, each of which knows the whole scene and
 /// gets the whole answer. PETSC_OPTIONS reach it with the prefix msm_.
