@@ -82,7 +82,8 @@ Judgement judge(const cases::Expectation& expectation, const std::vector<Measure
   }
   if (!value)
     return {expectation, Verdict::missed, value, "it has no value: a side failed or was not solved"};
-  if (!std::isfinite(*value)) return {expectation, Verdict::missed, std::nullopt, "it is not a finite number"};
+  if (!std::isfinite(*value))
+    return {expectation, Verdict::missed, std::nullopt, "it is not a finite number"};
   if (expectation.interval[0] <= *value && *value <= expectation.interval[1])
     return {expectation, Verdict::met, value, ""};
   return {expectation, Verdict::missed, value,

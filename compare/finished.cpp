@@ -5,6 +5,7 @@
 #include "compare/report/html.hpp"
 #include "compare/version.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,8 +25,9 @@ const std::string& this_program() {
 /// All that a case's answers depend on, as a text that is compared whole.
 std::string identity_of(const cases::Case& definition, const Request& request) {
   const char* petsc = std::getenv("PETSC_OPTIONS");
-  std::string text = fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
-                                 static_cast<int>(request.only), request.meshes, request.peer, petsc ? petsc : "");
+  std::string text =
+      fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
+                  static_cast<int>(request.only), request.meshes, request.peer, petsc ? petsc : "");
   for (const std::string& setting : request.settings) text += "set " + setting + "\n";
   text += html::read_whole(definition.file);
   if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += html::read_whole(mesh->path);
@@ -55,7 +57,8 @@ std::optional<Comparison> FinishedCases::find(const cases::Case& definition, con
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   std::string bytes;
   if (rank == 0 && std::filesystem::is_regular_file(path_of(definition))) {
-    const std::string content = html::read_whole(path_of(definition)), identity = identity_of(definition, request);
+    const std::string content = html::read_whole(path_of(definition)),
+                      identity = identity_of(definition, request);
     if (content.compare(0, identity.size(), identity) == 0) bytes = content.substr(identity.size());
   }
   bytes = from_rank_0(bytes);
@@ -70,9 +73,8 @@ std::optional<Comparison> FinishedCases::find(const cases::Case& definition, con
 void FinishedCases::keep(const Comparison& comparison, const Request& request) const {
   if (folder_.empty() || comparison.failed()) return;
   const cases::Case& definition = comparison.scene.definition;
-  write_file(path_of(definition), [&](std::ostream& out) {
-    out << identity_of(definition, request) << to_bytes(comparison);
-  });
+  write_file(path_of(definition),
+             [&](std::ostream& out) { out << identity_of(definition, request) << to_bytes(comparison); });
 }
 
 } // namespace compare

@@ -16,9 +16,9 @@ struct Request {
   std::string peer; ///< empty: none
 };
 
-/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a case. One is taken
-/// up again only if nothing has changed since: this very program, the text of the case file (and of its mesh),
-/// the request and PETSC_OPTIONS. Failed solves are not kept.
+/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a case. One is
+/// taken up again only if nothing has changed since: this very program, the text of the case file (and of its
+/// mesh), the request and PETSC_OPTIONS. Failed solves are not kept.
 class FinishedCases {
  public:
   /// @param folder  of `--out`; empty: nothing is kept, nothing found

@@ -51,11 +51,12 @@ void check_blessing(const GateOptions& options, const std::vector<cases::Case>& 
   for (const std::string& name : options.bless) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
-      throw cases::InputError("--bless: is \"" + name + "\", must be the name of a case given: " +
-                              cases::alternatives(known));
+      throw cases::InputError("--bless: is \"" + name +
+                              "\", must be the name of a case given: " + cases::alternatives(known));
     if (!has_regression(definitions[static_cast<std::size_t>(found - known.begin())]))
-      throw cases::InputError("--bless: " + name +
-                              " has no expectation of reference \"regression\", and no other kind is ever blessed");
+      throw cases::InputError(
+          "--bless: " + name +
+          " has no expectation of reference \"regression\", and no other kind is ever blessed");
   }
 }
 
@@ -71,7 +72,8 @@ std::vector<Comparison> solve_all(const std::vector<cases::Case>& definitions, c
     if (auto earlier = finished.find(definitions[c], request)) {
       solved[c] = std::move(*earlier);
       if (rank == 0)
-        std::cerr << definitions[c].name << ": solved already, taken from the earlier results in the same folder\n";
+        std::cerr << definitions[c].name
+                  << ": solved already, taken from the earlier results in the same folder\n";
       continue;
     }
     missing.push_back(c);
@@ -101,7 +103,8 @@ void study(Comparison& comparison, const GateOptions& options, const FinishedCas
 /// Blesses the case if it was named, prints what that changes, and judges it by its new intervals.
 GatedCase judge_or_bless(Comparison& comparison, const GateOptions& options, std::ostream& differences) {
   GatedCase judged = judge_gates(comparison);
-  if (std::find(options.bless.begin(), options.bless.end(), judged.name) == options.bless.end()) return judged;
+  if (std::find(options.bless.begin(), options.bless.end(), judged.name) == options.bless.end())
+    return judged;
   differences << bless(judged);
   comparison.scene.definition.expectations = cases::read_case(judged.file).expectations;
   measure_sides(comparison);
@@ -126,17 +129,19 @@ int gate(const GateOptions& options) {
   const auto external = read_external(definitions, options.displacements);
   const Request request{options.settings, external ? Only::fem : Only::both, 0, ""};
   const FinishedCases finished(options.out);
-  std::vector<Comparison> done;
-  std::vector<GatedCase> judged;
-  for (Comparison& comparison : solve_all(definitions, request, finished, options.workers)) {
+  std::vector<Comparison> solved = solve_all(definitions, request, finished, options.workers);
+  for (Comparison& comparison : solved) {
     study(comparison, options, finished, request);
     if (external) take_displacements(comparison, *external);
-    if (rank != 0) continue; // the springs' side is on rank 0 alone
+  }
+  if (rank != 0) return 0; // the springs' side is on rank 0 alone
+  std::vector<Comparison> done;
+  std::vector<GatedCase> judged;
+  for (Comparison& comparison : solved) {
     judged.push_back(judge_or_bless(comparison, options, options.json ? std::cerr : std::cout));
     done.push_back(std::move(comparison));
     if (!options.out.empty()) write_results(options.out, done);
   }
-  if (rank != 0) return 0;
   write(options, judged);
   return all_met(judged) ? 0 : 1;
 }
@@ -149,19 +154,23 @@ void add_gate_command(CLI::App& program, Action& chosen) {
   command->add_option("case", options->files, "case files (TOML)")->required();
   command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
       ->allow_extra_args(false);
-  command->add_option("--msm-displacements", options->displacements,
-                      "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs");
-  command->add_flag("--converge", options->converge,
-                    "the reference's own error bar for every case, not only where one is expected \"converged\"");
+  command->add_option(
+      "--msm-displacements", options->displacements,
+      "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs");
+  command->add_flag(
+      "--converge", options->converge,
+      "the reference's own error bar for every case, not only where one is expected \"converged\"");
   command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->add_flag("--annotate", options->annotate,
                     "GitHub's annotations too; with --json they go to standard error");
-  command->add_option("--bless", options->bless,
-                      "names of cases whose missed regression intervals are moved to the values of now")
+  command
+      ->add_option("--bless", options->bless,
+                   "names of cases whose missed regression intervals are moved to the values of now")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "folder for results.json, comparison.csv and fields as .vtu; cases "
-                                             "that it holds already are not solved again");
+  command->add_option("--out", options->out,
+                      "folder for results.json, comparison.csv and fields as .vtu; cases "
+                      "that it holds already are not solved again");
   command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
       ->check(CLI::Range(1, 1024));
   command->callback([options, &chosen] { chosen = [options] { return gate(*options); }; });

@@ -20,8 +20,8 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;   ///< of the study of the finite elements' own error; 0: none
-  std::string peer; ///< a program that is asked too; empty: none
+  int meshes = 0;            ///< of the study of the finite elements' own error; 0: none
+  std::string peer;          ///< a program that is asked too; empty: none
   std::string displacements; ///< file of another simulator's, in place of our springs
   bool json = false;
 };
@@ -94,11 +94,13 @@ void add_run_command(CLI::App& program, Action& chosen) {
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
   command
-      ->add_option("--msm-displacements", options->displacements,
-                   "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
+      ->add_option(
+          "--msm-displacements", options->displacements,
+          "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
       ->excludes(only);
-  command->add_option("--out", options->out, "folder for results.json, comparison.csv and fields as .vtu; cases "
-                                             "that it holds already are not solved again");
+  command->add_option("--out", options->out,
+                      "folder for results.json, comparison.csv and fields as .vtu; cases "
+                      "that it holds already are not solved again");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -27,7 +27,8 @@ Json msm_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.msm);
   if (!comparison.msm_source.empty()) { // another program's: how it came by them is not known
     side["source"] = comparison.msm_source;
-    for (const char* key : {"unknowns", "residual", "newton_iterations", "linear_iterations", "relaxation_iterations"})
+    for (const char* key :
+         {"unknowns", "residual", "newton_iterations", "linear_iterations", "relaxation_iterations"})
       side[key] = nullptr;
     side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
   }

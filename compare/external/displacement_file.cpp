@@ -3,6 +3,7 @@
 #include "cases/error.hpp"
 #include "compare/report/html.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -53,8 +54,8 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
     if (plain.empty()) continue;
     const std::vector<double> v = numbers_of(plain);
     if (v.empty())
-      throw cases::InputError(
-          fmt::format("{}: is '{}', must be six finite numbers between commas: {} (mm)", where, plain, header));
+      throw cases::InputError(fmt::format("{}: is '{}', must be six finite numbers between commas: {} (mm)",
+                                          where, plain, header));
     nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, where});
   }
   if (number == 0) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
@@ -64,7 +65,8 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
 std::vector<GivenDisplacement> read_displacements(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension();
   if (ending != ".csv" && ending != ".vtu")
-    throw cases::InputError(fmt::format("{}: displacements must be in a file .csv ({}) or .vtu", path, header));
+    throw cases::InputError(
+        fmt::format("{}: displacements must be in a file .csv ({}) or .vtu", path, header));
   const std::string text = html::read_whole(path);
   return ending == ".csv" ? read_displacement_csv(text, path) : read_displacement_vtu(text, path);
 }

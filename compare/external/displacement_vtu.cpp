@@ -2,8 +2,9 @@
 
 #include "cases/error.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ struct Tag {
   }
 };
 
-/// A .vtu as far as it is needed here: tags are found by their names, and the block of raw bytes at the end is
-/// left alone. (A reader of XML would stumble over that block, which is not XML.)
+/// A .vtu as far as it is needed here: tags are found by their names, and the block of raw bytes at the end
+/// is left alone. (A reader of XML would stumble over that block, which is not XML.)
 class VtuFile {
  public:
   VtuFile(const std::string& text, const std::string& path) : text_(text), path_(path) {
@@ -65,7 +66,8 @@ class VtuFile {
     const std::string format = array.attribute("format").value_or("ascii");
     const std::string type = array.attribute("type").value_or("none");
     std::vector<double> values;
-    if (type != "Float32" && type != "Float64") refuse_array(array, "is of type " + type + ", must be Float32 or Float64");
+    if (type != "Float32" && type != "Float64")
+      refuse_array(array, "is of type " + type + ", must be Float32 or Float64");
     if (format == "ascii")
       values = ascii(array);
     else if (format == "appended" && appended_)
@@ -73,7 +75,8 @@ class VtuFile {
     else
       refuse_array(array, "has the format " + format + ", must be ascii or appended (raw)");
     if (values.size() != 3 * n_points_)
-      refuse_array(array, fmt::format("has {} numbers, must have 3 for each of {} points", values.size(), n_points_));
+      refuse_array(
+          array, fmt::format("has {} numbers, must have 3 for each of {} points", values.size(), n_points_));
     std::vector<Eigen::Vector3d> result;
     for (std::size_t p = 0; p < n_points_; ++p) {
       result.emplace_back(values[3 * p], values[3 * p + 1], values[3 * p + 2]);
@@ -124,7 +127,8 @@ class VtuFile {
       double value = 0;
       const auto [stop, error] = std::from_chars(at, end, value);
       if (error != std::errc())
-        refuse_array(array, fmt::format("holds '{}', which is no number", std::string(at, std::min(at + 12, end))));
+        refuse_array(array,
+                     fmt::format("holds '{}', which is no number", std::string(at, std::min(at + 12, end))));
       values.push_back(value);
       at = stop;
     }
@@ -165,8 +169,10 @@ Tag displacement_array(const VtuFile& file) {
       if (array.attribute("Name") == wanted) return array;
   if (vectors.size() == 1) return vectors.front();
   for (const Tag& array : vectors) names += " '" + array.attribute("Name").value_or("") + "'";
-  file.refuse("must have point data of three components named msm_displacement or displacement, or only one with "
-              "three components; it has" + (names.empty() ? " none" : names));
+  file.refuse(
+      "must have point data of three components named msm_displacement or displacement, or only one with "
+      "three components; it has" +
+      (names.empty() ? " none" : names));
 }
 
 } // namespace

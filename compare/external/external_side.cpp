@@ -17,8 +17,8 @@ std::string shown(const Vector3d& point) {
   return fmt::format("({:.10g}, {:.10g}, {:.10g})", point.x(), point.y(), point.z());
 }
 
-/// Nodes by the box of space that they lie in. The boxes are wider than the tolerance, so that a node within it
-/// lies in the point's own box or in a neighbour.
+/// Nodes by the box of space that they lie in. The boxes are wider than the tolerance, so that a node within
+/// it lies in the point's own box or in a neighbour.
 class NodesByPlace {
  public:
   explicit NodesByPlace(const std::vector<Vector3d>& nodes) : nodes_(nodes) {
@@ -40,7 +40,9 @@ class NodesByPlace {
   static Box box_of(const Vector3d& point, const std::array<int, 3>& neighbour) {
     constexpr double width = 4 * same_place;
     Box box;
-    for (int a = 0; a < 3; ++a) box[static_cast<std::size_t>(a)] = std::floor(point[a] / width) + neighbour[static_cast<std::size_t>(a)];
+    for (int a = 0; a < 3; ++a)
+      box[static_cast<std::size_t>(a)] =
+          std::floor(point[a] / width) + neighbour[static_cast<std::size_t>(a)];
     return box;
   }
   const std::vector<Vector3d>& nodes_;
@@ -64,8 +66,8 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
     const auto node = places.find(next.position);
     if (!node)
       throw cases::InputError(fmt::format(
-          "{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}", next.where, same_place,
-          shown(next.position), shown(nearest(mesh.nodes, next.position))));
+          "{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}", next.where,
+          same_place, shown(next.position), shown(nearest(mesh.nodes, next.position))));
     if (of_node[*node])
       throw cases::InputError(fmt::format("{}: the node {} is given twice, first in {}", next.where,
                                           shown(next.position), of_node[*node]->where));
@@ -74,8 +76,9 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
   std::vector<Vector3d> displacement;
   for (std::size_t n = 0; n < of_node.size(); ++n) {
     if (!of_node[n])
-      throw cases::InputError(fmt::format("{}: has {} of the {} nodes of the case's mesh, must have all: {} is missing",
-                                          path, given.size(), mesh.nodes.size(), shown(mesh.nodes[n])));
+      throw cases::InputError(
+          fmt::format("{}: has {} of the {} nodes of the case's mesh, must have all: {} is missing", path,
+                      given.size(), mesh.nodes.size(), shown(mesh.nodes[n])));
     displacement.push_back(of_node[n]->displacement);
   }
   return displacement;
@@ -85,7 +88,8 @@ std::optional<ExternalDisplacements> read_external(const std::vector<cases::Case
                                                    const std::string& path) {
   if (path.empty()) return std::nullopt;
   if (definitions.size() != 1)
-    throw cases::InputError(fmt::format("--msm-displacements: belongs to one case, {} are given", definitions.size()));
+    throw cases::InputError(
+        fmt::format("--msm-displacements: belongs to one case, {} are given", definitions.size()));
   const cases::Scene scene = cases::make_scene(definitions.front());
   return ExternalDisplacements{path, match_nodes(scene.mesh, read_displacements(path), path)};
 }

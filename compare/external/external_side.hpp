@@ -9,9 +9,10 @@ namespace compare {
 constexpr double same_place = 1e-6;
 
 /// Displacements in the order of the mesh's nodes, matched by position.
-/// @throws InputError if a given node lies at no node of the mesh, if one is given twice, or if one is not given
-std::vector<Eigen::Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
-                                         const std::string& path);
+/// @throws InputError if a given node lies at no node of the mesh, if one is given twice, or if one is not
+/// given
+std::vector<Eigen::Vector3d>
+match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
 
 /// Another simulator's answer to a case.
 struct ExternalDisplacements {

@@ -20,8 +20,8 @@ std::string escaped(const std::string& text, const std::string& special) {
   return result;
 }
 
-void annotate(std::ostream& out, const char* level, const std::string& file, int line, const std::string& title,
-              const std::string& message) {
+void annotate(std::ostream& out, const char* level, const std::string& file, int line,
+              const std::string& title, const std::string& message) {
   const std::string in_message = "%\r\n", in_property = "%\r\n:,";
   fmt::print(out, "::{} file={},line={},title={}::{}\n", level, escaped(file, in_property), line,
              escaped(title, in_property), escaped(message, in_message));
@@ -31,7 +31,8 @@ void annotate(std::ostream& out, const char* level, const std::string& file, int
 
 void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& cases) {
   for (const GatedCase& judged : cases) {
-    for (const std::string& failure : judged.failures) annotate(out, "error", judged.file, 1, judged.name, failure);
+    for (const std::string& failure : judged.failures)
+      annotate(out, "error", judged.file, 1, judged.name, failure);
     for (const Gate& gate : judged.gates) {
       const cases::Expectation& expected = gate.judgement.expectation;
       // An expectation of the command line stands nowhere; the case's first line is as near as can be.

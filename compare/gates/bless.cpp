@@ -14,8 +14,8 @@ namespace compare {
 
 namespace {
 
-/// Two digits finer than the interval is wide, so that the rounding does not matter; all digits of an interval
-/// without width.
+/// Two digits finer than the interval is wide, so that the rounding does not matter; all digits of an
+/// interval without width.
 std::string written(double end, double width) {
   if (!(width > 0)) return fmt::format("{}", end);
   const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(width))));
@@ -35,8 +35,8 @@ std::size_t offset_of(const std::string& text, const cases::Where& where) {
     if (at != std::string::npos) ++at;
   }
   const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
-  for (int column = 1; column < where.column && at < text.size(); ++column)
-    do ++at;
+  for (int column = 1; column < where.column && at < text.size(); ++column) do
+      ++at;
     while (at < text.size() && is_continuation(text[at]));
   if (!(at < text.size()) || text[at] != '[') refuse_place(where);
   return at;
@@ -48,8 +48,8 @@ struct Piece {
   std::string replacement;
 };
 
-/// Where the numbers behind an opening bracket stand, up to the closing one. An array may go over several lines,
-/// and hold comments, which may hold anything.
+/// Where the numbers behind an opening bracket stand, up to the closing one. An array may go over several
+/// lines, and hold comments, which may hold anything.
 std::vector<Piece> numbers_in(const std::string& text, std::size_t bracket) {
   const std::string between = " \t\r\n,";
   std::vector<Piece> numbers;
@@ -80,9 +80,11 @@ std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
   std::vector<BlessedInterval> blessed;
   for (const Gate& gate : judged.gates) {
     const cases::Expectation& expected = gate.judgement.expectation;
-    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.judgement.value) continue;
+    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.judgement.value)
+      continue;
     const double half = (expected.interval[1] - expected.interval[0]) / 2;
-    blessed.push_back({expected.interval_where, {*gate.judgement.value - half, *gate.judgement.value + half}});
+    blessed.push_back(
+        {expected.interval_where, {*gate.judgement.value - half, *gate.judgement.value + half}});
   }
   return blessed;
 }
@@ -121,9 +123,9 @@ std::string bless(const GatedCase& judged) {
 }
 
 bool has_regression(const cases::Case& definition) {
-  return std::any_of(definition.expectations.begin(), definition.expectations.end(), [](const auto& expected) {
-    return expected.reference == cases::ReferenceKind::regression;
-  });
+  return std::any_of(
+      definition.expectations.begin(), definition.expectations.end(),
+      [](const auto& expected) { return expected.reference == cases::ReferenceKind::regression; });
 }
 
 } // namespace compare

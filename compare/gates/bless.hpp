@@ -13,9 +13,9 @@ struct BlessedInterval {
   std::array<double, 2> interval;
 };
 
-/// The regression intervals of a case that its values lie outside of, each as wide as it was and around the value
-/// now. No other kind is ever moved: what is exact, published or another's does not change because we do. A gate
-/// without a value is left as it is.
+/// The regression intervals of a case that its values lie outside of, each as wide as it was and around the
+/// value now. No other kind is ever moved: what is exact, published or another's does not change because we
+/// do. A gate without a value is left as it is.
 std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged);
 
 /// The text of a case file with some intervals replaced and nothing else touched.

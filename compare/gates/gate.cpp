@@ -36,9 +36,9 @@ std::string why_without_value(const Comparison& comparison, Quantity quantity) {
   return reason.empty() ? "it has no finite value" : reason;
 }
 
-/// From an error bar of d percent of the finite elements' value f: d f/100 of f itself; of r = 100 (m/f - 1), to
-/// first order in d, (100 + r) d/100 points. The error of a field norm is of a difference of fields, of which the
-/// bar of the norm says nothing.
+/// From an error bar of d percent of the finite elements' value f: d f/100 of f itself; of r = 100 (m/f - 1),
+/// to first order in d, (100 + r) d/100 points. The error of a field norm is of a difference of fields, of
+/// which the bar of the norm says nothing.
 std::optional<double> uncertainty(const Comparison& comparison, const Judgement& judgement) {
   const cases::Expectation& expected = judgement.expectation;
   const StudiedMeasure* study = studied(comparison, expected.measure);
@@ -61,8 +61,8 @@ std::string warning_of(const Comparison& comparison, const Gate& gate) {
   const cases::Expectation& expected = gate.judgement.expectation;
   const double width = expected.interval[1] - expected.interval[0];
   if (gate.uncertainty && !(width >= 2 * *gate.uncertainty))
-    return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}", *gate.uncertainty,
-                       gate.unit);
+    return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}",
+                       *gate.uncertainty, gate.unit);
   if (expected.reference != cases::ReferenceKind::converged || gate.uncertainty ||
       expected.quantity == Quantity::msm || !gate.judgement.value)
     return "";
@@ -70,14 +70,14 @@ std::string warning_of(const Comparison& comparison, const Gate& gate) {
   return "the reference has no error bar" + (study && !study->reason.empty() ? ": " + study->reason : "");
 }
 
-std::string unit_of(const Comparison& comparison, const cases::Expectation& expected) {
+std::string gated_unit(const Comparison& comparison, const cases::Expectation& expected) {
   if (expected.quantity == Quantity::error_percent) return "%";
   const cases::Measure* measure = find(comparison.scene.definition.measures, expected.measure);
   return measure ? unit_of(*measure) : "";
 }
 
 Gate make_gate(const Comparison& comparison, const cases::Expectation& expected) {
-  Gate gate{judge(expected, comparison.measures), unit_of(comparison, expected), std::nullopt, ""};
+  Gate gate{judge(expected, comparison.measures), gated_unit(comparison, expected), std::nullopt, ""};
   const MeasuredValue* measured = find(comparison.measures, expected.measure);
   if (measured && !gate.met() && !gate.judgement.value)
     gate.judgement.reason = why_without_value(comparison, expected.quantity);
@@ -95,7 +95,8 @@ void add_failure(GatedCase& judged, const char* side, const cases::Solution& sol
 } // namespace
 
 bool GatedCase::met() const {
-  return failures.empty() && std::all_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.met(); });
+  return failures.empty() &&
+         std::all_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.met(); });
 }
 
 bool all_met(const std::vector<GatedCase>& cases) {
@@ -103,9 +104,10 @@ bool all_met(const std::vector<GatedCase>& cases) {
 }
 
 bool asks_for_mesh_study(const cases::Case& definition) {
-  return std::any_of(definition.expectations.begin(), definition.expectations.end(), [](const auto& expected) {
-    return expected.reference == cases::ReferenceKind::converged && expected.quantity != Quantity::msm;
-  });
+  return std::any_of(
+      definition.expectations.begin(), definition.expectations.end(), [](const auto& expected) {
+        return expected.reference == cases::ReferenceKind::converged && expected.quantity != Quantity::msm;
+      });
 }
 
 GatedCase judge_gates(const Comparison& comparison) {

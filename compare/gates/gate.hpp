@@ -28,11 +28,12 @@ struct GatedCase {
   bool met() const;
 };
 
-/// Whether a case asks for the reference's error bar by itself: an expectation against a converged reference does.
+/// Whether a case asks for the reference's error bar by itself: an expectation against a converged reference
+/// does.
 bool asks_for_mesh_study(const cases::Case& definition);
 
-/// Judges every expectation by what was measured. Never met are: an expectation of a measure that is not there,
-/// or has no finite value; a case that expects nothing; a case of which a solve has failed.
+/// Judges every expectation by what was measured. Never met are: an expectation of a measure that is not
+/// there, or has no finite value; a case that expects nothing; a case of which a solve has failed.
 GatedCase judge_gates(const Comparison& comparison);
 
 bool all_met(const std::vector<GatedCase>& cases);

@@ -43,7 +43,8 @@ TestCase test_of(const GatedCase& judged, const Gate& gate) {
   test.class_name = judged.name;
   if (!gate.met()) test.element = gate.judgement.value ? "failure" : "error";
   test.message = describe(gate);
-  test.output = fmt::format("{}{}\ninterval: {}\n", describe(gate), describe_uncertainty(gate), expected.reason);
+  test.output =
+      fmt::format("{}{}\ninterval: {}\n", describe(gate), describe_uncertainty(gate), expected.reason);
   if (!gate.warning.empty()) test.output += "warning: " + gate.warning + "\n";
   return test;
 }
@@ -54,7 +55,8 @@ std::vector<TestSuite> make_suites(const std::vector<GatedCase>& cases) {
   for (const GatedCase& judged : cases)
     for (std::size_t f = 0; f < judged.failures.size(); ++f) {
       const std::string number = f == 0 ? "" : fmt::format(" ({})", f + 1);
-      suites.front().tests.push_back({"solved and judged" + number, judged.name, "error", judged.failures[f], ""});
+      suites.front().tests.push_back(
+          {"solved and judged" + number, judged.name, "error", judged.failures[f], ""});
     }
   if (suites.front().tests.empty()) suites.clear();
   for (const GateCount& count : count_by_kind(cases)) {
@@ -68,9 +70,11 @@ std::vector<TestSuite> make_suites(const std::vector<GatedCase>& cases) {
 }
 
 void write_test(std::ostream& out, const TestCase& test) {
-  fmt::print(out, "    <testcase name=\"{}\" classname=\"{}\">\n", escaped(test.name), escaped(test.class_name));
+  fmt::print(out, "    <testcase name=\"{}\" classname=\"{}\">\n", escaped(test.name),
+             escaped(test.class_name));
   if (!test.element.empty())
-    fmt::print(out, "      <{0} message=\"{1}\" type=\"{0}\">{1}</{0}>\n", test.element, escaped(test.message));
+    fmt::print(out, "      <{0} message=\"{1}\" type=\"{0}\">{1}</{0}>\n", test.element,
+               escaped(test.message));
   if (!test.output.empty()) fmt::print(out, "      <system-out>{}</system-out>\n", escaped(test.output));
   fmt::print(out, "    </testcase>\n");
 }

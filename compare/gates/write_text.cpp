@@ -42,7 +42,8 @@ void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases) {
   }
   std::string counts;
   for (const GateCount& count : count_by_kind(cases))
-    counts += fmt::format("{}{} {} of {}", counts.empty() ? "" : ", ", cases::name_of(count.kind), count.met, count.all);
+    counts += fmt::format("{}{} {} of {}", counts.empty() ? "" : ", ", cases::name_of(count.kind), count.met,
+                          count.all);
   fmt::print(out, "{}: {}\n", all_met(cases) ? "all gates met" : "GATES FAILED",
              counts.empty() ? "there are none" : counts);
 }

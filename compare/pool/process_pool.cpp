@@ -147,8 +147,9 @@ class Worker {
 
 } // namespace
 
-std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
-                                        const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
+std::vector<JobAnswer>
+run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                 const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
   std::vector<JobAnswer> answers(jobs.size());
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
