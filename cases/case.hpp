@@ -156,6 +156,7 @@ struct Expectation {
   ReferenceKind reference;
   std::string reason;
   Where where;
+  Where interval_where = {}; ///< of the interval's opening bracket
 };
 
 struct Case {

@@ -74,6 +74,7 @@ Expectation read_expectation(Table& table, const std::vector<Measure>& measures)
     if (!((*interval)[0] <= (*interval)[1]))
       table.entry(key).refuse("an interval [lower, upper] with lower <= upper");
     expectation.quantity = quantity;
+    expectation.interval_where = table.entry(key).where;
     expectation.interval = {(*interval)[0], (*interval)[1]};
   }
   if (n_quantities == 0)

@@ -8,6 +8,7 @@
 #include "msm/snes/snes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace compare {
@@ -24,6 +25,7 @@ std::vector<MeasuredValue> measure_all(const Comparison& comparison) {
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     MeasuredValue value{measure.name, unit_of(measure), value_on(measure, comparison.scene, comparison.fem),
                         value_on(measure, comparison.scene, comparison.msm), std::nullopt};
+    if (comparison.peer) value.peer = value_on(measure, comparison.scene, comparison.peer->side);
     if (value.fem && value.msm)
       value.error_percent =
           measure_error_percent(measure, comparison.scene, comparison.fem.solution, comparison.msm.solution);
@@ -80,6 +82,8 @@ Judgement judge(const cases::Expectation& expectation, const std::vector<Measure
   }
   if (!value)
     return {expectation, Verdict::missed, value, "it has no value: a side failed or was not solved"};
+  if (!std::isfinite(*value))
+    return {expectation, Verdict::missed, std::nullopt, "it is not a finite number"};
   if (expectation.interval[0] <= *value && *value <= expectation.interval[1])
     return {expectation, Verdict::met, value, ""};
   return {expectation, Verdict::missed, value,

@@ -52,6 +52,7 @@ struct Comparison {
   cases::Scene scene;
   Side fem;
   Side msm;
+  std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
   std::optional<msm::DesignResult>
       design; ///< absent when the mass-spring side was skipped or could not be designed
   std::vector<MeasuredValue> measures;

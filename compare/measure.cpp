@@ -68,15 +68,15 @@ double largest(const std::vector<Vector3d>& field) {
   return norm;
 }
 
-bool is_field_norm(MeasureKind kind) {
-  return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
-}
-
 double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
   return kind == MeasureKind::displacement_field_l2 ? root_mean_square(mesh, field) : largest(field);
 }
 
 } // namespace
+
+bool is_field_norm(MeasureKind kind) {
+  return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
+}
 
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
   const Configuration at{scene, solution};

@@ -20,6 +20,9 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm);
 
+/// Whether a measure's error is that of a difference of fields.
+bool is_field_norm(cases::MeasureKind kind);
+
 /// "mm", "deg" or "mm3".
 std::string unit_of(const cases::Measure& measure);
 

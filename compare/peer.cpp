@@ -1,6 +1,5 @@
 #include "compare/calculix.hpp"
 #include "compare/comparison.hpp"
-#include "compare/measure.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -32,14 +31,11 @@ void ask_calculix(Comparison& comparison) {
   }
   peer.side.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  if (peer.side.solution.status == cases::Status::converged) {
-    const auto& measures = comparison.scene.definition.measures;
-    for (std::size_t m = 0; m < measures.size(); ++m)
-      comparison.measures[m].peer = evaluate(measures[m], comparison.scene, peer.side.solution);
-    if (comparison.fem.solution.status == cases::Status::converged)
-      peer.largest_difference = largest_difference(comparison.fem.solution, peer.side.solution);
-  }
+  if (peer.side.solution.status == cases::Status::converged &&
+      comparison.fem.solution.status == cases::Status::converged)
+    peer.largest_difference = largest_difference(comparison.fem.solution, peer.side.solution);
   comparison.peer = peer;
+  measure_sides(comparison);
 }
 
 } // namespace compare

@@ -1,8 +1,10 @@
 #include "compare/commands.hpp"
 
 #include "cases/read_case.hpp"
-#include "compare/atomic_file.hpp"
+#include "compare/external/external_side.hpp"
+#include "compare/finished.hpp"
 #include "compare/write.hpp"
+#include "compare/write_results.hpp"
 
 #include <iostream>
 #include <memory>
@@ -18,8 +20,9 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;   ///< of the study of the finite elements' own error; 0: none
-  std::string peer; ///< a program that is asked too; empty: none
+  int meshes = 0;            ///< of the study of the finite elements' own error; 0: none
+  std::string peer;          ///< a program that is asked too; empty: none
+  std::string displacements; ///< file of another simulator's, in place of our springs
   bool json = false;
 };
 
@@ -29,13 +32,21 @@ Only parse_only(const std::string& word) {
   return Only::both;
 }
 
-/// Finished results are on disk before the next case starts, so that an interrupted run keeps them.
-void write_results(const std::string& folder, const std::vector<Comparison>& done) {
-  const Comparison& last = done.back();
-  write_file(folder + "/" + last.scene.definition.name + ".vtu",
-             [&](std::ostream& out) { write_vtu(out, last); });
-  write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
-  write_file(folder + "/results.json", [&](std::ostream& out) { out << to_json(done).dump(2) << '\n'; });
+/// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
+Comparison answer(const cases::Case& definition, const Request& request, const FinishedCases& finished) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (auto earlier = finished.find(definition, request)) {
+    if (rank == 0)
+      std::cerr << definition.name << ": solved already, taken from the earlier results in the same folder\n";
+    return *earlier;
+  }
+  Comparison comparison = compare_case(definition, request.only);
+  if (request.meshes > 0)
+    comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, request.meshes);
+  if (!request.peer.empty() && rank == 0) ask_calculix(comparison);
+  if (rank == 0) finished.keep(comparison, request);
+  return comparison;
 }
 
 int run(const RunOptions& options) {
@@ -45,13 +56,15 @@ int run(const RunOptions& options) {
     definitions.push_back(cases::read_case(file, options.settings));
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto external = read_external(definitions, options.displacements);
+  const Request request{options.settings, external ? Only::fem : parse_only(options.only), options.meshes,
+                        options.peer};
+  const FinishedCases finished(options.out);
   std::vector<Comparison> done;
   bool failed = false;
   for (const cases::Case& definition : definitions) {
-    done.push_back(compare_case(definition, parse_only(options.only)));
-    if (options.meshes > 0)
-      done.back().mesh_study = study_meshes(done.back().scene, done.back().fem.solution, options.meshes);
-    if (!options.peer.empty() && rank == 0) ask_calculix(done.back());
+    done.push_back(answer(definition, request, finished));
+    if (external) take_displacements(done.back(), *external);
     failed = failed || done.back().failed();
     if (rank != 0) continue;
     if (!options.json) write_text(std::cout, done.back());
@@ -71,8 +84,8 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->add_option("--set", options->settings,
                    "override a key: material.poissons_ratio=0.3, load[0].value=[0,0,1]")
       ->allow_extra_args(false);
-  command->add_option("--only", options->only, "solve one side")
-      ->check(CLI::IsMember({"both", "fem", "msm"}));
+  CLI::Option* only = command->add_option("--only", options->only, "solve one side")
+                          ->check(CLI::IsMember({"both", "fem", "msm"}));
   command
       ->add_flag(
           "--converge{3}", options->meshes,
@@ -80,7 +93,14 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->check(CLI::Range(3, 6));
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
-  command->add_option("--out", options->out, "folder for results.json, comparison.csv and fields as .vtu");
+  command
+      ->add_option(
+          "--msm-displacements", options->displacements,
+          "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
+      ->excludes(only);
+  command->add_option("--out", options->out,
+                      "folder for results.json, comparison.csv and fields as .vtu; cases "
+                      "that it holds already are not solved again");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -25,6 +25,13 @@ Json fem_to_json(const Comparison& comparison) {
 
 Json msm_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.msm);
+  if (!comparison.msm_source.empty()) { // another program's: how it came by them is not known
+    side["source"] = comparison.msm_source;
+    for (const char* key :
+         {"unknowns", "residual", "newton_iterations", "linear_iterations", "relaxation_iterations"})
+      side[key] = nullptr;
+    side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
+  }
   if (comparison.design) {
     const msm::CellStiffness& k = comparison.design->stiffness;
     side["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};

@@ -32,6 +32,13 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
   fmt::print(out, "\n");
 }
 
+void write_external(std::ostream& out, const Comparison& comparison) {
+  const cases::Solution& s = comparison.msm.solution;
+  fmt::print(out, "  msm  displacements of {} at {} nodes", comparison.msm_source, s.displacement.size());
+  if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
+  fmt::print(out, "\n");
+}
+
 std::string describe(const msm::DesignResult& design, cases::Design method) {
   const msm::CellStiffness& k = design.stiffness;
   std::string text = fmt::format("{} k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", cases::name_of(method),
@@ -50,7 +57,10 @@ void write_text(std::ostream& out, const Comparison& comparison) {
              comparison.fem);
   const std::string design = comparison.design ? describe(*comparison.design, definition.msm.design)
                                                : cases::name_of(definition.msm.design);
-  write_side(out, "msm", design, comparison.msm);
+  if (comparison.msm_source.empty())
+    write_side(out, "msm", design, comparison.msm);
+  else
+    write_external(out, comparison);
   if (comparison.design)
     for (const std::string& warning : comparison.design->warnings)
       fmt::print(out, "  warning: {}\n", warning);

@@ -23,11 +23,13 @@ struct ProcessPool {
 /// ends without an answer fails the job it had, and another one takes its place. Workers that are left when
 /// the caller is ended find their input closed.
 /// @param jobs     without line breaks
-/// @param on_done  told the index of each job when it is answered, in the order in which that happens
+/// @param on_done  told the index of each job and its answer when it comes, in the order in which that
+/// happens
 /// @return one answer per job, in the order of the jobs
 /// @throws std::system_error if a worker cannot be started
-std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
-                                        const std::function<void(std::size_t)>& on_done);
+std::vector<JobAnswer>
+run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                 const std::function<void(std::size_t job, const JobAnswer&)>& on_done);
 
 /// The worker's side: reads jobs from standard input until it ends, and answers each on standard output. What
 /// the job itself prints goes to standard error. An exception is a failed job; its message is the reason.

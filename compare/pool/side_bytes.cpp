@@ -29,7 +29,7 @@ class Reader {
  public:
   explicit Reader(const std::string& bytes) : bytes_(bytes) {}
   void raw(void* to, std::size_t size) {
-    if (bytes_.size() - at_ < size) throw std::runtime_error("a worker's answer ends too early");
+    if (bytes_.size() - at_ < size) throw std::runtime_error("a stored answer ends too early");
     std::memcpy(to, bytes_.data() + at_, size);
     at_ += size;
   }
@@ -37,7 +37,7 @@ class Reader {
   void resize(Container& container) {
     std::uint64_t size = 0;
     raw(&size, sizeof size);
-    if (size > bytes_.size()) throw std::runtime_error("a worker's answer has a broken length");
+    if (size > bytes_.size()) throw std::runtime_error("a stored answer has a broken length");
     container.resize(size);
   }
   template<class Value>
@@ -116,6 +116,38 @@ void transfer(Archive& archive, msm::DesignResult& design) {
   transfer(archive, design.cells);
 }
 
+template<class Archive>
+void transfer(Archive& archive, StudiedMeasure& measure) {
+  transfer(archive, measure.name);
+  transfer(archive, measure.values);
+  transfer(archive, measure.limit);
+  transfer(archive, measure.discretisation_error_percent);
+  transfer(archive, measure.reason);
+}
+
+template<class Archive>
+void transfer(Archive& archive, MeshStudy& study) {
+  transfer(archive, study.refine);
+  transfer(archive, study.unknowns);
+  transfer(archive, study.measures);
+}
+
+template<class Archive>
+void transfer(Archive& archive, Peer& peer) {
+  transfer(archive, peer.program);
+  transfer(archive, peer.side);
+  transfer(archive, peer.largest_difference);
+}
+
+template<class Archive>
+void transfer_answers(Archive& archive, Comparison& comparison) {
+  transfer(archive, comparison.fem);
+  transfer(archive, comparison.msm);
+  transfer(archive, comparison.design);
+  transfer(archive, comparison.mesh_study);
+  transfer(archive, comparison.peer);
+}
+
 template<class Archive, class Value>
 void transfer(Archive& archive, Value& value) {
   static_assert(std::is_trivially_copyable_v<Value>, "a field of this type needs its own transfer()");
@@ -126,20 +158,15 @@ void transfer(Archive& archive, Value& value) {
 
 std::string to_bytes(const Comparison& comparison) {
   Writer writer;
-  Side fem = comparison.fem, msm = comparison.msm; // copies, because one transfer() serves both directions
-  std::optional<msm::DesignResult> design = comparison.design;
-  transfer(writer, fem);
-  transfer(writer, msm);
-  transfer(writer, design);
+  Comparison copy = comparison; // because one transfer() serves both directions
+  transfer_answers(writer, copy);
   return writer.bytes;
 }
 
 void from_bytes(const std::string& bytes, Comparison& comparison) {
   Reader reader(bytes);
-  transfer(reader, comparison.fem);
-  transfer(reader, comparison.msm);
-  transfer(reader, comparison.design);
-  if (!reader.at_end()) throw std::runtime_error("a worker's answer is too long");
+  transfer_answers(reader, comparison);
+  if (!reader.at_end()) throw std::runtime_error("a stored answer is too long");
 }
 
 } // namespace compare

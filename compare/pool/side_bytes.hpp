@@ -6,8 +6,8 @@
 
 namespace compare {
 
-/// What solving found, both sides and the design, as bytes for another process of this program on this
-/// machine. The scene, the measures and the studies are not in it.
+/// What solving found, both sides, the design, the mesh study and the peer, as bytes for another process of
+/// this program on this machine. The scene and what is measured on it are not in it.
 std::string to_bytes(const Comparison& comparison);
 
 /// Takes over what to_bytes() wrote, to the last bit.  @throws std::runtime_error if the bytes are not whole

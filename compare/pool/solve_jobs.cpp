@@ -119,27 +119,30 @@ std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const Solv
   std::vector<Comparison> solved(jobs.size());
   const std::vector<std::size_t> order = prepare(jobs, solved);
   int n_done = 0, n_ranks = 1;
-  const auto count = [&] { progress(++n_done, static_cast<int>(order.size())); };
+  const auto count = [&](std::size_t j) {
+    if (options.on_solved) options.on_solved(j, solved[j]);
+    progress(++n_done, static_cast<int>(order.size()));
+  };
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   if (n_ranks > 1 || is_under_mpi_launcher()) {
     for (const std::size_t j : order) {
       solve_in_this_process(jobs[j], solved[j]);
-      count();
+      count(j);
     }
     return solved;
   }
   std::vector<std::string> lines;
   for (const std::size_t j : order) lines.push_back(to_line(jobs[j]));
   const ProcessPool pool{{options.program, "worker"}, options.n_workers > 0 ? options.n_workers : cores()};
-  const std::vector<JobAnswer> answers = run_in_processes(pool, lines, [&](std::size_t) { count(); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  run_in_processes(pool, lines, [&](std::size_t k, const JobAnswer& answer) {
     Comparison& comparison = solved[order[k]];
-    if (answers[k].bytes)
-      from_bytes(*answers[k].bytes, comparison);
+    if (answer.bytes)
+      from_bytes(*answer.bytes, comparison);
     else
-      fail(comparison, jobs[order[k]].side, answers[k].reason);
+      fail(comparison, jobs[order[k]].side, answer.reason);
     measure_sides(comparison);
-  }
+    count(order[k]);
+  });
   return solved;
 }
 

@@ -20,6 +20,8 @@ struct SolveJob {
 struct SolveOptions {
   int n_workers = 0;                      ///< worker processes; 0: one per core
   std::string program = "/proc/self/exe"; ///< whose hidden command `worker` serves
+  /// Told each job and what came of it as soon as it is there, so that it can be kept; may be empty.
+  std::function<void(std::size_t job, const Comparison&)> on_solved = {};
 };
 
 /// Solves every job and measures it. Numbers do not depend on the number of workers, to the last bit. Jobs

@@ -101,14 +101,15 @@ TEST_CASE("a region that selects nothing is refused before any solve, with its p
   CHECK(outcome.error.find("no node within") != std::string::npos);
 }
 
-TEST_CASE("run --out leaves results, a comparison and both models' fields, and nothing temporary") {
+TEST_CASE(
+    "run --out leaves results, a comparison, both models' fields and what is solved, and nothing temporary") {
   const Folder folder;
   const fs::path out = folder.path / "out";
   REQUIRE(springproof("run " + shear + " --out " + out.string()).status == 0);
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(out)) names.push_back(entry.path().filename());
-  CHECK_THAT(names,
-             Catch::UnorderedEquals<std::string>({"results.json", "comparison.csv", "cube-shear-small.vtu"}));
+  CHECK_THAT(names, Catch::UnorderedEquals<std::string>(
+                        {"results.json", "comparison.csv", "cube-shear-small.vtu", "solved"}));
   CHECK(nlohmann::json::parse(content(out / "results.json"))["cases"].size() == 1);
   const std::string vtu = content(out / "cube-shear-small.vtu");
   for (const char* field : {"fem_displacement", "msm_displacement", "difference", "msm_cell_volume"})

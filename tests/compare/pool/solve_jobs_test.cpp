@@ -73,6 +73,17 @@ TEST_CASE(
   CHECK(solved[3].msm.solution.status == cases::Status::converged);
 }
 
+TEST_CASE("each job is told as soon as it is solved, with its numbers") {
+  std::vector<std::size_t> told;
+  compare::SolveOptions options{1, SPRINGPROOF_PROGRAM};
+  options.on_solved = [&](std::size_t job, const Comparison& comparison) {
+    told.push_back(job);
+    CHECK(comparison.measures[0].msm);
+  };
+  compare::solve_jobs({shear(Only::msm), shear(Only::msm, {"msm.design=moduli"})}, options, [](int, int) {});
+  CHECK_THAT(told, Catch::UnorderedEquals<std::size_t>({0, 1}));
+}
+
 TEST_CASE("a worker that crashes is a failed side that says so") {
   const auto solved = compare::solve_jobs({shear(Only::msm)}, {1, "false"}, [](int, int) {});
   CHECK(solved[0].msm.solution.status == cases::Status::failed);
@@ -87,6 +98,9 @@ TEST_CASE("broken bytes are refused, whole ones come back as they were") {
   before.msm.solution.negative_eigenvalues = 2;
   before.design = msm::DesignResult{};
   before.design->warnings = {"one", ""};
+  before.mesh_study =
+      compare::MeshStudy{{0, 1}, {8, 27}, {{"L", {1, 2}, compare::MeshLimit{2, 3, 4}, 5.0, ""}}};
+  before.peer = compare::Peer{"CalculiX", {}, 1e-7};
   const std::string bytes = compare::to_bytes(before);
   Comparison after;
   compare::from_bytes(bytes, after);
@@ -95,6 +109,9 @@ TEST_CASE("broken bytes are refused, whole ones come back as they were") {
   CHECK(after.msm.solution.negative_eigenvalues == 2);
   CHECK_FALSE(after.msm.solution.lowest_eigenvalue);
   CHECK(after.design->warnings == before.design->warnings);
+  CHECK(after.mesh_study->unknowns == before.mesh_study->unknowns);
+  CHECK(after.mesh_study->measures[0].limit->extrapolated == 3);
+  CHECK(after.peer->largest_difference == 1e-7);
   CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1), after), std::runtime_error);
   CHECK_THROWS_AS(compare::from_bytes(bytes + "x", after), std::runtime_error);
 }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "compare/gates/gate.hpp"
+
+#include <string>
+#include <vector>
+
+namespace compare {
+
+/// An interval of a case file that is moved to where the value is now.
+struct BlessedInterval {
+  cases::Where where; ///< of the opening bracket
+  std::array<double, 2> interval;
+};
+
+/// The regression intervals of a case that its values lie outside of, each as wide as it was and around the
+/// value now. No other kind is ever moved: what is exact, published or another's does not change because we
+/// do. A gate without a value is left as it is.
+std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged);
+
+/// The text of a case file with some intervals replaced and nothing else touched.
+/// @throws InputError if no interval stands where it should, for the file has changed meanwhile
+std::string with_intervals(const std::string& text, const std::vector<BlessedInterval>& blessed);
+
+/// The lines that two texts of equally many lines differ in, as a unified diff without context.
+std::string changed_lines(const std::string& path, const std::string& before, const std::string& after);
+
+/// Rewrites the file of a judged case, whole or not at all.
+/// @return the difference; empty when there was nothing to bless, and then the file is not touched
+std::string bless(const GatedCase& judged);
+
+/// Whether a case has an interval that may be blessed.
+bool has_regression(const cases::Case& definition);
+
+} // namespace compare

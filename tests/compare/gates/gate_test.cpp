@@ -1,0 +1,96 @@
+#include "compare/gates/gate.hpp"
+
+#include "tests/compare/gates/judged.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+using cases::Quantity;
+using cases::ReferenceKind;
+using compare::judge_gates;
+using judged::comparison;
+using judged::expectation;
+
+TEST_CASE("a case that expects nothing does not pass its gates") {
+  const auto result = judge_gates(comparison({}));
+  CHECK_FALSE(result.met());
+  REQUIRE(result.failures.size() == 1);
+  CHECK_THAT(result.failures[0], Catch::Contains("expects nothing"));
+  CHECK_FALSE(compare::all_met({judge_gates(comparison({expectation(Quantity::fem, {9, 11})})), result}));
+}
+
+TEST_CASE("a gate has the unit of what it bounds, and says in words where the value lies") {
+  const auto result = judge_gates(
+      comparison({expectation(Quantity::error_percent, {-10, 0}), expectation(Quantity::msm, {9.5, 10})}));
+  CHECK(result.gates[0].met());
+  CHECK(result.gates[0].unit == "%");
+  CHECK(describe(result.gates[0]) == "L error_percent = -10 %, in [-10, 0]");
+  CHECK_FALSE(result.gates[1].met());
+  CHECK(describe(result.gates[1]) == "L msm = 9 mm, not in [9.5, 10]");
+  CHECK_FALSE(result.met());
+}
+
+TEST_CASE("a measure that is not there, and a value that is not a number, are never met") {
+  auto renamed = comparison({expectation(Quantity::fem, {9, 11})});
+  renamed.measures[0].name = "M";
+  CHECK_FALSE(judge_gates(renamed).met());
+  CHECK(judge_gates(renamed).gates[0].judgement.reason == "there is no such measure");
+
+  auto nan = comparison({expectation(Quantity::msm, {-1e300, 1e300})});
+  nan.measures[0].msm = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(judge_gates(nan).met());
+  CHECK_FALSE(judge_gates(nan).gates[0].judgement.value);
+  CHECK_THAT(describe(judge_gates(nan).gates[0]), Catch::Contains("no finite value"));
+}
+
+TEST_CASE("a solve that failed fails its case, even when nothing was expected of that side") {
+  auto failed = comparison({expectation(Quantity::msm, {8, 10}), expectation(Quantity::fem, {9, 11})});
+  failed.fem.solution.status = cases::Status::failed;
+  failed.fem.solution.message = "limit point";
+  failed.fem.solution.load_reached = 0.25;
+  failed.measures[0].fem = failed.measures[0].error_percent = std::nullopt;
+  const auto result = judge_gates(failed);
+  CHECK(result.gates[0].met());
+  CHECK_FALSE(result.gates[1].met());
+  CHECK(result.gates[1].judgement.reason == "fem failed at 0.25 of the load: limit point");
+  CHECK(result.failures == std::vector<std::string>{"fem failed at 0.25 of the load: limit point"});
+  CHECK_FALSE(result.met());
+}
+
+TEST_CASE("the reference's error bar is shown in the gate's unit and moves neither side of the interval") {
+  // 2 % of 10 mm are 0.2 mm; of an error of -10 % they are 0.02 (100 - 10) = 1.8 points.
+  const auto sure = judge_gates(judged::studied(
+      comparison({expectation(Quantity::fem, {9, 9.99}), expectation(Quantity::error_percent, {-9.9, 0}),
+                  expectation(Quantity::msm, {8, 10})}),
+      2));
+  CHECK(*sure.gates[0].uncertainty == Approx(0.2).epsilon(1e-12)); // rounding
+  CHECK(*sure.gates[1].uncertainty == Approx(1.8).epsilon(1e-12));
+  CHECK_FALSE(sure.gates[2].uncertainty); // the springs' value needs no reference
+  CHECK_FALSE(sure.gates[0].met());       // 10 lies outside, though within the error bar
+  CHECK_FALSE(sure.gates[1].met());
+  CHECK(sure.gates[0].warning.empty());
+}
+
+TEST_CASE("an interval narrower than the error bar warns, a wider one does not") {
+  const auto warning_of_width = [](double width) {
+    const auto expected = expectation(Quantity::fem, {10 - width / 2, 10 + width / 2});
+    return judge_gates(judged::studied(comparison({expected}), 2)).gates[0].warning;
+  };
+  CHECK_THAT(warning_of_width(0.39),
+             Catch::Contains("narrower than the reference's own error bar, +- 0.2 mm"));
+  CHECK(warning_of_width(0.41).empty());
+}
+
+TEST_CASE(
+    "who expects a converged reference asks for its mesh study, and is told when there is no error bar") {
+  const auto expected = expectation(Quantity::fem, {9, 11}, ReferenceKind::converged);
+  CHECK(compare::asks_for_mesh_study(comparison({expected}).scene.definition));
+  CHECK_FALSE(
+      compare::asks_for_mesh_study(comparison({expectation(Quantity::fem, {9, 11})}).scene.definition));
+  CHECK_FALSE(compare::asks_for_mesh_study(
+      comparison({expectation(Quantity::msm, {9, 11}, ReferenceKind::converged)}).scene.definition));
+  auto without = comparison({expected});
+  without.mesh_study = compare::MeshStudy{};
+  without.mesh_study->measures = {{"L", {}, std::nullopt, std::nullopt, "the values oscillate"}};
+  CHECK_THAT(judge_gates(without).gates[0].warning, Catch::Contains("no error bar: the values oscillate"));
+}

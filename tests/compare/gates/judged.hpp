@@ -1,0 +1,38 @@
+#pragma once
+
+#include "compare/gates/gate.hpp"
+
+#include <string>
+
+/// Comparisons made by hand: a unit cube with one measure "L" and what is expected of it.
+namespace judged {
+
+inline cases::Expectation expectation(cases::Quantity quantity, std::array<double, 2> interval,
+                                      cases::ReferenceKind kind = cases::ReferenceKind::published) {
+  return {"L", quantity, interval, kind, "because", {"cube.toml", 12, 1, "expect[0]"}};
+}
+
+/// Both sides converged; fem = 10 mm, msm = 9 mm, so that the error is -10 %.
+inline compare::Comparison comparison(const std::vector<cases::Expectation>& expectations) {
+  compare::Comparison result;
+  cases::Case& definition = result.scene.definition;
+  definition.name = "cube";
+  definition.file = "cube.toml";
+  definition.expectations = expectations;
+  cases::Measure measure{};
+  measure.name = "L";
+  measure.kind = cases::MeasureKind::coordinate;
+  definition.measures = {measure};
+  result.fem.solution.status = result.msm.solution.status = cases::Status::converged;
+  result.measures = {{"L", "mm", 10.0, 9.0, -10.0}};
+  return result;
+}
+
+/// With the reference's error bar of some percent of its value.
+inline compare::Comparison studied(compare::Comparison result, double percent) {
+  result.mesh_study = compare::MeshStudy{};
+  result.mesh_study->measures = {{"L", {}, compare::MeshLimit{1, 10, percent}, percent, ""}};
+  return result;
+}
+
+} // namespace judged

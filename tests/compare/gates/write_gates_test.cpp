@@ -1,0 +1,106 @@
+#include "compare/gates/write.hpp"
+
+#include "tests/compare/gates/judged.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using cases::Quantity;
+using cases::ReferenceKind;
+using compare::GatedCase;
+using judged::expectation;
+
+namespace {
+
+/// One gate met, one outside, one without a value; a case without gates whose solve failed in strange words.
+std::vector<GatedCase> mixed() {
+  auto missing = expectation(Quantity::fem, {0, 1}, ReferenceKind::exact);
+  missing.measure = "M";
+  auto first = judged::studied(
+      judged::comparison({expectation(Quantity::error_percent, {-11, -9}),
+                          expectation(Quantity::msm, {9.5, 10}, ReferenceKind::regression), missing}),
+      2);
+  auto second = judged::comparison({});
+  second.scene.definition.name = "second";
+  second.msm.solution.status = cases::Status::failed;
+  second.msm.solution.message = "a < b & \"c\"\x01\n50 %";
+  return {compare::judge_gates(first), compare::judge_gates(second)};
+}
+
+template<class Write>
+std::string written(const Write& write, const std::vector<GatedCase>& cases) {
+  std::ostringstream out;
+  write(out, cases);
+  return out.str();
+}
+
+} // namespace
+
+TEST_CASE("gates as text: a line each with its kind, warnings beneath, and counts per kind at the end") {
+  const std::string text = written(compare::write_gates_text, mixed());
+  CHECK_THAT(text,
+             Catch::Contains(
+                 "met    published  cube: L error_percent = -10 %, in [-11, -9] (reference +- 1.8 %)\n"
+                 "       warning: the interval is narrower than the reference's own error bar, +- 1.8 %\n"
+                 "FAILED regression cube: L msm = 9 mm, not in [9.5, 10]\n"
+                 "FAILED exact      cube: M fem: there is no such measure\n"));
+  CHECK_THAT(text, Catch::Contains("FAILED case       second: it expects nothing"));
+  CHECK_THAT(text, Catch::EndsWith("GATES FAILED: exact 0 of 1, published 1 of 1, regression 0 of 1\n"));
+}
+
+TEST_CASE("gates as JSON: values, error bars and verdicts, null where there is no value") {
+  const auto document = nlohmann::json::parse(compare::gates_to_json(mixed()).dump());
+  CHECK(document["schema"] == 1);
+  CHECK(document["met"] == false);
+  REQUIRE(document["gates"].size() == 3);
+  const auto& first = document["gates"][0];
+  CHECK(first["reference"] == "published");
+  CHECK(first["value"] == -10.0);
+  CHECK(first["reference_uncertainty"].get<double>() == Approx(1.8).epsilon(1e-12)); // rounding
+  CHECK(first["line"] == 12);
+  CHECK(document["gates"][2]["value"].is_null());
+  CHECK(document["gates"][2]["reason"] == "there is no such measure");
+  CHECK(document["kinds"]["regression"]["met"] == 0);
+  CHECK(document["failures"].size() == 2);
+}
+
+TEST_CASE("gates as JUnit: a suite per kind, failures and errors apart, valid whatever a message holds") {
+  const std::string xml = written(compare::write_gates_junit, mixed());
+  CHECK_THAT(xml,
+             Catch::Contains("<testsuites name=\"springproof\" tests=\"5\" failures=\"1\" errors=\"3\">"));
+  CHECK_THAT(xml, Catch::Contains(
+                      "<testsuite name=\"springproof.published\" tests=\"1\" failures=\"0\" errors=\"0\">"));
+  CHECK_THAT(
+      xml, Catch::Contains("<testsuite name=\"springproof.cases\" tests=\"2\" failures=\"0\" errors=\"2\">"));
+  CHECK_THAT(xml, Catch::Contains("<failure message=\"L msm = 9 mm, not in [9.5, 10]\""));
+  CHECK_THAT(xml, Catch::Contains("a &lt; b &amp; &quot;c&quot;?\n50 %"));
+  const TemporaryFolder folder;
+  const std::string schema = SPRINGPROOF_SOURCE_DIR "/tests/compare/gates/junit.xsd";
+  const auto is_valid = [&](const std::string& text) {
+    const std::string path = (folder.path / "gates.xml").string();
+    std::ofstream(path) << text;
+    return std::system(("xmllint --noout --schema " + schema + " " + path + " 2>/dev/null").c_str()) == 0;
+  };
+  CHECK(is_valid(xml));
+  CHECK(is_valid(written(compare::write_gates_junit, {})));
+  std::string broken = xml; // the schema does say no
+  CHECK_FALSE(is_valid(broken.replace(broken.find("<failure"), 8, "<failing")));
+  broken = xml;
+  CHECK_FALSE(is_valid(broken.replace(broken.find("tests=\"5\""), 9, "tests=\"a\"")));
+}
+
+TEST_CASE("gates as annotations: file and line of the expectation, line breaks and percent signs escaped") {
+  const std::string text = written(compare::write_gates_annotations, mixed());
+  CHECK_THAT(text,
+             Catch::Contains("::error file=cube.toml,line=12,title=cube (regression)::L msm = 9 mm, not in"));
+  CHECK_THAT(text,
+             Catch::Contains("::warning file=cube.toml,line=12,title=cube (published)::L: the interval"));
+  CHECK_THAT(text, Catch::Contains("%0A50 %25\n"));
+  auto odd = mixed();
+  odd[0].file = "a,b:c.toml";
+  CHECK_THAT(written(compare::write_gates_annotations, odd), Catch::Contains("file=a%2Cb%3Ac.toml,"));
+}
