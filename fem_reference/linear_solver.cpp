@@ -83,6 +83,10 @@ LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
 
 LinearSolver::Outcome LinearSolver::solve(Vec right_hand_side, Vec solution) {
   check(KSPSetOperators(solver_.get(), tangent_, tangent_));
+  PetscObjectState tangent_state = 0; // PETSc factorises anew when it has changed
+  check(PetscObjectStateGet(reinterpret_cast<PetscObject>(tangent_), &tangent_state));
+  if (is_direct() && tangent_state != factorised_) ++n_factorisations_;
+  factorised_ = tangent_state;
   check(KSPSolve(solver_.get(), right_hand_side, solution));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;

@@ -24,6 +24,9 @@ class LinearSolver {
   /// Solves with the discretisation's tangent as it is now.
   Outcome solve(Vec right_hand_side, Vec solution);
 
+  /// Factorisations so far by solve(); 0 with a Krylov method.
+  long n_factorisations() const { return n_factorisations_; }
+
   /// Negative eigenvalues of the symmetric part of the tangent last solved with, counted by MUMPS as negative
   /// pivots; nothing when that solve was iterative. An unsymmetric tangent is factorised once more for it.
   /// Zero: the equilibrium is stable.
@@ -35,6 +38,8 @@ class LinearSolver {
   Solver solver_;
   Mat tangent_;
   TangentSymmetry symmetry_;
+  long n_factorisations_ = 0;
+  PetscObjectState factorised_ = -1; ///< PETSc's count of the tangent's changes when it was factorised
 };
 
 } // namespace fem_reference
