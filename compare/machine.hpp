@@ -16,7 +16,8 @@ struct Machine {
 
 Machine describe_machine();
 
-/// The most memory that this process has had resident, in units of 10^6 bytes; nothing where the system does not tell.
+/// The most memory that this process has had resident, in units of 10^6 bytes; nothing where the system does
+/// not tell.
 std::optional<double> peak_resident_megabytes();
 
 /// Whether the BLAS that this process loaded is OpenBLAS.

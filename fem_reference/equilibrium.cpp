@@ -181,9 +181,11 @@ Imbalance Equilibrium::evaluate(const State& state, double load_factor, Wanted w
   gather(local_force_, force_.get());
   if (wanted == Wanted::stress_and_tangent) {
     form_right_hand_side(load_factor);
-    has_tangent_ = valid;
+    ++n_tangents_;
   }
-  return measure(valid, load_factor);
+  const Imbalance imbalance = measure(valid, load_factor);
+  if (wanted == Wanted::stress_and_tangent) has_tangent_ = imbalance.valid; // on all ranks alike
+  return imbalance;
 }
 
 Imbalance Equilibrium::evaluate_for_correction(const State& state, double load_factor) {

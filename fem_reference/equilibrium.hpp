@@ -49,6 +49,8 @@ class Equilibrium {
 
   /// Calls of evaluate() so far.
   long n_evaluations() const { return n_evaluations_; }
+  /// Tangents assembled so far.
+  long n_tangents() const { return n_tangents_; }
 
   Vec right_hand_side() const { return right_hand_side_.get(); }
   const Discretisation& discretisation() const { return discretisation_; }
@@ -71,8 +73,8 @@ class Equilibrium {
   std::vector<double> volume_residual_;                    ///< R of every cell, mm³
   double largest_mismatch_ = 0;
   double load_norm_ = 0;
-  long n_evaluations_ = 0;
-  bool has_tangent_ = false; ///< assembled at some state
+  long n_evaluations_ = 0, n_tangents_ = 0;
+  bool has_tangent_ = false; ///< one that was assembled at a valid state
 };
 
 } // namespace fem_reference

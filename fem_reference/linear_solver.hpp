@@ -21,8 +21,10 @@ class LinearSolver {
     bool solved;
     int iterations; ///< of the Krylov method; 0 for a direct solve
   };
-  /// Solves with the discretisation's tangent as it is now.
-  Outcome solve(Vec right_hand_side, Vec solution);
+  /// Solves with the discretisation's tangent as it is now; one that has not changed stays factorised.
+  /// @param tangent_number  from 1, another one whenever the tangent has been assembled: for the count of
+  /// factorisations
+  Outcome solve(Vec right_hand_side, Vec solution, long tangent_number);
 
   /// Factorisations so far by solve(); 0 with a Krylov method.
   long n_factorisations() const { return n_factorisations_; }
@@ -39,7 +41,7 @@ class LinearSolver {
   Mat tangent_;
   TangentSymmetry symmetry_;
   long n_factorisations_ = 0;
-  PetscObjectState factorised_ = -1; ///< PETSc's count of the tangent's changes when it was factorised
+  long factorised_number_ = 0; ///< of the tangent last solved with
 };
 
 } // namespace fem_reference

@@ -88,7 +88,8 @@ NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state
       return report;
     }
     if (!has_tangent) equilibrium.evaluate_for_correction(state, load_factor);
-    const auto solved = solver.solve(equilibrium.right_hand_side(), correction.displacement.get());
+    const auto solved =
+        solver.solve(equilibrium.right_hand_side(), correction.displacement.get(), equilibrium.n_tangents());
     report.linear_iterations += solved.iterations;
     if (!solved.solved) {
       report.failure = "the linear solver failed";

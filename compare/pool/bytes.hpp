@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-/// Values as bytes for another process of this program on this machine. A type that is not trivially copyable has a
-/// transfer() that visits its fields; it serves both directions.
+/// Values as bytes for another process of this program on this machine. A type that is not trivially copyable
+/// has a transfer() that visits its fields; it serves both directions.
 namespace compare {
 
 class Writer {

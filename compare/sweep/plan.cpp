@@ -20,12 +20,13 @@ constexpr std::array<cases::Design, 5> designs{cases::Design::linear_method, cas
 constexpr double tight = 1e-9;
 constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
 
-/// Unknowns above which a solve takes so long that three cubes would not be swept in ten minutes on two cores.
+/// Unknowns above which a solve takes so long that three cubes would not be swept in ten minutes on two
+/// cores.
 struct Limits {
-  long loose;       ///< finite elements of other tolerances than the tight one
-  long finite;      ///< finite strain
-  long small;       ///< small strain
-  long calculix;    ///< which factorises with SPOOLES
+  long loose;    ///< finite elements of other tolerances than the tight one
+  long finite;   ///< finite strain
+  long small;    ///< small strain
+  long calculix; ///< which factorises with SPOOLES
 };
 constexpr Limits limits{20000, 60000, 120000, 20000};
 
@@ -61,8 +62,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
     const auto is_reference = [&](const Variant& v) {
       return v.formulation == formulation && v.element == element && v.cells == cells;
     };
-    if (std::any_of(plan.reference.begin(), plan.reference.end(), is_reference) &&
-        size > limits.loose)
+    if (std::any_of(plan.reference.begin(), plan.reference.end(), is_reference) && size > limits.loose)
       continue; // it is in the plan already
     const std::string name =
         cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
@@ -108,10 +108,11 @@ long n_unknowns(const std::array<int, 3>& cells, Element element) {
 Plan plan_sweep(const cases::Case& definition, Extent extent) {
   const auto* box = std::get_if<cases::Box>(&definition.body);
   if (!box)
-    throw cases::InputError(definition.file + ": body.shape: a sweep refines the body, which must be \"box\"");
-  if (!std::holds_alternative<cases::LinearElastic>(definition.material))
     throw cases::InputError(definition.file +
-                            ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+                            ": body.shape: a sweep refines the body, which must be \"box\"");
+  if (!std::holds_alternative<cases::LinearElastic>(definition.material))
+    throw cases::InputError(
+        definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
   Plan plan;
   plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
   for (std::size_t level = 0; level < 3; ++level)

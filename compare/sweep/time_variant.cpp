@@ -72,7 +72,8 @@ Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Poin
   return round;
 }
 
-/// The displacement under the smaller load. A lattice that is not stable there fails here, and has no re-solve.
+/// The displacement under the smaller load. A lattice that is not stable there fails here, and has no
+/// re-solve.
 msm::Points springs_before(const cases::Scene& scene, double tolerance) {
   msm::EquilibriumSettings settings;
   settings.tolerance = tolerance;
@@ -189,7 +190,8 @@ std::string answer_variant(const std::string& line) {
   const std::size_t end_of_budget = line.find('\t', end_of_repetitions + 1);
   if (end_of_budget == std::string::npos) throw std::runtime_error("'" + line + "' is no job");
   const cases::Case definition = cases::read_case(line.substr(0, end_of_file));
-  const TimingRules rules{std::stoi(line.substr(end_of_file + 1)), std::stod(line.substr(end_of_repetitions + 1))};
+  const TimingRules rules{std::stoi(line.substr(end_of_file + 1)),
+                          std::stod(line.substr(end_of_repetitions + 1))};
   const Variant variant = variant_from_words(line.substr(end_of_budget + 1));
   const std::optional<double> before = peak_resident_megabytes();
   VariantRun run = time_variant(definition, variant, rules);

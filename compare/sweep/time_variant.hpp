@@ -28,18 +28,19 @@ struct VariantRun {
   std::vector<double> setup_seconds;
   std::vector<double> first_seconds;
   std::vector<double> again_seconds;
-  bool is_warm = false;                      ///< a round came before those that were timed
-  std::optional<double> peak_megabytes;      ///< resident memory of the process that did nothing else
-  std::optional<double> start_megabytes;     ///< of it before the model was made
+  bool is_warm = false;                  ///< a round came before those that were timed
+  std::optional<double> peak_megabytes;  ///< resident memory of the process that did nothing else
+  std::optional<double> start_megabytes; ///< of it before the model was made
 };
 
 /// Solves a variant of a case again and again on one thread. Stability is looked at once, before the timing:
-/// it is a diagnosis and no part of the answer. Collective over MPI_COMM_WORLD; all but finite elements run on
-/// rank 0 alone, where alone their answer is.
+/// it is a diagnosis and no part of the answer. Collective over MPI_COMM_WORLD; all but finite elements run
+/// on rank 0 alone, where alone their answer is.
 /// @throws InputError when the case has no such variant
 VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
 
-/// A job of a worker: a case file, a variant, rules; and its answer as bytes, the memory of this process in it.
+/// A job of a worker: a case file, a variant, rules; and its answer as bytes, the memory of this process in
+/// it.
 std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules);
 std::string answer_variant(const std::string& line);
 /// @throws std::runtime_error if the bytes are not whole
