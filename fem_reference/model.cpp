@@ -3,6 +3,7 @@
 #include "fem_reference/load_path.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fem_reference {
 
@@ -113,6 +114,32 @@ cases::Solution Model::Implementation::solve(const LoadSteps& steps, Stability s
     if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, cell, solution.displacement)) > 0))
       ++solution.inverted_cells;
   return solution;
+}
+
+std::vector<NodeDisplacement> Model::node_displacements() const {
+  const Implementation& m = *implementation_;
+  const Discretisation& d = m.discretisation;
+  std::vector<double> own;
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(m.last.displacement.get(), &values));
+  for (std::size_t node = 0; node < index(d.n_owned_nodes); ++node) {
+    own.insert(own.end(), d.node_point[node].data(), d.node_point[node].data() + 3);
+    own.insert(own.end(), values + 3 * node, values + 3 * node + 3);
+  }
+  check(VecRestoreArrayRead(m.last.displacement.get(), &values));
+  int n_ranks = 1;
+  MPI_Comm_size(d.communicator, &n_ranks);
+  std::vector<int> size(index(n_ranks)), start(index(n_ranks), 0);
+  const int own_size = static_cast<int>(own.size());
+  MPI_Allgather(&own_size, 1, MPI_INT, size.data(), 1, MPI_INT, d.communicator);
+  std::partial_sum(size.begin(), size.end() - 1, start.begin() + 1);
+  std::vector<double> all(index(start.back() + size.back()));
+  MPI_Allgatherv(own.data(), own_size, MPI_DOUBLE, all.data(), size.data(), start.data(), MPI_DOUBLE,
+                 d.communicator);
+  std::vector<NodeDisplacement> nodes;
+  for (std::size_t i = 0; i < all.size(); i += 6)
+    nodes.push_back({Eigen::Vector3d(all.data() + i), Eigen::Vector3d(all.data() + i + 3)});
+  return nodes;
 }
 
 } // namespace fem_reference

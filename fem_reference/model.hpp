@@ -10,6 +10,10 @@ namespace fem_reference {
 
 enum class Stability { report, skip };
 
+struct NodeDisplacement {
+  Eigen::Vector3d rest, displacement; ///< mm
+};
+
 struct SolveSettings {
   double largest_load_step = 1; ///< of the full load; small steps follow a path that a large one would leave
   double tolerance = 1e-10;     ///< on |imbalance on free degrees of freedom| / |applied load|
@@ -35,6 +39,9 @@ class Model {
   /// body keeps its factorised stiffness.
   /// @throws SolveError as solve(), after which the last equilibrium is as it was
   cases::Solution solve_again(double load_factor, const SolveSettings& settings = {});
+
+  /// Of every node of the elements, those between vertices too, in the equilibrium last found; in any order.
+  std::vector<NodeDisplacement> node_displacements() const;
 
  private:
   struct Implementation;

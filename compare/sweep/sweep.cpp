@@ -39,8 +39,9 @@ VariantRun run_here(const Sweep& sweep, const Variant& variant) {
 void hold_against_reference(const Reference& reference, SweepRow& row) {
   const cases::Solution& solution = row.run.first;
   if (solution.status != cases::Status::converged || solution.displacement.empty()) return;
-  row.field_error_percent = field_error_percent(reference, row.variant.cells, solution.displacement);
-  row.measure_error_percent = measure_errors_percent(reference, row.variant.cells, solution.displacement);
+  row.field_error_percent = field_error_percent(reference, field_cells(row.variant), solution.displacement);
+  row.measure_error_percent =
+      measure_errors_percent(reference, field_cells(row.variant), solution.displacement);
 }
 
 /// The reference's variants are the first of the plan.
@@ -54,7 +55,7 @@ void find_reference(Sweep& sweep) {
           "the reference's " + full_name(row.variant) + " was not solved: " + row.run.first.message;
       return;
     }
-    cells[mesh] = row.variant.cells;
+    cells[mesh] = field_cells(row.variant);
     displacement[mesh] = row.run.first.displacement;
   }
   sweep.reference = make_reference(sweep.definition, cells, displacement);
@@ -81,8 +82,10 @@ Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules&
   sweep.plan = plan_sweep(definition, extent);
   sweep.rules = rules;
   MPI_Comm_size(MPI_COMM_WORLD, &sweep.n_ranks);
-  if (sweep.n_ranks > 1 || is_under_mpi_launcher()) sweep.processes = Processes::this_one;
-  if (const auto reason = reason_without_continuum_limit(scene_on(definition, sweep.plan.reference[1].cells)))
+  if (extent == Extent::quick || sweep.n_ranks > 1 || is_under_mpi_launcher())
+    sweep.processes = Processes::this_one;
+  if (const auto reason =
+          reason_without_continuum_limit(scene_on(definition, field_cells(sweep.plan.reference[1]))))
     throw cases::InputError(definition.file + ": no reference to measure errors against: " + *reason);
 
   for (std::size_t v = 0; v < sweep.plan.variants.size(); ++v) {

@@ -33,8 +33,9 @@ struct Sweep {
 };
 
 /// Solves and times the plan's variants one after the other, each in a process of its own, and holds them
-/// against the extrapolated reference. A variant that fails is a row with its reason. Under MPI everything
-/// runs in this process (collective; rank 0 alone has the springs' rows), and memory is not told.
+/// against the extrapolated reference. A variant that fails is a row with its reason. A quick sweep, and any
+/// under MPI, runs in this process, and then memory is not told (collective; rank 0 alone has the springs'
+/// rows).
 /// @param program  whose hidden command `worker` serves
 /// @param on_row   told the sweep as it is after every variant
 /// @throws InputError for a case without a continuum limit, with another body than a box, or with measures

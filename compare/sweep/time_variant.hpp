@@ -11,7 +11,7 @@ namespace compare {
 /// How often a variant is timed.
 struct TimingRules {
   int repetitions = 5;       ///< after a warm-up
-  double budget_seconds = 3; ///< for the repetitions together
+  double budget_seconds = 2; ///< for the repetitions together
 };
 
 /// Repetitions that follow a first round of that many seconds: as many as the budget pays for, at most those
@@ -23,8 +23,10 @@ constexpr double load_change = 0.05;
 
 /// A variant's answer, what it took, and how long. Wall-clock seconds, one entry per repetition.
 struct VariantRun {
-  cases::Solution first; ///< from rest; failed or skipped with the reason as its message
-  cases::Solution again; ///< after the load change, from the displacement before it; without displacement
+  cases::Solution
+      first; ///< from rest, displacement on the grid of field_cells(); failed or skipped with the reason
+  cases::Solution again; ///< after the load change, from the displacement before it; without displacement;
+                         ///< skipped with the reason when the first solve takes longer than the budget
   std::vector<double> setup_seconds;
   std::vector<double> first_seconds;
   std::vector<double> again_seconds;

@@ -22,6 +22,13 @@ std::string cells_name(const std::array<int, 3>& cells) {
   return fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
 }
 
+std::array<int, 3> field_cells(const Variant& variant) {
+  std::array<int, 3> cells = variant.cells;
+  if (variant.program == Program::finite_elements && variant.element == cases::Element::q2)
+    for (int& n : cells) n *= 2;
+  return cells;
+}
+
 std::string full_name(const Variant& variant) {
   const std::string name = method_name(variant) + " " + cells_name(variant.cells);
   if (variant.program == Program::calculix) return name;

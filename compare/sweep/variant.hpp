@@ -30,6 +30,10 @@ std::string method_name(const Variant& variant);
 /// "8x8x8"
 std::string cells_name(const std::array<int, 3>& cells);
 
+/// The grid on whose nodes a variant knows displacements: that of its cells, for a quadratic element of twice
+/// as many.
+std::array<int, 3> field_cells(const Variant& variant);
+
 /// Method, cells and tolerance.
 std::string full_name(const Variant& variant);
 

@@ -41,7 +41,7 @@ Json reference_to_json(const Sweep& sweep) {
   if (!sweep.reference) return {{"reason", sweep.reason_without_reference}};
   Json document{{"method", method_name(sweep.plan.reference.front())},
                 {"meshes", Json::array()},
-                {"compared_on", sweep.plan.reference[1].cells},
+                {"compared_on", sweep.reference->scene.mesh.grid->cells},
                 {"field", value_to_json(sweep.reference->field)},
                 {"measures", Json::array()}};
   for (const Variant& mesh : sweep.plan.reference) document["meshes"].push_back(mesh.cells);

@@ -32,9 +32,9 @@ void write_head(std::ostream& out, const Sweep& sweep) {
     fmt::print(out, "  one variant at a time, each in a process of its own, on one thread\n");
   else
     fmt::print(out,
-               "  under MPI: finite elements on {} ranks, all else on rank 0, one thread each; all in one "
-               "process, so no memory\n",
-               sweep.n_ranks);
+               "  one variant at a time, all in one process, so no memory; {} rank{}, one thread each{}\n",
+               sweep.n_ranks, sweep.n_ranks == 1 ? "" : "s",
+               sweep.n_ranks == 1 ? "" : " (springs on the first alone)");
   fmt::print(out,
              "  times: median (quartiles) of n rounds after a warm-up round; n = {} unless {:g} s do not pay "
              "for as many, 1* = no warm-up\n",
@@ -72,7 +72,7 @@ void write_reference(std::ostream& out, const Sweep& sweep) {
   const auto& meshes = sweep.plan.reference;
   fmt::print(out, "reference: {} on {}, {} and {}, extrapolated; displacements are compared on {}\n",
              method_name(meshes[0]), cells_name(meshes[0].cells), cells_name(meshes[1].cells),
-             cells_name(meshes[2].cells), cells_name(meshes[1].cells));
+             cells_name(meshes[2].cells), cells_name(sweep.reference->scene.mesh.grid->cells));
   const auto line = [&](const ReferenceValue& v) {
     fmt::print(out, "  {:<24} {:>12.6g} {:<4} +- {:.2g} %{}\n", v.name, v.value, v.unit,
                v.uncertainty_percent, v.note.empty() ? "" : "  (" + v.note + ")");
