@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <limits>
 
 namespace compare {
 
@@ -93,8 +94,15 @@ std::string script_of(const Sweep& sweep, const Picture& picture, const std::vec
       "set title '{}: {}' noenhanced\nset logscale xy\nset xlabel 'time, ms'\nset ylabel 'error, %'\n"
       "set key outside right noenhanced\nset format x '%g'\nset format y '%g'\n",
       sweep.definition.name, picture.title);
+  double least = std::numeric_limits<double>::infinity(); // error that is drawn
+  for (const Series& series : all)
+    for (const auto* points : {&series.tight, &series.loose})
+      for (const Point& p : *points) least = std::min(least, p.error_percent);
   const double uncertainty = uncertainty_percent(*sweep.reference, picture.error);
-  if (uncertainty > 0)
+  // A much smaller uncertainty would leave no room for the errors.
+  const double bottom = 0.7 * std::clamp(uncertainty, least / 10, least);
+  script += fmt::format("set yrange [{:.6g}:*]\n", bottom);
+  if (uncertainty > bottom)
     script +=
         fmt::format("set object rectangle from graph 0, graph 0 to graph 1, first {:.6g} fc rgb '#dddddd' "
                     "fs solid noborder behind\n",

@@ -86,8 +86,8 @@ void write_reference(std::ostream& out, const Sweep& sweep) {
 void write_sweep_text(std::ostream& out, const Sweep& sweep) {
   write_head(out, sweep);
   fmt::print(out, "  {:<34}{:>10} {:>6} {:>8} {:>3} {:>22} {:>22} {:>22} {:>4} {:>5} {:>4} {:>5} {:>7} {:>8}",
-             "method", "cells", "to", "unknowns", "n", "setup, ms", "first solve, ms", "re-solve, ms", "New.",
-             "CG", "fac.", "for.", "MB", "field %");
+             "method", "cells", "tol.", "unknowns", "n", "setup, ms", "first solve, ms", "re-solve, ms",
+             "New.", "CG", "fac.", "for.", "MB", "field %");
   for (const cases::Measure& measure : sweep.definition.measures)
     fmt::print(out, " {:>9}", measure.name + " %");
   fmt::print(out, "\n");
