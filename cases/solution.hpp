@@ -25,6 +25,8 @@ struct Solution {
   int newton_iterations = 0;
   long linear_iterations = 0;
   long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations
+  long force_evaluations = 0;     ///< internal forces of the whole body, with or without their tangent
+  long factorisations = 0;        ///< of a tangent matrix; 0 where none is assembled
   std::optional<double>
       lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
   std::optional<int>

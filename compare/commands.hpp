@@ -15,6 +15,7 @@ void add_eigen_command(CLI::App& program, Action& chosen);
 void add_gate_command(CLI::App& program, Action& chosen);
 void add_run_command(CLI::App& program, Action& chosen);
 void add_stress_command(CLI::App& program, Action& chosen);
+void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
 void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see pool/solve_jobs.hpp
 

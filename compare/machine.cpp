@@ -25,6 +25,14 @@ std::string processor_name() {
 
 } // namespace
 
+/// Not getrusage(): its figure is inherited from the process that started this one.
+std::optional<double> peak_resident_megabytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmHWM:", 0) == 0) return std::stod(line.substr(6)) * 1024e-6; // KiB
+  return std::nullopt;
+}
+
 bool blas_is_openblas() {
   return find_function<char*()>("openblas_get_config") != nullptr;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace compare {
@@ -14,6 +15,10 @@ struct Machine {
 };
 
 Machine describe_machine();
+
+/// The most memory that this process has had resident, in units of 10^6 bytes; nothing where the system does
+/// not tell.
+std::optional<double> peak_resident_megabytes();
 
 /// Whether the BLAS that this process loaded is OpenBLAS.
 bool blas_is_openblas();

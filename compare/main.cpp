@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   compare::add_design_command(program, chosen);
   compare::add_eigen_command(program, chosen);
   compare::add_stress_command(program, chosen);
+  compare::add_sweep_command(program, chosen);
   compare::add_tables_command(program, chosen);
   compare::add_worker_command(program, chosen);
   try {

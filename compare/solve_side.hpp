@@ -5,6 +5,20 @@
 
 namespace compare {
 
+/// What is known of a solve that failed.
+inline cases::Solution failed_solution(const cases::SolveError& error) {
+  cases::Solution solution;
+  solution.status = cases::Status::failed;
+  solution.message = error.what();
+  solution.outcome = error.outcome();
+  solution.load_reached = error.load_reached();
+  solution.residual = error.residual();
+  solution.newton_iterations = error.progress().newton_iterations;
+  solution.lowest_eigenvalue = error.progress().lowest_eigenvalue;
+  solution.inverted_cells = error.progress().inverted_cells;
+  return solution;
+}
+
 /// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed side.
 /// @param make_model  answers a model   @param solve  answers the model's solution
 template<class MakeModel, class Solve>
@@ -16,15 +30,7 @@ Side solve_side(const MakeModel& make_model, const Solve& solve) {
     side.setup_seconds = stopwatch.lap();
     side.solution = solve(model);
   } catch (const cases::SolveError& error) {
-    side.solution = {};
-    side.solution.status = cases::Status::failed;
-    side.solution.message = error.what();
-    side.solution.outcome = error.outcome();
-    side.solution.load_reached = error.load_reached();
-    side.solution.residual = error.residual();
-    side.solution.newton_iterations = error.progress().newton_iterations;
-    side.solution.lowest_eigenvalue = error.progress().lowest_eigenvalue;
-    side.solution.inverted_cells = error.progress().inverted_cells;
+    side.solution = failed_solution(error);
   }
   side.solve_seconds = stopwatch.lap();
   return side;

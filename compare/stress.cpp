@@ -16,7 +16,7 @@ Side solve_fem(const cases::HardCase& hard_case) {
     const cases::Scene scene = cases::make_scene(hard_case.definition);
     return solve_side(
         [&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-        [&](fem_reference::Model& model) { return model.solve(1.0 / hard_case.least_load_steps); });
+        [&](fem_reference::Model& model) { return model.solve({1.0 / hard_case.least_load_steps}); });
   });
 }
 

@@ -1,16 +1,21 @@
 #include "compare/commands.hpp"
 #include "compare/pool/process_pool.hpp"
 #include "compare/pool/solve_jobs.hpp"
+#include "compare/sweep/time_variant.hpp"
+
+#include <memory>
 
 namespace compare {
 
 void add_worker_command(CLI::App& program, Action& chosen) {
   CLI::App* command = program.add_subcommand("worker", "solves what its parent process asks for");
   command->group(""); // not for users: left out of the help
-  command->callback([&chosen] {
+  auto is_timing = std::make_shared<bool>(false);
+  command->add_flag("--timing", *is_timing, "variants of a sweep in place of cases");
+  command->callback([is_timing, &chosen] {
     end_with_parent();
-    chosen = [] {
-      serve_jobs(answer_job);
+    chosen = [is_timing] {
+      serve_jobs(*is_timing ? answer_variant : answer_job);
       return 0;
     };
   });

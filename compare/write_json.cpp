@@ -84,6 +84,8 @@ Json side_to_json(const Side& side) {
           {"newton_iterations", s.newton_iterations},
           {"linear_iterations", s.linear_iterations},
           {"relaxation_iterations", s.relaxation_iterations},
+          {"force_evaluations", s.force_evaluations},
+          {"factorisations", s.factorisations},
           {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
           {"negative_eigenvalues", or_null(s.negative_eigenvalues)},
           {"inverted_cells", s.inverted_cells},

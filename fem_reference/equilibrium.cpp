@@ -158,6 +158,7 @@ bool Equilibrium::add_cell(int cell, const double* displacement, const State& st
 
 Imbalance Equilibrium::evaluate(const State& state, double load_factor, Wanted wanted) {
   const auto& d = discretisation_;
+  ++n_evaluations_;
   begin_assembly(state, load_factor);
   if (wanted == Wanted::stress_and_tangent) check(MatZeroEntries(d.tangent));
   bool valid = true;
@@ -178,8 +179,25 @@ Imbalance Equilibrium::evaluate(const State& state, double load_factor, Wanted w
     check(MatAssemblyEnd(d.tangent, MAT_FINAL_ASSEMBLY));
   }
   gather(local_force_, force_.get());
-  if (wanted == Wanted::stress_and_tangent) form_right_hand_side(load_factor);
-  return measure(valid, load_factor);
+  if (wanted == Wanted::stress_and_tangent) {
+    form_right_hand_side(load_factor);
+    ++n_tangents_;
+  }
+  const Imbalance imbalance = measure(valid, load_factor);
+  if (wanted == Wanted::stress_and_tangent) has_tangent_ = imbalance.valid; // on all ranks alike
+  return imbalance;
+}
+
+Imbalance Equilibrium::evaluate_for_correction(const State& state, double load_factor) {
+  if (formulation_.kinematics == Kinematics::linear && has_tangent_) {
+    const Imbalance imbalance = evaluate(state, load_factor, Wanted::stress);
+    if (imbalance.prescribed_gap == 0) { // supports that have to move ask the tangent for the forces of that
+      std::fill(pressure_residual_.begin(), pressure_residual_.end(), 0.);
+      form_right_hand_side(load_factor);
+      return imbalance;
+    }
+  }
+  return evaluate(state, load_factor, Wanted::stress_and_tangent);
 }
 
 /// Minus the condensed imbalance on free degrees of freedom, the prescribed gap on fixed ones.

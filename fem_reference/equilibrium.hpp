@@ -32,6 +32,11 @@ class Equilibrium {
   /// Imbalance of a state; with a tangent wanted, the discretisation's matrix and right_hand_side() too.
   Imbalance evaluate(const State& state, double load_factor, Wanted wanted);
 
+  /// The same with the tangent and right_hand_side(), but a tangent that cannot have changed since it was
+  /// last assembled, a linear body's, is left as it is. The state's pressures are balanced: at rest or solved
+  /// for.
+  Imbalance evaluate_for_correction(const State& state, double load_factor);
+
   /// Completes a Newton correction whose displacement has been solved for: prescribed values and condensed
   /// pressures.
   void complete_correction(State& correction);
@@ -41,6 +46,11 @@ class Equilibrium {
 
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state);
+
+  /// Calls of evaluate() so far.
+  long n_evaluations() const { return n_evaluations_; }
+  /// Tangents assembled so far.
+  long n_tangents() const { return n_tangents_; }
 
   Vec right_hand_side() const { return right_hand_side_.get(); }
   const Discretisation& discretisation() const { return discretisation_; }
@@ -63,6 +73,8 @@ class Equilibrium {
   std::vector<double> volume_residual_;                    ///< R of every cell, mm³
   double largest_mismatch_ = 0;
   double load_norm_ = 0;
+  long n_evaluations_ = 0, n_tangents_ = 0;
+  bool has_tangent_ = false; ///< one that was assembled at a valid state
 };
 
 } // namespace fem_reference

@@ -81,8 +81,10 @@ LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
   check(KSPSetFromOptions(solver));
 }
 
-LinearSolver::Outcome LinearSolver::solve(Vec right_hand_side, Vec solution) {
+LinearSolver::Outcome LinearSolver::solve(Vec right_hand_side, Vec solution, long tangent_number) {
   check(KSPSetOperators(solver_.get(), tangent_, tangent_));
+  if (is_direct() && tangent_number != factorised_number_) ++n_factorisations_; // PETSc factorises anew then
+  factorised_number_ = tangent_number;
   check(KSPSolve(solver_.get(), right_hand_side, solution));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;

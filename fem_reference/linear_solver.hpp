@@ -21,8 +21,13 @@ class LinearSolver {
     bool solved;
     int iterations; ///< of the Krylov method; 0 for a direct solve
   };
-  /// Solves with the discretisation's tangent as it is now.
-  Outcome solve(Vec right_hand_side, Vec solution);
+  /// Solves with the discretisation's tangent as it is now; one that has not changed stays factorised.
+  /// @param tangent_number  from 1, another one whenever the tangent has been assembled: for the count of
+  /// factorisations
+  Outcome solve(Vec right_hand_side, Vec solution, long tangent_number);
+
+  /// Factorisations so far by solve(); 0 with a Krylov method.
+  long n_factorisations() const { return n_factorisations_; }
 
   /// Negative eigenvalues of the symmetric part of the tangent last solved with, counted by MUMPS as negative
   /// pivots; nothing when that solve was iterative. An unsymmetric tangent is factorised once more for it.
@@ -35,6 +40,8 @@ class LinearSolver {
   Solver solver_;
   Mat tangent_;
   TangentSymmetry symmetry_;
+  long n_factorisations_ = 0;
+  long factorised_number_ = 0; ///< of the tangent last solved with
 };
 
 } // namespace fem_reference

@@ -15,8 +15,8 @@ constexpr double smallest_fraction = 1. / 64; ///< of a Newton correction
 /// Work left on a correction after it, of that at its start: it must fall a little at least.
 constexpr double accepted_work = 0.9;
 
-bool in_equilibrium(const Imbalance& imbalance) {
-  return imbalance.valid && imbalance.residual <= residual_tolerance &&
+bool in_equilibrium(const Imbalance& imbalance, double tolerance) {
+  return imbalance.valid && imbalance.residual <= tolerance &&
          imbalance.volume_mismatch <= volume_tolerance && imbalance.prescribed_gap <= 1e-12;
 }
 
@@ -70,11 +70,12 @@ Merit merit_of(const Equilibrium& equilibrium, const Imbalance& imbalance) {
 
 } // namespace
 
-NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state, double load_factor) {
+NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state, double load_factor,
+                    double tolerance) {
   NewtonReport report;
   State correction = equilibrium.rest(), start = equilibrium.rest();
   const bool linear = equilibrium.formulation().kinematics == Kinematics::linear;
-  Imbalance imbalance = equilibrium.evaluate(state, load_factor, Wanted::stress_and_tangent);
+  Imbalance imbalance = equilibrium.evaluate_for_correction(state, load_factor);
   bool has_tangent = true;
   for (; report.iterations < most_iterations; ++report.iterations) {
     report.residual = imbalance.residual;
@@ -82,12 +83,13 @@ NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state
       report.failure = "cells turn inside out";
       return report;
     }
-    if (in_equilibrium(imbalance)) {
+    if (in_equilibrium(imbalance, tolerance)) {
       report.converged = true;
       return report;
     }
-    if (!has_tangent) equilibrium.evaluate(state, load_factor, Wanted::stress_and_tangent);
-    const auto solved = solver.solve(equilibrium.right_hand_side(), correction.displacement.get());
+    if (!has_tangent) equilibrium.evaluate_for_correction(state, load_factor);
+    const auto solved =
+        solver.solve(equilibrium.right_hand_side(), correction.displacement.get(), equilibrium.n_tangents());
     report.linear_iterations += solved.iterations;
     if (!solved.solved) {
       report.failure = "the linear solver failed";
@@ -109,14 +111,17 @@ NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state
     has_tangent = wanted == Wanted::stress_and_tangent;
   }
   report.residual = imbalance.residual;
-  report.converged = in_equilibrium(imbalance);
+  report.converged = in_equilibrium(imbalance, tolerance);
   if (!report.converged) report.failure = "Newton's method does not converge";
   return report;
 }
 
-NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state, double largest_step) {
+NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state,
+                        const LoadSteps& steps) {
   State reached_state = equilibrium.rest(), increment = equilibrium.rest();
-  double reached = 0, step = largest_step, last_step = 0;
+  equilibrium.copy(state, reached_state);
+  const auto load_factor = [&](double way) { return steps.from + way * (steps.to - steps.from); };
+  double reached = 0, step = steps.largest, last_step = 0; // of the way
   NewtonReport whole;
   while (reached < 1) {
     step = std::min(step, 1 - reached);
@@ -124,7 +129,7 @@ NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& s
     const double target = 1 - reached - step < smallest_step ? 1 : reached + step;
     equilibrium.copy(reached_state, state);
     if (last_step > 0) equilibrium.advance(state, (target - reached) / last_step, increment);
-    const NewtonReport report = newton(equilibrium, solver, state, target);
+    const NewtonReport report = newton(equilibrium, solver, state, load_factor(target), steps.tolerance);
     whole.iterations += report.iterations;
     whole.linear_iterations += report.linear_iterations;
     whole.residual = report.residual;
@@ -134,14 +139,14 @@ NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& s
       equilibrium.copy(state, reached_state);
       last_step = target - reached;
       reached = target;
-      if (report.iterations <= easy_iterations) step = std::min(2 * step, largest_step);
+      if (report.iterations <= easy_iterations) step = std::min(2 * step, steps.largest);
     } else {
       step = (target - reached) / 2;
     }
     if (step < smallest_step || whole.iterations > most_total_iterations)
-      throw cases::SolveError("equilibrium lost at load factor " + std::to_string(reached) + ": " +
-                                  report.failure,
-                              reached, report.residual, cases::Outcome::unknown, {whole.iterations});
+      throw cases::SolveError(
+          "equilibrium lost at load factor " + std::to_string(load_factor(reached)) + ": " + report.failure,
+          load_factor(reached), report.residual, cases::Outcome::unknown, {whole.iterations});
   }
   whole.converged = true;
   return whole;

@@ -7,8 +7,7 @@
 
 namespace fem_reference {
 
-constexpr double residual_tolerance = 1e-10; ///< |imbalance| / |applied load| asked of every load step
-constexpr double volume_tolerance = 1e-12;   ///< relative volume of a cell's condensed pressure
+constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
 
 struct NewtonReport {
   bool converged = false;
@@ -18,15 +17,22 @@ struct NewtonReport {
   double residual = 0;
 };
 
+/// What is asked of every load step, and how far one goes.
+struct LoadSteps {
+  double from = 0, to = 1;  ///< load factors; the state given is in equilibrium at the first
+  double largest = 1;       ///< of the way from one to the other
+  double tolerance = 1e-10; ///< on |imbalance| / |applied load|
+};
+
 /// Newton's method with a line search at one load factor, from the state given, which it changes. Never more
 /// than a fixed number of iterations.
-NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state, double load_factor);
+NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state, double load_factor,
+                    double tolerance);
 
-/// From rest to the full load. The first step is the largest allowed; a step that fails is halved, one that
+/// From one load to another. The first step is the largest allowed; a step that fails is halved, one that
 /// converges easily is doubled, and a step starts from the last increment extrapolated.
-/// @param largest_step  of the full load
 /// @throws SolveError when the step gets too small or the iterations too many
 NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state,
-                        double largest_step = 1);
+                        const LoadSteps& steps = {});
 
 } // namespace fem_reference

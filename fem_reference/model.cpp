@@ -3,6 +3,7 @@
 #include "fem_reference/load_path.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fem_reference {
 
@@ -24,16 +25,20 @@ struct Model::Implementation {
       : scene(the_scene), formulation(make_formulation(scene.definition.fem, scene.definition.material)),
         discretisation(cases::refine(scene, scene.definition.fem.refine),
                        element_type(scene.definition.fem, formulation), {}, communicator),
-        equilibrium(discretisation, formulation), solver(discretisation, formulation.symmetry) {}
+        equilibrium(discretisation, formulation), solver(discretisation, formulation.symmetry),
+        last(equilibrium.rest()) {}
 
   std::vector<Eigen::Vector3d> body_displacement(const State& state) const;
   std::vector<double> body_cell_volumes(const State& state);
+  cases::Solution solve(const LoadSteps& steps, Stability stability);
 
   cases::Scene scene; ///< on the body's own mesh
   Formulation formulation;
   Discretisation discretisation;
   Equilibrium equilibrium;
   LinearSolver solver;
+  State last;                  ///< the equilibrium last found
+  double last_load_factor = 0; ///< its load; 0: at rest
 };
 
 /// The nodes of the body's mesh are the first of the refined mesh.
@@ -70,28 +75,71 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator)
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
-cases::Solution Model::solve(double largest_load_step) {
+cases::Solution Model::solve(const SolveSettings& settings) {
   Implementation& m = *implementation_;
-  State state = m.equilibrium.rest();
-  const NewtonReport report = carry_load(m.equilibrium, m.solver, state, largest_load_step);
+  m.last = m.equilibrium.rest();
+  m.last_load_factor = 0;
+  return m.solve({0, 1, settings.largest_load_step, settings.tolerance}, settings.stability);
+}
+
+cases::Solution Model::solve_again(double load_factor, const SolveSettings& settings) {
+  Implementation& m = *implementation_;
+  return m.solve({m.last_load_factor, load_factor, settings.largest_load_step, settings.tolerance},
+                 settings.stability);
+}
+
+cases::Solution Model::Implementation::solve(const LoadSteps& steps, Stability stability) {
+  const long evaluations = equilibrium.n_evaluations(), factorisations = solver.n_factorisations();
+  State state = equilibrium.rest();
+  equilibrium.copy(last, state);
+  const NewtonReport report = carry_load(equilibrium, solver, state, steps);
+  equilibrium.copy(state, last);
+  last_load_factor = steps.to;
   cases::Solution solution;
   solution.status = cases::Status::converged;
-  solution.displacement = m.body_displacement(state);
-  solution.cell_volume = m.body_cell_volumes(state);
-  solution.unknowns = static_cast<std::size_t>(m.discretisation.n_unknowns);
+  solution.displacement = body_displacement(state);
+  solution.cell_volume = body_cell_volumes(state);
+  solution.unknowns = static_cast<std::size_t>(discretisation.n_unknowns);
   solution.residual = report.residual;
-  solution.load_reached = 1;
+  solution.load_reached = steps.to;
   solution.newton_iterations = report.iterations;
   solution.linear_iterations = report.linear_iterations;
-  solution.negative_eigenvalues = m.solver.negative_eigenvalues();
+  solution.force_evaluations = equilibrium.n_evaluations() - evaluations;
+  solution.factorisations = solver.n_factorisations() - factorisations;
+  if (stability == Stability::report) solution.negative_eigenvalues = solver.negative_eigenvalues();
   if (solution.negative_eigenvalues)
     solution.outcome = *solution.negative_eigenvalues == 0 ? cases::Outcome::stable_equilibrium
                                                            : cases::Outcome::unstable_equilibrium;
-  for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
-    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
-          0))
+  for (std::size_t cell = 0; cell < scene.mesh.cells.size(); ++cell)
+    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, cell, solution.displacement)) > 0))
       ++solution.inverted_cells;
   return solution;
+}
+
+std::vector<NodeDisplacement> Model::node_displacements() const {
+  const Implementation& m = *implementation_;
+  const Discretisation& d = m.discretisation;
+  std::vector<double> own;
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(m.last.displacement.get(), &values));
+  for (std::size_t node = 0; node < index(d.n_owned_nodes); ++node) {
+    own.insert(own.end(), d.node_point[node].data(), d.node_point[node].data() + 3);
+    own.insert(own.end(), values + 3 * node, values + 3 * node + 3);
+  }
+  check(VecRestoreArrayRead(m.last.displacement.get(), &values));
+  int n_ranks = 1;
+  MPI_Comm_size(d.communicator, &n_ranks);
+  std::vector<int> size(index(n_ranks)), start(index(n_ranks), 0);
+  const int own_size = static_cast<int>(own.size());
+  MPI_Allgather(&own_size, 1, MPI_INT, size.data(), 1, MPI_INT, d.communicator);
+  std::partial_sum(size.begin(), size.end() - 1, start.begin() + 1);
+  std::vector<double> all(index(start.back() + size.back()));
+  MPI_Allgatherv(own.data(), own_size, MPI_DOUBLE, all.data(), size.data(), start.data(), MPI_DOUBLE,
+                 d.communicator);
+  std::vector<NodeDisplacement> nodes;
+  for (std::size_t i = 0; i < all.size(); i += 6)
+    nodes.push_back({Eigen::Vector3d(all.data() + i), Eigen::Vector3d(all.data() + i + 3)});
+  return nodes;
 }
 
 } // namespace fem_reference

@@ -52,6 +52,7 @@ class DirectSystem : public EquilibriumSystem {
   const Vector& load() const override { return load_; }
 
   Vector imbalance(const Vector& displacement, double load_factor) override {
+    ++work_.force_evaluations;
     return load_factor * load_ +
            on_free(to_vector(problem_, internal_force(problem_.lattice, positions(displacement))));
   }
@@ -118,6 +119,8 @@ class DirectSystem : public EquilibriumSystem {
     return std::sqrt(squared);
   }
 
+  Work work() const override { return work_; }
+
  private:
   static constexpr double rounding = 1e-12; ///< far above 1e-16, far below 1e-8, the least honest pivot seen
 
@@ -129,6 +132,7 @@ class DirectSystem : public EquilibriumSystem {
   TransverseTerm factorised_term_{};
   double factorised_shift_ = 0;
   bool is_definite_ = false;
+  Work work_;
 
   /// A vector of forces: 0 on supports.
   Vector on_free(Vector all) const {
@@ -157,6 +161,7 @@ class DirectSystem : public EquilibriumSystem {
     diagonal_ = matrix.diagonal();
     factorisation_.setShift(shift);
     factorisation_.factorize(matrix);
+    ++work_.factorisations;
     factorised_at_ = displacement;
     factorised_term_ = term;
     factorised_shift_ = shift;

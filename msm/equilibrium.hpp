@@ -64,8 +64,14 @@ class EquilibriumSystem {
   /// against.
   virtual double reaction(const Vector& displacement) = 0;
 
-  /// Iterations of the linear solver so far; 0 for a direct one.
-  virtual long linear_iterations() const { return 0; }
+  /// What the system was asked to do.
+  struct Work {
+    long linear_iterations = 0; ///< of the iterative linear solver
+    long factorisations = 0;    ///< of the tangent
+    long force_evaluations = 0; ///< calls of imbalance()
+  };
+  /// Since the system was made; what a kind of system does not count is 0.
+  virtual Work work() const { return {}; }
 };
 
 enum class LowestEigenvalue { skip, report };
@@ -83,7 +89,7 @@ struct EquilibriumSettings {
   double largest_load_step = 1;             ///< of the full load
   double smallest_load_step = 1e-4;         ///< of the full load; a step below it means a limit point
   LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
-  Stability stability = Stability::require; ///< ignore: for a guess
+  Stability stability = Stability::require; ///< ignore: for a guess, or where it is known
   std::optional<Vector> guess;              ///< displacement at full load to try first
 };
 

@@ -82,7 +82,9 @@ Path Model::path() const {
 }
 
 cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& start) {
+  const EquilibriumSystem::Work before = implementation_->system->work();
   const Equilibrium equilibrium = implementation_->solve(settings, start);
+  const EquilibriumSystem::Work after = implementation_->system->work();
   const std::vector<bool>& is_fixed = implementation_->problem.is_fixed;
   cases::Solution solution;
   solution.status = cases::Status::converged;
@@ -93,7 +95,9 @@ cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& 
   solution.load_reached = equilibrium.load_reached;
   solution.newton_iterations = equilibrium.newton_iterations;
   solution.relaxation_iterations = equilibrium.relaxation_iterations;
-  solution.linear_iterations = implementation_->system->linear_iterations();
+  solution.linear_iterations = after.linear_iterations - before.linear_iterations;
+  solution.factorisations = after.factorisations - before.factorisations;
+  solution.force_evaluations = after.force_evaluations - before.force_evaluations;
   solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
   solution.displacement = implementation_->to_points(equilibrium.displacement);
   measure_cells(implementation_->problem.mesh, solution);

@@ -45,6 +45,7 @@ class GridSystem : public EquilibriumSystem {
   const Vector& load() const override { return problem_.load; }
 
   Vector imbalance(const Vector& displacement, double load_factor) override {
+    ++work_.force_evaluations;
     Vector force = Vector::Zero(displacement.size());
     springs_.force(displacement, force);
     add(force, load_factor, problem_.load, n_threads_);
@@ -184,8 +185,8 @@ class GridSystem : public EquilibriumSystem {
     return std::sqrt(squared);
   }
 
-  long linear_iterations() const override {
-    return linear_iterations_;
+  Work work() const override {
+    return work_;
   }
 
  private:
@@ -201,7 +202,7 @@ class GridSystem : public EquilibriumSystem {
   std::optional<SpringField<double>> loose_springs_;
   Vector linearised_at_, probe_, mode_at_;
   Mode mode_{};
-  long linear_iterations_ = 0;
+  Work work_;
 
   double norm(const Vector& v) const {
     return std::sqrt(dot(v, v, n_threads_));
@@ -235,7 +236,7 @@ class GridSystem : public EquilibriumSystem {
     for (const bool may_be_misled : {true, false}) {
       const ConjugateGradients found =
           conjugate_gradients(apply, precondition, right_side, forcing, max_iterations, n_threads_);
-      linear_iterations_ += found.iterations;
+      work_.linear_iterations += found.iterations;
       if (found.converged) return found.solution;
       if (found.met_negative_curvature || !may_be_misled) break;
       multigrid_.emplace(bodies_, n_threads_);

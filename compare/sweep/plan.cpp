@@ -1,0 +1,132 @@
+#include "compare/sweep/plan.hpp"
+
+#include "cases/error.hpp"
+#include "cases/names.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace compare {
+
+namespace {
+
+using cases::Element;
+using cases::Formulation;
+
+constexpr std::array<Element, 3> elements{Element::q1, Element::q1_bbar, Element::q2};
+constexpr std::array<cases::Design, 5> designs{cases::Design::linear_method, cases::Design::nonlinear_method,
+                                               cases::Design::moduli, cases::Design::hybrid,
+                                               cases::Design::multi_load};
+constexpr double tight = 1e-9;
+constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
+
+/// Unknowns above which a solve takes so long that three cubes would not be swept in ten minutes on two
+/// cores.
+struct Limits {
+  long loose;    ///< finite elements of other tolerances than the tight one
+  long finite;   ///< finite strain
+  long small;    ///< small strain
+  long calculix; ///< which factorises with SPOOLES
+};
+constexpr Limits limits{3000, 20000, 60000, 10000};
+
+std::vector<std::array<int, 3>> levels_of(const cases::Box& box, int n_levels) {
+  std::array<int, 3> cells = box.cells;
+  if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
+    for (int& n : cells) n /= 2;
+  std::vector<std::array<int, 3>> levels;
+  for (int level = 0; level < n_levels; ++level) {
+    levels.push_back(cells);
+    for (int& n : cells) n *= 2;
+  }
+  return levels;
+}
+
+Variant finite_elements(Formulation formulation, Element element, const std::array<int, 3>& cells,
+                        double tolerance) {
+  return {Program::finite_elements, {}, formulation, element, cells, tolerance};
+}
+
+void add_springs(Plan& plan, Extent extent) {
+  for (const cases::Design design : designs)
+    for (const auto& cells : plan.levels)
+      for (const double tolerance : tolerances)
+        if (extent == Extent::full || tolerance == tight)
+          plan.variants.push_back({Program::springs, design, {}, {}, cells, tolerance});
+}
+
+void add_finite_elements(Plan& plan, Formulation formulation, Element element, Extent extent) {
+  const bool is_linear = formulation == Formulation::small_strain;
+  for (const auto& cells : plan.levels) {
+    const long size = n_unknowns(cells, element);
+    const auto is_reference = [&](const Variant& v) {
+      return v.formulation == formulation && v.element == element && v.cells == cells;
+    };
+    if (std::any_of(plan.reference.begin(), plan.reference.end(), is_reference) && size > limits.loose)
+      continue; // it is in the plan already
+    const std::string name =
+        cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
+    const long limit = is_linear ? limits.small : limits.finite;
+    if (size > limit) {
+      plan.left_out.push_back({name, fmt::format("{} unknowns, above the limit of {}", size, limit)});
+      continue;
+    }
+    for (const double tolerance : tolerances) {
+      const bool is_loose = tolerance != tight;
+      if (is_loose && (is_linear || extent == Extent::quick || size > limits.loose)) continue;
+      if (!is_loose && std::any_of(plan.reference.begin(), plan.reference.end(), is_reference)) continue;
+      plan.variants.push_back(finite_elements(formulation, element, cells, tolerance));
+    }
+    if (!is_linear && extent == Extent::full && size > limits.loose)
+      plan.left_out.push_back({name + " at looser tolerances",
+                               fmt::format("{} unknowns, above the limit of {}", size, limits.loose)});
+  }
+}
+
+void add_calculix(Plan& plan) {
+  for (const Formulation formulation : {Formulation::small_strain, Formulation::saint_venant_kirchhoff})
+    for (const auto& cells : plan.levels) {
+      const Variant variant{Program::calculix, {}, formulation, Element::q1, cells, tight};
+      const long size = n_unknowns(cells, Element::q1);
+      if (size <= limits.calculix)
+        plan.variants.push_back(variant);
+      else
+        plan.left_out.push_back({method_name(variant) + " " + cells_name(cells),
+                                 fmt::format("{} unknowns, above the limit of {}", size, limits.calculix)});
+    }
+}
+
+} // namespace
+
+long n_unknowns(const std::array<int, 3>& cells, Element element) {
+  const int degree = element == Element::q2 || element == Element::q2_p1 ? 2 : 1;
+  long n = 3;
+  for (const int c : cells) n *= degree * c + 1;
+  return n;
+}
+
+Plan plan_sweep(const cases::Case& definition, Extent extent) {
+  const auto* box = std::get_if<cases::Box>(&definition.body);
+  if (!box)
+    throw cases::InputError(definition.file +
+                            ": body.shape: a sweep refines the body, which must be \"box\"");
+  if (!std::holds_alternative<cases::LinearElastic>(definition.material))
+    throw cases::InputError(
+        definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  Plan plan;
+  plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
+  for (std::size_t level = 0; level < 3; ++level)
+    plan.reference.push_back(
+        finite_elements(Formulation::log_strain, Element::q2, plan.levels[level], tight));
+  plan.variants = plan.reference;
+  add_springs(plan, extent);
+  for (const Formulation formulation : {Formulation::small_strain, Formulation::log_strain})
+    for (const Element element : elements) add_finite_elements(plan, formulation, element, extent);
+  if (extent == Extent::full) add_calculix(plan);
+  if (extent == Extent::quick)
+    plan.left_out.push_back(
+        {"CalculiX, the finest level and the looser tolerances", "--quick was asked for"});
+  return plan;
+}
+
+} // namespace compare

@@ -1,0 +1,124 @@
+#include "compare/sweep/reference.hpp"
+
+#include "compare/convergence.hpp"
+#include "compare/measure.hpp"
+#include "compare/sweep/box_interpolation.hpp"
+
+#include <cmath>
+
+namespace compare {
+
+namespace {
+
+using Field = std::vector<Eigen::Vector3d>;
+
+constexpr double mesh_ratio = 2;
+constexpr double factor_with_order = 1.25, factor_without_order = 3; ///< Roache's (1994)
+constexpr double resolved_percent = 1e-7; ///< what a solve to a residual of 1e-9 leaves undecided
+
+/// A displacement as the measures want it; volumes are those of the cells that it deforms.
+cases::Solution as_solution(const cases::Scene& scene, const Field& displacement) {
+  cases::Solution solution;
+  solution.status = cases::Status::converged;
+  solution.displacement = displacement;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c, displacement)));
+  return solution;
+}
+
+cases::Measure field_measure() {
+  cases::Measure measure{};
+  measure.name = "displacement field";
+  measure.kind = cases::MeasureKind::displacement_field_l2;
+  return measure;
+}
+
+/// L2 norm of other - truth over that of truth, percent.
+std::optional<double> difference_percent(const cases::Scene& scene, const Field& truth, const Field& other) {
+  return measure_error_percent(field_measure(), scene, as_solution(scene, truth), as_solution(scene, other));
+}
+
+ReferenceValue judge(const std::string& name, const std::string& unit, const std::vector<double>& values) {
+  const MeshVerdict verdict = judge_refinement(values, mesh_ratio);
+  const double finest = values.back();
+  if (const auto* limit = std::get_if<MeshLimit>(&verdict))
+    return {name, unit, limit->extrapolated, limit->index_percent, ""};
+  const double change = 100 * std::abs((finest - values[values.size() - 2]) / finest);
+  return {name, unit, finest, factor_without_order * change, std::get<std::string>(verdict)};
+}
+
+/// Extrapolates the displacement on the middle mesh.
+ReferenceValue judge_field(const cases::Scene& coarsest, const std::array<Field, 3>& on_coarsest,
+                           const Field& middle, Field& finest) {
+  const double before = difference_percent(coarsest, on_coarsest[2], on_coarsest[0]).value_or(0);
+  const double last = difference_percent(coarsest, on_coarsest[2], on_coarsest[1]).value_or(0);
+  // The middle and the coarsest mesh's distances to the finest are in the ratio (r^2p - 1)/(r^p - 1) = r^p
+  // + 1.
+  const double power = before / last - 1;
+  if (last <= resolved_percent)
+    return {"", "mm", 0, factor_without_order * last,
+            "the two finest meshes agree: there is nothing to extrapolate"};
+  if (!(power > 1))
+    return {"", "mm", 0, factor_without_order * last, "the displacements do not draw nearer to each other"};
+  for (std::size_t n = 0; n < finest.size(); ++n) finest[n] += (finest[n] - middle[n]) / (power - 1);
+  return {"", "mm", 0, factor_with_order * last / (power - 1), ""};
+}
+
+} // namespace
+
+cases::Scene scene_on(const cases::Case& definition, const std::array<int, 3>& cells) {
+  cases::Case resized = definition;
+  std::get<cases::Box>(resized.body).cells = cells;
+  return cases::make_scene(resized);
+}
+
+Reference make_reference(const cases::Case& definition, const std::array<std::array<int, 3>, 3>& cells,
+                         const std::array<std::vector<Eigen::Vector3d>, 3>& displacement) {
+  Reference reference;
+  reference.scene = scene_on(definition, cells[1]);
+  std::array<Field, 3> on_coarsest, on_middle;
+  for (std::size_t mesh = 0; mesh < 3; ++mesh) {
+    on_coarsest[mesh] = interpolate(displacement[mesh], cells[mesh], cells[0]);
+    on_middle[mesh] = interpolate(displacement[mesh], cells[mesh], cells[1]);
+  }
+  for (const cases::Measure& measure : definition.measures) {
+    std::vector<double> values;
+    for (const Field& field : on_middle)
+      values.push_back(evaluate(measure, reference.scene, as_solution(reference.scene, field)));
+    reference.measures.push_back(judge(measure.name, unit_of(measure), values));
+  }
+  cases::Case without_measures = definition; // whose nodes the coarsest mesh need not have
+  without_measures.measures.clear();
+  Field truth = on_middle[2];
+  reference.field = judge_field(scene_on(without_measures, cells[0]), on_coarsest, on_middle[1], truth);
+  reference.solution = as_solution(reference.scene, truth);
+  reference.field.name = field_measure().name;
+  reference.field.value = evaluate(field_measure(), reference.scene, reference.solution);
+  return reference;
+}
+
+std::optional<double> field_error_percent(const Reference& reference, const std::array<int, 3>& cells,
+                                          const std::vector<Eigen::Vector3d>& displacement) {
+  return difference_percent(reference.scene, reference.solution.displacement,
+                            interpolate(displacement, cells, reference.scene.mesh.grid->cells));
+}
+
+std::vector<std::optional<double>> measure_errors_percent(const Reference& reference,
+                                                          const std::array<int, 3>& cells,
+                                                          const std::vector<Eigen::Vector3d>& displacement) {
+  const cases::Solution solution =
+      as_solution(reference.scene, interpolate(displacement, cells, reference.scene.mesh.grid->cells));
+  const auto& measures = reference.scene.definition.measures;
+  std::vector<std::optional<double>> errors;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const bool is_field = measures[m].kind == cases::MeasureKind::displacement_field_l2 ||
+                          measures[m].kind == cases::MeasureKind::displacement_field_max;
+    errors.push_back(
+        is_field
+            ? measure_error_percent(measures[m], reference.scene, reference.solution, solution)
+            : error_percent(reference.measures[m].value, evaluate(measures[m], reference.scene, solution)));
+  }
+  return errors;
+}
+
+} // namespace compare

@@ -1,0 +1,90 @@
+#include "compare/sweep/sentences.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace compare {
+
+namespace {
+
+std::string describe(const Point& p) {
+  return fmt::format("{} ({}, {:.2g} %)", p.name, time_text(p.seconds), p.error_percent);
+}
+
+const char* name_of(Family family) {
+  return family == Family::springs ? "springs" : "finite elements";
+}
+
+template<class Key>
+const Point& least(const std::vector<Point>& points, const Key& key) {
+  return *std::min_element(points.begin(), points.end(),
+                           [&](const Point& a, const Point& b) { return key(a) < key(b); });
+}
+
+constexpr const char* without_points = "no model was measured.";
+
+} // namespace
+
+std::string time_text(double seconds) {
+  return seconds < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
+}
+
+std::string fastest_sentence(const std::vector<Point>& points, double error_percent,
+                             double uncertainty_percent) {
+  const std::string start = fmt::format("within {:g} %: ", error_percent);
+  if (points.empty()) return start + without_points;
+  if (!(uncertainty_percent < error_percent))
+    return start + fmt::format("not to be told, for the reference is itself uncertain by {:.2g} %.",
+                               uncertainty_percent);
+  const auto fastest = fastest_within(points, error_percent);
+  if (!fastest)
+    return start + "no model gets there; nearest comes " +
+           describe(least(points, [](const Point& p) { return p.error_percent; })) + ".";
+  const Point& winner = points[*fastest];
+  const Family other = winner.family == Family::springs ? Family::finite_elements : Family::springs;
+  const auto rival = fastest_within(points, error_percent, other);
+  const std::string sentence = start + describe(winner) + " is the fastest";
+  if (!rival) return sentence + fmt::format("; no {} get there.", name_of(other));
+  return sentence + fmt::format(", {:.2g} times as fast as the fastest {}, {}.",
+                                points[*rival].seconds / winner.seconds, name_of(other),
+                                describe(points[*rival]));
+}
+
+std::string most_accurate_sentence(const std::vector<Point>& points, double seconds,
+                                   double uncertainty_percent) {
+  const std::string start = fmt::format("in {}: ", time_text(seconds));
+  if (points.empty()) return start + without_points;
+  const auto found = most_accurate_within(points, seconds);
+  if (!found)
+    return start + "no model answers in that time; the fastest is " +
+           describe(least(points, [](const Point& p) { return p.seconds; })) + ".";
+  const std::string sentence = start + describe(points[*found]) + " is the most accurate";
+  if (points[*found].error_percent > uncertainty_percent) return sentence + ".";
+  return sentence +
+         fmt::format(", as far as the reference's uncertainty of {:.2g} % can tell.", uncertainty_percent);
+}
+
+std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
+                           const std::vector<std::optional<double>>& errors) {
+  const auto level = first_level_at_floor(errors, floor_fraction);
+  if (!level) return design + ": no error on the finest level, so no floor is known.";
+  const double floor = *errors.back();
+  std::size_t least_level = errors.size() - 1;
+  for (std::size_t l = 0; l < errors.size(); ++l)
+    if (errors[l] && *errors[l] < *errors[least_level]) least_level = l;
+  std::string sentence;
+  if (*level + 1 == errors.size())
+    sentence = fmt::format("{}: no floor in sight: the error still changes up to {}, where it is {:.2g} %",
+                           design, levels.back(), floor);
+  else
+    sentence =
+        fmt::format("{}: more cells than {} do not help: from there on the error stays within {:g} % of its "
+                    "floor, {:.2g} %",
+                    design, levels[*level], 100 * floor_fraction, floor);
+  if (*errors[least_level] < (1 - floor_fraction) * floor)
+    sentence += fmt::format(" (the least, {:.2g} %, is that of {}, where errors of mesh and model cancel)",
+                            *errors[least_level], levels[least_level]);
+  return sentence + ".";
+}
+
+} // namespace compare

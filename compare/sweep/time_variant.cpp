@@ -1,0 +1,239 @@
+#include "compare/sweep/time_variant.hpp"
+
+#include "cases/read_case.hpp"
+#include "compare/calculix.hpp"
+#include "compare/design.hpp"
+#include "compare/machine.hpp"
+#include "compare/pool/bytes.hpp"
+#include "compare/solve_side.hpp"
+#include "fem_reference/model.hpp"
+#include "msm/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+namespace compare {
+
+namespace {
+
+/// One model made and solved twice.
+struct Round {
+  cases::Solution first, again;
+  std::optional<double> setup_seconds, first_seconds, again_seconds;
+};
+
+int rank() {
+  int number = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &number);
+  return number;
+}
+
+/// The seconds that one solve takes; nothing when it fails.
+std::optional<double> timed(cases::Solution& solution, const std::function<cases::Solution()>& solve) {
+  const Stopwatch stopwatch;
+  try {
+    solution = solve();
+    return stopwatch.seconds();
+  } catch (const cases::SolveError& error) {
+    solution = failed_solution(error);
+    return std::nullopt;
+  }
+}
+
+cases::Scene with_load(cases::Scene scene, double factor) {
+  for (auto& applied : scene.loads) {
+    applied.load.value *= factor;
+    applied.load.moment *= factor;
+  }
+  for (auto& moved : scene.moved) {
+    moved.motion.displacement *= factor;
+    moved.motion.angle *= factor;
+  }
+  return scene;
+}
+
+msm::Model make_springs(const cases::Scene& scene) {
+  return msm::Model(scene, stiffness_of_cells(design_for(scene)));
+}
+
+/// @param before  displacement under the smaller load; empty: there is none to start from
+Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Points& before) {
+  Round round;
+  Stopwatch stopwatch;
+  msm::Model model = make_springs(scene);
+  round.setup_seconds = stopwatch.lap();
+  msm::EquilibriumSettings settings;
+  settings.tolerance = tolerance;
+  settings.stability = msm::Stability::ignore;
+  round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
+  if (round.first_seconds && !before.empty())
+    round.again_seconds = timed(round.again, [&] { return model.solve(settings, before); });
+  return round;
+}
+
+/// The displacement under the smaller load. A lattice that is not stable there fails here, and has no
+/// re-solve.
+msm::Points springs_before(const cases::Scene& scene, double tolerance) {
+  msm::EquilibriumSettings settings;
+  settings.tolerance = tolerance;
+  try {
+    return make_springs(with_load(scene, 1 - load_change)).solve(settings).displacement;
+  } catch (const cases::SolveError&) {
+    return {};
+  }
+}
+
+/// All ranks go by what rank 0 measured.
+double agreed(double seconds) {
+  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return seconds;
+}
+
+/// Displacements of nodes that are those of a grid, in its order.
+msm::Points on_grid(const std::vector<fem_reference::NodeDisplacement>& nodes, const Eigen::Vector3d& size,
+                    const std::array<int, 3>& cells) {
+  msm::Points field(static_cast<std::size_t>(cells[0] + 1) * static_cast<std::size_t>(cells[1] + 1) *
+                    static_cast<std::size_t>(cells[2] + 1));
+  for (const auto& node : nodes) {
+    long place = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const int n = cells[static_cast<std::size_t>(axis)];
+      place = place * (n + 1) + std::lround(node.rest[axis] / size[axis] * n);
+    }
+    field[static_cast<std::size_t>(place)] = node.displacement;
+  }
+  return field;
+}
+
+Round solve_finite_elements(const cases::Scene& scene, const Variant& variant, const TimingRules& rules) {
+  Round round;
+  Stopwatch stopwatch;
+  fem_reference::Model model(scene, MPI_COMM_WORLD);
+  round.setup_seconds = stopwatch.lap();
+  const fem_reference::SolveSettings settings{1, variant.tolerance, fem_reference::Stability::skip};
+  round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
+  if (!round.first_seconds) return round;
+  if (field_cells(variant) != variant.cells)
+    round.first.displacement = on_grid(
+        model.node_displacements(), std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
+  if (agreed(*round.first_seconds) > rules.budget_seconds) {
+    round.again.message = "left out: the first solve took longer than the budget";
+    return round;
+  }
+  cases::Solution before;
+  if (timed(before, [&] { return model.solve_again(1 - load_change, settings); }))
+    round.again_seconds = timed(round.again, [&] { return model.solve_again(1, settings); });
+  else
+    round.again = before;
+  return round;
+}
+
+/// A program of its own: reading its input and writing its output are part of the only time there is.
+Round ask_calculix_once(const cases::Scene& scene) {
+  Round round;
+  round.first_seconds = timed(round.first, [&] { return solve_with_calculix(scene); });
+  if (round.first.status != cases::Status::converged) round.first_seconds.reset();
+  return round;
+}
+
+void append(VariantRun& run, Round round) {
+  run.first = std::move(round.first);
+  run.again = std::move(round.again);
+  run.again.displacement.clear();
+  run.again.cell_volume.clear();
+  const auto add = [](std::vector<double>& all, const std::optional<double>& seconds) {
+    if (seconds) all.push_back(*seconds);
+  };
+  add(run.setup_seconds, round.setup_seconds);
+  add(run.first_seconds, round.first_seconds);
+  add(run.again_seconds, round.again_seconds);
+}
+
+VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
+                  const std::function<double(double)>& agree) {
+  VariantRun run;
+  const Stopwatch stopwatch;
+  Round trial = solve();
+  const double seconds = agree(stopwatch.seconds());
+  const int n = trial.first_seconds ? n_repetitions(seconds, rules) : 0;
+  run.is_warm = n > 0;
+  if (n == 0) append(run, std::move(trial));
+  for (int i = 0; i < n; ++i) append(run, solve());
+  return run;
+}
+
+} // namespace
+
+int n_repetitions(double seconds_of_first, const TimingRules& rules) {
+  if (!(seconds_of_first <= rules.budget_seconds)) return 0;
+  if (!(seconds_of_first * rules.repetitions > rules.budget_seconds)) return rules.repetitions;
+  return std::max(1, static_cast<int>(rules.budget_seconds / seconds_of_first));
+}
+
+VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
+  const cases::Scene scene = cases::make_scene(with_variant(definition, variant));
+  const auto as_measured = [](double seconds) { return seconds; };
+  switch (variant.program) {
+  case Program::springs: {
+    if (rank() != 0) return {};
+    const msm::Points before = springs_before(scene, variant.tolerance);
+    return repeat([&] { return solve_springs(scene, variant.tolerance, before); }, rules, as_measured);
+  }
+  case Program::finite_elements:
+    return repeat([&] { return solve_finite_elements(scene, variant, rules); }, rules, agreed);
+  case Program::calculix:
+    if (rank() != 0) return {};
+    return repeat([&] { return ask_calculix_once(scene); }, rules, as_measured);
+  }
+  return {}; // not reached: every program is above
+}
+
+template<class Archive>
+void transfer(Archive& archive, VariantRun& run) {
+  transfer(archive, run.first);
+  transfer(archive, run.again);
+  transfer(archive, run.setup_seconds);
+  transfer(archive, run.first_seconds);
+  transfer(archive, run.again_seconds);
+  transfer(archive, run.is_warm);
+  transfer(archive, run.peak_megabytes);
+  transfer(archive, run.start_megabytes);
+}
+
+std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules) {
+  if (case_file.find_first_of("\t\n") != std::string::npos)
+    throw cases::InputError("'" + case_file + "': a tab or line break here cannot be passed to a worker");
+  return fmt::format("{}\t{}\t{}\t{}", case_file, rules.repetitions, rules.budget_seconds, to_words(variant));
+}
+
+std::string answer_variant(const std::string& line) {
+  const std::size_t end_of_file = line.find('\t');
+  const std::size_t end_of_repetitions = line.find('\t', end_of_file + 1);
+  const std::size_t end_of_budget = line.find('\t', end_of_repetitions + 1);
+  if (end_of_budget == std::string::npos) throw std::runtime_error("'" + line + "' is no job");
+  const cases::Case definition = cases::read_case(line.substr(0, end_of_file));
+  const TimingRules rules{std::stoi(line.substr(end_of_file + 1)),
+                          std::stod(line.substr(end_of_repetitions + 1))};
+  const Variant variant = variant_from_words(line.substr(end_of_budget + 1));
+  const std::optional<double> before = peak_resident_megabytes();
+  VariantRun run = time_variant(definition, variant, rules);
+  if (variant.program != Program::calculix) { // whose memory is another process's
+    run.start_megabytes = before;
+    run.peak_megabytes = peak_resident_megabytes();
+  }
+  Writer writer;
+  transfer(writer, run);
+  return writer.bytes;
+}
+
+VariantRun variant_run_from(const std::string& bytes) {
+  Reader reader(bytes);
+  VariantRun run;
+  transfer(reader, run);
+  if (!reader.at_end()) throw std::runtime_error("a worker's answer is too long");
+  return run;
+}
+
+} // namespace compare

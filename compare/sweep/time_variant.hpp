@@ -1,0 +1,51 @@
+#pragma once
+
+#include "cases/solution.hpp"
+#include "compare/sweep/variant.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace compare {
+
+/// How often a variant is timed.
+struct TimingRules {
+  int repetitions = 5;       ///< after a warm-up
+  double budget_seconds = 2; ///< for the repetitions together
+};
+
+/// Repetitions that follow a first round of that many seconds: as many as the budget pays for, at most those
+/// asked for; 0 when it does not pay for one, and then the first round has to stand for all.
+int n_repetitions(double seconds_of_first, const TimingRules& rules);
+
+/// How much the load grows before the re-solve: from 95 to 100 per cent of the case's.
+constexpr double load_change = 0.05;
+
+/// A variant's answer, what it took, and how long. Wall-clock seconds, one entry per repetition.
+struct VariantRun {
+  cases::Solution
+      first; ///< from rest, displacement on the grid of field_cells(); failed or skipped with the reason
+  cases::Solution again; ///< after the load change, from the displacement before it; without displacement;
+                         ///< skipped with the reason when the first solve takes longer than the budget
+  std::vector<double> setup_seconds;
+  std::vector<double> first_seconds;
+  std::vector<double> again_seconds;
+  bool is_warm = false;                  ///< a round came before those that were timed
+  std::optional<double> peak_megabytes;  ///< resident memory of the process that did nothing else
+  std::optional<double> start_megabytes; ///< of it before the model was made
+};
+
+/// Solves a variant of a case again and again on one thread. Stability is looked at once, before the timing:
+/// it is a diagnosis and no part of the answer. Collective over MPI_COMM_WORLD; all but finite elements run
+/// on rank 0 alone, where alone their answer is.
+/// @throws InputError when the case has no such variant
+VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
+
+/// A job of a worker: a case file, a variant, rules; and its answer as bytes, the memory of this process in
+/// it.
+std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules);
+std::string answer_variant(const std::string& line);
+/// @throws std::runtime_error if the bytes are not whole
+VariantRun variant_run_from(const std::string& bytes);
+
+} // namespace compare

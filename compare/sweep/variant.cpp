@@ -1,0 +1,75 @@
+#include "compare/sweep/variant.hpp"
+
+#include "cases/names.hpp"
+
+#include <fmt/format.h>
+#include <sstream>
+#include <stdexcept>
+
+namespace compare {
+
+Family family_of(const Variant& variant) {
+  return variant.program == Program::springs ? Family::springs : Family::finite_elements;
+}
+
+std::string method_name(const Variant& variant) {
+  if (variant.program == Program::springs) return "springs " + cases::name_of(variant.design);
+  const std::string name = cases::name_of(variant.formulation) + " " + cases::name_of(variant.element);
+  return variant.program == Program::calculix ? "CalculiX " + name : name;
+}
+
+std::string cells_name(const std::array<int, 3>& cells) {
+  return fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
+}
+
+std::array<int, 3> field_cells(const Variant& variant) {
+  std::array<int, 3> cells = variant.cells;
+  if (variant.program == Program::finite_elements && variant.element == cases::Element::q2)
+    for (int& n : cells) n *= 2;
+  return cells;
+}
+
+std::string full_name(const Variant& variant) {
+  const std::string name = method_name(variant) + " " + cells_name(variant.cells);
+  if (variant.program == Program::calculix) return name;
+  return name + fmt::format(" to {:.0e}", variant.tolerance);
+}
+
+cases::Case with_variant(const cases::Case& definition, const Variant& variant) {
+  cases::Case result = definition;
+  std::get<cases::Box>(result.body).cells = variant.cells;
+  result.measures.clear();
+  result.expectations.clear();
+  result.fem.refine = 0;
+  if (variant.program == Program::springs) {
+    result.msm = {};
+    result.msm.design = variant.design;
+    result.msm.where = definition.msm.where;
+  } else {
+    result.fem.formulation = variant.formulation;
+    result.fem.element = variant.element;
+  }
+  return result;
+}
+
+std::string to_words(const Variant& v) {
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", static_cast<int>(v.program),
+                     static_cast<int>(v.design), static_cast<int>(v.formulation), static_cast<int>(v.element),
+                     v.cells[0], v.cells[1], v.cells[2], v.tolerance);
+}
+
+Variant variant_from_words(const std::string& words) {
+  std::istringstream stream(words);
+  int program = 0, design = 0, formulation = 0, element = 0;
+  Variant v;
+  if (!(stream >> program >> design >> formulation >> element >> v.cells[0] >> v.cells[1] >> v.cells[2] >>
+        v.tolerance))
+    throw std::runtime_error("'" + words + "' is no variant");
+  v.program = static_cast<Program>(program);
+  v.design = static_cast<cases::Design>(design);
+  v.formulation = static_cast<cases::Formulation>(formulation);
+  v.element = static_cast<cases::Element>(element);
+  return v;
+}
+
+} // namespace compare
