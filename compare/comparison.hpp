@@ -53,7 +53,8 @@ struct Comparison {
   Side fem;
   Side msm;
   std::optional<msm::DesignResult>
-      design; ///< absent when the mass-spring side was skipped or could not be designed
+      design;                       ///< absent when the mass-spring side was skipped or could not be designed
+  std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
   std::vector<MeasuredValue> measures;
   std::vector<Judgement> judgements;
   std::optional<MeshStudy> mesh_study; ///< when asked for

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   compare::Action chosen;
   compare::add_run_command(program, chosen);
+  compare::add_new_command(program, chosen);
   compare::add_design_command(program, chosen);
   compare::add_eigen_command(program, chosen);
   compare::add_stress_command(program, chosen);
