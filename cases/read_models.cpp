@@ -45,6 +45,15 @@ bool is_auto(Table& table, const std::string& key) {
   return table.has(key) && table.entry(key).node->value_exact<std::string>() == "auto";
 }
 
+Formulation read_formulation_name(const Entry& entry) {
+  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
+  const auto formulation = text ? value_of<Formulation>(*text) : std::nullopt;
+  std::vector<std::string> allowed = all_names<Formulation>();
+  allowed.emplace_back("auto");
+  if (!formulation) entry.refuse_word(allowed);
+  return *formulation;
+}
+
 /// What "auto" falls back on is the default.
 Formulation read_formulation(Table& table, const Material& material) {
   const bool is_ogden = std::holds_alternative<Ogden>(material);
@@ -54,7 +63,7 @@ Formulation read_formulation(Table& table, const Material& material) {
           .refuse("\"hyperelastic\" with the ogden material, which has no small strains");
     return Formulation::log_strain;
   }
-  const auto formulation = table.optional("formulation", read_name<Formulation>);
+  const auto formulation = table.optional("formulation", read_formulation_name);
   if (!formulation) return is_ogden ? Formulation::hyperelastic : Formulation::log_strain;
   const bool needs_ogden = *formulation == Formulation::hyperelastic;
   if (needs_ogden && !is_ogden)

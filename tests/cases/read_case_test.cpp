@@ -364,7 +364,11 @@ TEST_CASE("a mistake in a case file is refused with its line, its key, its value
       {"region = \"z+\"", "region = \"z+\"\nradius = 1", 16, "load[0].radius", {"left out without near"}},
       {"region = \"z+\"", "near = [5, 5, 10]\nradius = 0", 16, "load[0].radius", {"a number above 0"}},
       // what is left open
-      {"formulation = \"log_strain\"", "formulation = \"autom\"", 19, "fem.formulation", {"is \"autom\""}},
+      {"formulation = \"log_strain\"",
+       "formulation = \"autom\"",
+       19,
+       "fem.formulation",
+       {"is \"autom\"", "did you mean \"auto\"?"}},
       {"refine = 1", "accuracy = \"fine\"", 21, "fem.accuracy", {"\"auto\""}},
       {"refine = 1", "refine = 1\naccuracy = \"auto\"", 21, "fem.refine", {"accuracy = \"auto\" finds it"}},
       // material
@@ -817,6 +821,7 @@ TEST_CASE("every case file of the project is read, and its regions exist") {
   int n = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPRINGPROOF_SOURCE_DIR) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
+    if (entry.path().parent_path().filename() == "templates") continue; // no cases yet: see command_test.cpp
     INFO(entry.path().string());
     ++n;
     if (entry.path().parent_path().filename() != "hard") {

@@ -1,8 +1,8 @@
-// A quarter of a plate with a round hole, all hexahedra: 10 mm hole radius in 100 x 100 mm, 2 mm thick, one layer of cells.
+// A quarter of a plate with a round hole, all hexahedra: 10 mm hole radius in 100 x 100 mm, 8 mm thick.
 SetFactory("Built-in");
-radius = 10; half_width = 100; thickness = 2;
-n_around = 10; // cells along each half of the hole's quarter
-n_outward = 14;
+radius = 10; half_width = 100; thickness = 8;
+n_around = 8; // cells along each half of the hole's quarter
+n_outward = 24;
 s = radius * Sqrt(0.5);
 Point(1) = {0, 0, 0};
 Point(2) = {radius, 0, 0};
@@ -23,9 +23,9 @@ Curve Loop(2) = {4, 7, -5, -2};
 Plane Surface(1) = {1};
 Plane Surface(2) = {2};
 Transfinite Curve {1, 2, 6, 7} = n_around + 1;
-Transfinite Curve {3, 4, 5} = n_outward + 1 Using Progression 1.2; // small cells at the hole
+Transfinite Curve {3, 4, 5} = n_outward + 1 Using Progression 1.1; // cells grow with their distance
 Transfinite Surface {1, 2};
 Recombine Surface {1, 2};
-plate[] = Extrude {0, 0, thickness} { Surface {1, 2}; Layers {1}; Recombine; };
+plate[] = Extrude {0, 0, thickness} { Surface {1, 2}; Layers {2}; Recombine; };
 Physical Volume("plate") = {plate[1], plate[7]};
 Physical Surface("pulled") = {plate[3]}; // x = half_width
