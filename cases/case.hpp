@@ -23,7 +23,15 @@ struct MeshFile {
   Where where;
 };
 
-using Body = std::variant<Box, MeshFile>;
+/// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts at the lower corner
+/// of the surface's bounding box.
+struct Voxels {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  double edge;      ///< mm, > 0
+  Where where;
+};
+
+using Body = std::variant<Box, MeshFile, Voxels>;
 
 struct LinearElastic {
   double youngs_modulus; ///< MPa, > 0
@@ -40,11 +48,23 @@ struct Ogden {
 
 using Material = std::variant<LinearElastic, Ogden>;
 
-/// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, or the node nearest to a point.
+/// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
+/// those whose centre lies in a box.
+struct RegionMaterial {
+  Material material;            ///< of the same model as the body's own
+  std::string group;            ///< empty: the box
+  Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
+  Where where;
+};
+
+/// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, or
+/// a patch of the surface around a point.
 struct Region {
-  std::string name;                    ///< as written; empty when near is set
+  std::string name; ///< as written; of a patch, what it is called in messages; empty for a node
   std::optional<Eigen::Vector3d> near; ///< mm
   Where where;
+  std::optional<double> radius =
+      std::nullopt; ///< mm, > 0: the boundary faces whose centre is at most that far from near
 };
 
 struct Fixed {
@@ -84,7 +104,9 @@ enum class Element { q1, q1_bbar, q1_p0, q2, q2_p1 };
 struct Fem {
   Formulation formulation = Formulation::log_strain;
   Element element = Element::q1_bbar;
-  int refine = 0; ///< uniform refinements of the body's mesh, FEM side only
+  int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
+  bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
+  bool has_auto_accuracy = false;    ///< refined until the expectations can be judged; refine is 0
   Where where;
 };
 
@@ -165,6 +187,7 @@ struct Case {
   std::string file;
   Body body;
   Material material;
+  std::vector<RegionMaterial> region_materials; ///< a cell in several of them is of the last one
   std::vector<Fixed> fixed;
   std::vector<Fixed> symmetry; ///< region = a face of a box, components = its normal alone
   std::vector<Moved> moved;

@@ -67,12 +67,15 @@ Eigen::Vector3d read_direction(const Entry& entry) {
 /// A load over an area needs one: of a box's regions only a face has it. A mesh's groups are seen when it is
 /// read.
 void check_has_area(const Load& load, const Body& body) {
-  const bool has_area =
-      !load.region.near && (!std::holds_alternative<Box>(body) || n_box_faces(load.region) == 1);
+  const bool has_area = load.region.near
+                            ? load.region.radius.has_value()
+                            : std::holds_alternative<MeshFile>(body) || n_box_faces(load.region) == 1;
   if (!has_area)
-    throw InputError(load.region.where,
-                     fmt::format("has no area, and a {} acts on an area; must be one face, such as \"z+\"",
-                                 name_of(load.kind)));
+    throw InputError(
+        load.region.where,
+        fmt::format(
+            "has no area, and a {} acts on an area; must be one face, such as \"z+\", or near with radius",
+            name_of(load.kind)));
 }
 
 } // namespace
@@ -85,7 +88,7 @@ Region read_region_text(const Entry& entry, const Body& body) {
   const std::string text = read_text(entry);
   const std::vector<std::string> words = split(text);
   if (words.front() == "near") return {"", read_near_words(entry, words), entry.where};
-  if (std::holds_alternative<Box>(body)) check_box_region(entry, words);
+  if (!std::holds_alternative<MeshFile>(body)) check_box_region(entry, words);
   return {text, std::nullopt, entry.where};
 }
 
@@ -93,12 +96,19 @@ Region read_region(Table& table, const Body& body) {
   if (!table.has("near")) {
     Region region = read_region_text(table.entry("region"), body);
     table.optional("near", read_text); // known, though absent
+    if (table.has("radius"))
+      table.entry("radius").refuse("left out without near, whose patch it is the radius of");
     return region;
   }
   if (table.has("region"))
     table.entry("near").refuse("left out beside region: they say the same thing twice");
   const Entry near = table.entry("near");
-  return {"", Vector{"a point of three finite numbers (mm)"}(near), near.where};
+  Region region{"", Vector{"a point of three finite numbers (mm)"}(near), near.where};
+  region.radius = table.optional("radius", Number{"a number above 0 (mm)", is_positive});
+  if (region.radius)
+    region.name = fmt::format("within {} of ({}, {}, {})", *region.radius, region.near->x(), region.near->y(),
+                              region.near->z());
+  return region;
 }
 
 Fixed read_fixed(Table& table, const Body& body) {

@@ -8,14 +8,13 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <numeric>
 #include <sstream>
 
 namespace cases {
 
 namespace {
 
-toml::table parse_file(const std::string& path) {
+std::string text_of(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -24,8 +23,12 @@ toml::table parse_file(const std::string& path) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
     throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);
   }
+  return text.str();
+}
+
+toml::table parse(const std::string& text, const std::string& path) {
   try {
-    return toml::parse(text.str(), path);
+    return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw InputError(Where{path, static_cast<int>(at.line), static_cast<int>(at.column), ""},
@@ -61,14 +64,29 @@ Box read_box(Table& table) {
   return box;
 }
 
+/// A file of the body: relative to the case file.
+/// @param endings  that are allowed    @param allowed  completes "must be ..."
+std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                           const std::string& allowed, const std::string& case_path) {
+  const std::filesystem::path file = read_text(entry);
+  if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
+  const std::filesystem::path path = std::filesystem::path(case_path).parent_path() / file;
+  std::error_code unreadable; // a name that is too long, for one
+  if (!std::filesystem::is_regular_file(path, unreadable))
+    entry.refuse(fmt::format("a file that exists: there is no {}", path.lexically_normal().string()));
+  return path.lexically_normal().string();
+}
+
 MeshFile read_mesh_file(Table& table, const std::string& case_path) {
   const Entry entry = table.entry("file");
-  const std::filesystem::path file = read_text(entry);
-  if (file.extension() != ".msh" && file.extension() != ".geo") entry.refuse("a gmsh file, .msh or .geo");
-  const std::filesystem::path path = std::filesystem::path(case_path).parent_path() / file;
-  if (!std::filesystem::is_regular_file(path))
-    entry.refuse(fmt::format("a file that exists: there is no {}", path.lexically_normal().string()));
-  return {path.lexically_normal().string(), entry.where};
+  return {read_file_name(entry, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path), entry.where};
+}
+
+Voxels read_voxels(Table& table, const std::string& case_path) {
+  const Entry entry = table.entry("surface");
+  Voxels voxels{read_file_name(entry, {".stl"}, "a closed surface in STL, .stl", case_path), 0, entry.where};
+  voxels.edge = table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive});
+  return voxels;
 }
 
 Body read_body(Table& table, const std::string& case_path) {
@@ -76,39 +94,8 @@ Body read_body(Table& table, const std::string& case_path) {
   const auto shape = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
   if (shape == "box") return read_box(table);
   if (shape == "mesh") return read_mesh_file(table, case_path);
-  entry.refuse_word({"box", "mesh"});
-}
-
-LinearElastic read_linear_elastic(Table& table) {
-  LinearElastic material{};
-  material.youngs_modulus = table.required("youngs_modulus", Number{"a number above 0 (MPa)", is_positive});
-  material.poissons_ratio = table.required(
-      "poissons_ratio", Number{"a number above -1 and below 0.5 (at 0.5 the bulk modulus is infinite: "
-                               "model = \"ogden\" is for incompressible materials)",
-                               [](double nu) { return nu > -1 && nu < 0.5; }});
-  return material;
-}
-
-Ogden read_ogden(Table& table) {
-  Ogden material;
-  const Entry mu = table.entry("mu");
-  material.mu = Numbers{"one or more finite numbers (MPa)", 0}(mu);
-  if (!(std::accumulate(material.mu.begin(), material.mu.end(), 0.0) > 0))
-    mu.refuse("numbers with a sum above 0 (MPa): the sum is the initial shear modulus");
-  const Entry alpha = table.entry("alpha");
-  material.alpha = Numbers{"as many finite numbers as mu, none 0", 0, [](double a) { return a != 0; }}(alpha);
-  if (material.alpha.size() != material.mu.size())
-    alpha.refuse(fmt::format("as many numbers as mu has, which is {}", material.mu.size()));
-  material.bulk_modulus = table.optional("bulk_modulus", Number{"a number above 0 (MPa)", is_positive});
-  return material;
-}
-
-Material read_material(Table& table) {
-  const Entry entry = table.entry("model");
-  const auto model = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
-  if (model == "linear_elastic") return read_linear_elastic(table);
-  if (model == "ogden") return read_ogden(table);
-  entry.refuse_word({"linear_elastic", "ogden"});
+  if (shape == "voxels") return read_voxels(table, case_path);
+  entry.refuse_word({"box", "mesh", "voxels"});
 }
 
 bool is_zero(const Load& load) {
@@ -154,7 +141,7 @@ void read_measures(Table& root, Case& result) {
 }
 
 toml::table parse_file(const std::string& path, const std::vector<std::string>& overrides) {
-  toml::table document = parse_file(path);
+  toml::table document = parse(text_of(path), path);
   for (const std::string& setting : overrides) apply_override(document, setting);
   return document;
 }
@@ -167,24 +154,36 @@ Case read_definition(Table& root, const std::string& path) {
   result.description = root.optional("description", read_text).value_or("");
   result.body = root.section("body", [&](Table& table) { return read_body(table, path); });
   result.material = root.section("material", read_material);
+  result.region_materials = root.sections("region_material", [&](Table& table) {
+    return read_region_material(table, result.material, result.body);
+  });
   read_boundary(root, result);
   result.fem = root.optional_section(
       "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
   result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result.material); });
+  check_region_materials(result);
   read_measures(root, result);
+  check_accuracy(root, result);
   return result;
 }
 
-} // namespace
-
-Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  const toml::table document = parse_file(path, overrides);
+Case read_document(const toml::table& document, const std::string& path) {
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
   if (root.has("stress"))
     root.entry("stress").refuse("left out: this is a hard case, for the command stress alone");
   Case result = read_definition(root, path);
   root.refuse_unknown_keys();
   return result;
+}
+
+} // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_document(parse_file(path, overrides), path);
+}
+
+Case read_case_text(const std::string& text, const std::string& path) {
+  return read_document(parse(text, path), path);
 }
 
 HardCase read_hard_case(const std::string& path, const std::vector<std::string>& overrides) {

@@ -35,9 +35,35 @@ const std::vector<Element>& elements_of(Formulation formulation) {
       ->second;
 }
 
+/// A key whose only word is "auto".
+bool read_auto(const Entry& entry) {
+  if (!entry.node || entry.node->value_exact<std::string>() != "auto") entry.refuse_word({"auto"});
+  return true;
+}
+
+bool is_auto(Table& table, const std::string& key) {
+  return table.has(key) && table.entry(key).node->value_exact<std::string>() == "auto";
+}
+
+Formulation read_formulation_name(const Entry& entry) {
+  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
+  const auto formulation = text ? value_of<Formulation>(*text) : std::nullopt;
+  std::vector<std::string> allowed = all_names<Formulation>();
+  allowed.emplace_back("auto");
+  if (!formulation) entry.refuse_word(allowed);
+  return *formulation;
+}
+
+/// What "auto" falls back on is the default.
 Formulation read_formulation(Table& table, const Material& material) {
   const bool is_ogden = std::holds_alternative<Ogden>(material);
-  const auto formulation = table.optional("formulation", read_name<Formulation>);
+  if (is_auto(table, "formulation")) {
+    if (is_ogden)
+      table.entry("formulation")
+          .refuse("\"hyperelastic\" with the ogden material, which has no small strains");
+    return Formulation::log_strain;
+  }
+  const auto formulation = table.optional("formulation", read_formulation_name);
   if (!formulation) return is_ogden ? Formulation::hyperelastic : Formulation::log_strain;
   const bool needs_ogden = *formulation == Formulation::hyperelastic;
   if (needs_ogden && !is_ogden)
@@ -51,6 +77,15 @@ Formulation read_formulation(Table& table, const Material& material) {
   return *formulation;
 }
 
+/// What the element must be for the material, when it is something else.
+std::optional<std::string> element_needed(Element element, const Material& material) {
+  const Ogden* ogden = std::get_if<Ogden>(&material);
+  if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
+    return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
+           "nearly incompressible, and a displacement element without averaged volume locks";
+  return std::nullopt;
+}
+
 Element read_element(Table& table, Formulation formulation, const Material& material) {
   const std::vector<Element>& allowed = elements_of(formulation);
   const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
@@ -60,11 +95,7 @@ Element read_element(Table& table, Formulation formulation, const Material& mate
     table.entry("element").refuse(
         fmt::format("{} with formulation = \"{}\"", alternatives(words), name_of(formulation)));
   }
-  const Ogden* ogden = std::get_if<Ogden>(&material);
-  if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
-    table.entry("element").refuse(
-        "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
-        "nearly incompressible, and a displacement element without averaged volume locks");
+  if (const auto needed = element_needed(element, material)) table.entry("element").refuse(*needed);
   return element;
 }
 
@@ -85,12 +116,29 @@ Fem read_fem(Table& table, const Material& material, const Body& body) {
   Fem fem;
   fem.where = table.where();
   fem.formulation = read_formulation(table, material);
+  fem.has_auto_formulation = is_auto(table, "formulation");
   fem.element = read_element(table, fem.formulation, material);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
     check_refined_size(table.entry("refine"), body, fem.refine);
   }
+  fem.has_auto_accuracy = table.optional("accuracy", read_auto).value_or(false);
+  refuse_unless(!fem.has_auto_accuracy, table, "refine", "accuracy = \"auto\" finds it");
   return fem;
+}
+
+void check_accuracy(Table& root, const Case& definition) {
+  if (!definition.fem.has_auto_accuracy && !definition.fem.has_auto_formulation) return;
+  const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
+  if (std::none_of(definition.expectations.begin(), definition.expectations.end(), asks_of_fem))
+    root.entry("expect").refuse(
+        "one or more tables [[expect]] with error_percent or fem: \"auto\" in [fem] is as accurate "
+        "as they ask for");
+}
+
+void check_element(const Fem& fem, const Material& material, const Where& where) {
+  if (const auto needed = element_needed(fem.element, material))
+    throw InputError(where, "the element must be " + *needed);
 }
 
 namespace {
@@ -100,23 +148,22 @@ void check_given_stiffness(const Entry& entry, const std::array<double, 3>& stif
     entry.refuse("stiffnesses of which one is above 0");
 }
 
-/// What a design needs of the Poisson's ratio it starts from.
-void check_design_ratio(Table& table, const Msm& msm, const Material& material) {
+/// What the design must be for the Poisson's ratio it starts from, when it is something else.
+std::optional<std::string> design_needed(const Msm& msm, const Material& material) {
   const LinearElastic* linear = std::get_if<LinearElastic>(&material);
   const Ogden* ogden = std::get_if<Ogden>(&material);
   const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
   if (msm.design == Design::linear_method && is_incompressible)
-    table.entry("design").refuse(
-        "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
-        "material has none without bulk_modulus; or give msm.poissons_ratio");
+    return "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
+           "material has none without bulk_modulus; or give msm.poissons_ratio";
   const std::optional<double> ratio = msm.poissons_ratio ? msm.poissons_ratio
                                       : linear           ? std::optional(linear->poissons_ratio)
                                                          : std::nullopt;
   if (msm.design == Design::hybrid && ratio && *ratio < 0.25)
-    table.entry("design").refuse(
-        fmt::format("another design than \"hybrid\", which needs a Poisson's ratio of 0.25 and more: "
-                    "at {} its volume stiffness would be negative",
-                    *ratio));
+    return fmt::format("another design than \"hybrid\", which needs a Poisson's ratio of 0.25 and more: "
+                       "at {} its volume stiffness would be negative",
+                       *ratio);
+  return std::nullopt;
 }
 
 std::vector<LoadPath> read_paths(const Entry& entry) {
@@ -193,8 +240,13 @@ Msm read_msm(Table& table, const Material& material) {
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   read_fit(table, msm);
-  check_design_ratio(table, msm, material);
+  if (const auto needed = design_needed(msm, material)) table.entry("design").refuse(*needed);
   return msm;
+}
+
+void check_design_ratio(const Msm& msm, const Material& material, const Where& where) {
+  if (const auto needed = design_needed(msm, material))
+    throw InputError(where, "the springs' design must be " + *needed);
 }
 
 } // namespace cases

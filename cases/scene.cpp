@@ -1,6 +1,7 @@
 #include "cases/scene.hpp"
 
 #include "cases/read_mesh.hpp"
+#include "cases/voxels.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -89,6 +90,67 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<Plane>& planes
   return selection;
 }
 
+/// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
+Selection select_patch(const HexMesh& mesh, const Region& region) {
+  Selection patch;
+  std::set<int> nodes;
+  std::set<std::array<int, 2>> edges;
+  for (const auto& face : boundary_faces(mesh)) {
+    Vector3d centre = Vector3d::Zero();
+    for (const int node : face) centre += mesh.nodes[index(node)] / 4;
+    if (!((centre - *region.near).norm() <= *region.radius)) continue;
+    patch.faces.push_back(face);
+    for (std::size_t v = 0; v < 4; ++v) {
+      const auto [a, b] = std::minmax(face[v], face[(v + 1) % 4]);
+      nodes.insert(face[v]);
+      edges.insert({a, b});
+    }
+  }
+  if (patch.faces.empty())
+    throw InputError(region.where, fmt::format("'{}' has no face of the body's surface", region.name));
+  patch.nodes.assign(nodes.begin(), nodes.end());
+  patch.edges.assign(edges.begin(), edges.end());
+  return patch;
+}
+
+/// A patch becomes a group of the mesh, so that a finer mesh has the same one.
+void add_patch(HexMesh& mesh, const Region& region) {
+  if (region.radius) mesh.groups.emplace(region.name, select_patch(mesh, region));
+}
+
+void add_patches(Scene& scene) {
+  for (const Fixed& fixed : scene.definition.fixed) add_patch(scene.mesh, fixed.region);
+  for (const Moved& moved : scene.definition.moved) add_patch(scene.mesh, moved.region);
+  for (const Load& load : scene.definition.loads) add_patch(scene.mesh, load.region);
+}
+
+bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
+  if (!region.group.empty()) return !mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == region.group;
+  Vector3d centre = Vector3d::Zero();
+  for (const Vector3d& vertex : cell_vertices(mesh, cell)) centre += vertex / 8;
+  return (centre.array() >= region.lower.array()).all() && (centre.array() <= region.upper.array()).all();
+}
+
+void resolve_materials(Scene& scene) {
+  if (scene.definition.region_materials.empty()) return;
+  scene.material_of_cell.assign(scene.mesh.cells.size(), 0);
+  int material = 0;
+  for (const RegionMaterial& region : scene.definition.region_materials) {
+    ++material;
+    bool selects = false;
+    for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+      if (has_cell(scene.mesh, region, c)) {
+        scene.material_of_cell[c] = material;
+        selects = true;
+      }
+    if (!selects)
+      throw InputError(region.where,
+                       region.group.empty()
+                           ? "no cell has its centre in the box"
+                           : fmt::format("'{}' is no group of cells of this body", region.group));
+  }
+}
+
 /// Part of a node's load that the modelled part of a symmetric scene carries: halved by each symmetry plane
 /// through it.
 std::vector<double> modelled_share(const Scene& scene) {
@@ -150,10 +212,12 @@ void resolve_loads(Scene& scene) {
 } // namespace
 
 Selection select(const HexMesh& mesh, const Region& region) {
-  if (region.near) return select_near(mesh, region);
+  if (region.near && !region.radius) return select_near(mesh, region);
   Selection selection;
   if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
     selection = group->second;
+  } else if (region.radius) {
+    selection = select_patch(mesh, region);
   } else if (const auto planes = parse_planes(region.name)) {
     selection = select_on_planes(mesh, *planes);
   } else {
@@ -176,13 +240,32 @@ int select_node(const HexMesh& mesh, const Region& region) {
   return selection.nodes.front();
 }
 
+std::vector<Material> materials_of(const Case& definition) {
+  std::vector<Material> materials{definition.material};
+  for (const RegionMaterial& region : definition.region_materials) materials.push_back(region.material);
+  return materials;
+}
+
+int material_of(const Scene& scene, std::size_t cell) {
+  return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
+}
+
+namespace {
+
+HexMesh make_mesh(const Body& body) {
+  if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
+  if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
+  return read_mesh(std::get<MeshFile>(body));
+}
+
+} // namespace
+
 Scene make_scene(const Case& definition) {
   Scene scene;
   scene.definition = definition;
-  if (const Box* box = std::get_if<Box>(&definition.body))
-    scene.mesh = make_box_mesh(box->size, box->cells);
-  else
-    scene.mesh = read_mesh(std::get<MeshFile>(definition.body));
+  scene.mesh = make_mesh(definition.body);
+  resolve_materials(scene);
+  add_patches(scene);
   for (const auto* list : {&definition.fixed, &definition.symmetry})
     for (const Fixed& fixed : *list)
       scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});
@@ -208,6 +291,8 @@ Scene refine(const Scene& scene, int n) {
   Scene fine;
   fine.definition = scene.definition;
   fine.mesh = refine(scene.mesh);
+  for (const int material : scene.material_of_cell) // the children of cell c are 8c .. 8c+7
+    fine.material_of_cell.insert(fine.material_of_cell.end(), 8, material);
   for (const auto* list : {&scene.definition.fixed, &scene.definition.symmetry})
     for (const Fixed& fixed : *list)
       fine.fixed.push_back({select(fine.mesh, fixed.region), fixed.components});
@@ -216,7 +301,8 @@ Scene refine(const Scene& scene, int n) {
     fine.fixed.push_back({fine.moved.back().selection, motion.components});
   }
   for (const Scene::AppliedLoad& applied : scene.loads) {
-    const bool stays = applied.load.kind == LoadKind::nodal_force || applied.load.region.near;
+    const Region& region = applied.load.region;
+    const bool stays = applied.load.kind == LoadKind::nodal_force || (region.near && !region.radius);
     fine.loads.push_back({stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load});
   }
   return refine(fine, n - 1);

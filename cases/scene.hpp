@@ -21,7 +21,8 @@ struct Scene {
   };
   Case definition;
   HexMesh mesh;
-  std::vector<FixedNodes> fixed; ///< [[fixed]], [[symmetry]] and [[moved]] alike: what is no unknown
+  std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
+  std::vector<FixedNodes> fixed;     ///< [[fixed]], [[symmetry]] and [[moved]] alike: what is no unknown
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
 };
@@ -32,6 +33,12 @@ Selection select(const HexMesh& mesh, const Region& region);
 
 /// The region's only node.  @throws InputError if it selects none or several
 int select_node(const HexMesh& mesh, const Region& region);
+
+/// The body's own material, then those of its regions.
+std::vector<Material> materials_of(const Case& definition);
+
+/// Which of them a cell is made of.
+int material_of(const Scene& scene, std::size_t cell);
 
 /// Builds or reads the body's mesh and resolves every region of the case (those of measures too).
 /// @throws InputError with the place in the case file

@@ -83,6 +83,7 @@ void write_loads(std::ostream& out, const cases::Scene& scene) {
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
+  if (!definition.region_materials.empty()) return "its input has one material";
   const cases::Fem& fem = definition.fem;
   const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
                                fem.formulation == cases::Formulation::saint_venant_kirchhoff;

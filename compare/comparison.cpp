@@ -1,9 +1,9 @@
 #include "compare/comparison.hpp"
 
+#include "compare/auto_fem.hpp"
 #include "compare/design.hpp"
 #include "compare/measure.hpp"
 #include "compare/solve_side.hpp"
-#include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/snes.hpp"
 
@@ -94,9 +94,7 @@ Judgement judge(const cases::Expectation& expectation, const std::vector<Measure
 Comparison compare_case(const cases::Case& definition, Only only) {
   Comparison comparison;
   comparison.scene = cases::make_scene(definition);
-  if (only != Only::msm)
-    comparison.fem = solve_side([&] { return fem_reference::Model(comparison.scene, MPI_COMM_WORLD); },
-                                [](fem_reference::Model& model) { return model.solve(); });
+  if (only != Only::msm) comparison.fem = solve_fem(comparison.scene, comparison.choices);
   if (only != Only::fem) comparison.msm = solve_springs(comparison);
   measure_sides(comparison);
   return comparison;

@@ -54,7 +54,8 @@ struct Comparison {
   Side msm;
   std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
   std::optional<msm::DesignResult>
-      design; ///< absent when the mass-spring side was skipped or could not be designed
+      design;                       ///< absent when the mass-spring side was skipped or could not be designed
+  std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
   std::vector<MeasuredValue> measures;
   std::vector<Judgement> judgements;
   std::optional<MeshStudy> mesh_study; ///< when asked for

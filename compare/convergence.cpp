@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace compare {
 
@@ -38,6 +39,18 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
 
 double discretisation_error_percent(double value, const MeshLimit& limit) {
   return 100 * safety_factor * std::abs((value - limit.extrapolated) / value);
+}
+
+double finest_error_percent(const std::vector<double>& coarse_to_fine, double ratio) {
+  assert(coarse_to_fine.size() >= 2 && ratio > 1);
+  if (coarse_to_fine.size() >= 3) {
+    const MeshVerdict verdict = judge_refinement(coarse_to_fine, ratio);
+    if (const auto* limit = std::get_if<MeshLimit>(&verdict)) return limit->index_percent;
+  }
+  constexpr double two_mesh_safety_factor = 3;
+  const double f1 = coarse_to_fine.back(), f2 = coarse_to_fine[coarse_to_fine.size() - 2];
+  const double error = 100 * two_mesh_safety_factor * std::abs((f1 - f2) / f1) / (ratio - 1);
+  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 } // namespace compare

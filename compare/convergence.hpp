@@ -29,4 +29,9 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
 /// convergence index.
 double discretisation_error_percent(double value, const MeshLimit& limit);
 
+/// Error bar of the finest value, percent, from two meshes or more: the grid convergence index where three
+/// show a limit, else Roache's bar for two meshes, 3 |(f1 - f2)/f1| x 100, with order 1, the least that a
+/// boundary's edges leave. Infinite when the finest value is zero or not finite.
+double finest_error_percent(const std::vector<double>& coarse_to_fine, double ratio);
+
 } // namespace compare

@@ -26,12 +26,26 @@ std::vector<std::string> counted(const std::map<std::string, int>& n_cells, std:
   return warnings;
 }
 
+msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell) {
+  const cases::Material material =
+      cases::materials_of(scene.definition)[static_cast<std::size_t>(cases::material_of(scene, cell))];
+  return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), scene.definition.msm));
+}
+
+/// Cells of equal shape and material share one design.
 msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
   msm::DesignResult all;
   std::map<std::string, int> n_cells;
+  std::map<int, msm::DesignResult> of_material; // on a grid
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
-    const msm::DesignResult cell = msm::design(
-        design_request(scene.definition.material, cases::cell_vertices(scene.mesh, c), scene.definition.msm));
+    msm::DesignResult cell;
+    if (scene.mesh.grid) {
+      const int material = cases::material_of(scene, c);
+      if (of_material.count(material) == 0) of_material[material] = design_cell(scene, c);
+      cell = of_material[material];
+    } else {
+      cell = design_cell(scene, c);
+    }
     for (const std::string& warning : cell.warnings) ++n_cells[warning];
     all.cells.push_back(cell.stiffness);
     if (c == 0) all.moduli = cell.moduli;
@@ -44,9 +58,9 @@ msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
 } // namespace
 
 msm::DesignResult design_for(const cases::Scene& scene) {
-  const cases::Msm& options = scene.definition.msm;
-  if (!scene.mesh.grid && options.design != cases::Design::given) return design_cell_by_cell(scene);
-  return msm::design(design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), options));
+  const bool are_alike = scene.mesh.grid && scene.material_of_cell.empty();
+  if (are_alike || scene.definition.msm.design == cases::Design::given) return design_cell(scene, 0);
+  return design_cell_by_cell(scene);
 }
 
 std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design) {

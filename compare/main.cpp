@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   compare::Action chosen;
   compare::add_run_command(program, chosen);
   compare::add_gate_command(program, chosen);
+  compare::add_new_command(program, chosen);
   compare::add_design_command(program, chosen);
   compare::add_eigen_command(program, chosen);
   compare::add_stress_command(program, chosen);

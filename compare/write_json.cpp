@@ -19,6 +19,7 @@ Json or_null(const std::optional<Value>& value) {
 
 Json fem_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.fem);
+  if (!comparison.choices.empty()) side["choices"] = comparison.choices;
   if (comparison.mesh_study) add_mesh_study(side, *comparison.mesh_study);
   return side;
 }

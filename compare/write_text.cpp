@@ -55,6 +55,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   write_side(out, "fem",
              cases::name_of(definition.fem.formulation) + " " + cases::name_of(definition.fem.element),
              comparison.fem);
+  for (const std::string& choice : comparison.choices) fmt::print(out, "       {}\n", choice);
   const std::string design = comparison.design ? describe(*comparison.design, definition.msm.design)
                                                : cases::name_of(definition.msm.design);
   if (comparison.msm_source.empty())

@@ -130,6 +130,8 @@ void DiscretisationBuilder::distribute_nodes() {
     if (!cell->is_locally_owned()) continue;
     cell->get_dof_indices(indices);
     out.mesh_cell.push_back(cell->index());
+    if (!scene.material_of_cell.empty())
+      out.material_of_cell.push_back(scene.material_of_cell[static_cast<std::size_t>(cell->index())]);
     for (unsigned a = 0; a < n; ++a) {
       const auto dof = indices[element.component_to_system_index(0, a)];
       Assert(dof % 3 == 0, dealii::ExcInternalError());

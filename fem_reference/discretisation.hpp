@@ -47,6 +47,7 @@ class Discretisation {
   std::vector<PetscInt> ghost_nodes; ///< their global numbers
   std::vector<int> cell_nodes;       ///< local nodes, nodes_per_cell for each cell
   std::vector<int> mesh_cell;        ///< number of each cell in the scene's mesh
+  std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
   std::vector<int> mesh_node;        ///< number of each local node in the scene's mesh, -1 where it has none
   std::vector<char> is_fixed;        ///< per local degree of freedom
   std::vector<double> prescribed;    ///< mm at full load, per local degree of freedom; 0 where free or moved

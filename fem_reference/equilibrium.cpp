@@ -58,10 +58,12 @@ double total(double value, MPI_Op operation, MPI_Comm communicator) {
 
 } // namespace
 
-Equilibrium::Equilibrium(const Discretisation& discretisation, const Formulation& formulation)
-    : discretisation_(discretisation), formulation_(formulation),
-      kernel_(discretisation.element, formulation), force_(discretisation.make_vector()),
-      condensed_force_(discretisation.make_vector()), right_hand_side_(discretisation.make_vector()) {
+Equilibrium::Equilibrium(const Discretisation& discretisation, const std::vector<Formulation>& formulations)
+    : discretisation_(discretisation), formulation_(formulations.front()),
+      force_(discretisation.make_vector()), condensed_force_(discretisation.make_vector()),
+      right_hand_side_(discretisation.make_vector()) {
+  for (const Formulation& formulation : formulations)
+    kernels_.emplace_back(discretisation.element, formulation);
   const auto& d = discretisation_;
   local_force_.resize(d.is_fixed.size());
   local_condensed_.resize(d.is_fixed.size());
@@ -86,6 +88,11 @@ Equilibrium::Equilibrium(const Discretisation& discretisation, const Formulation
                                      PETSC_COPY_VALUES, &mapping));
   check(MatSetLocalToGlobalMapping(d.tangent, mapping, mapping));
   check(ISLocalToGlobalMappingDestroy(&mapping));
+}
+
+CellKernel& Equilibrium::kernel(int cell) {
+  const std::vector<int>& material = discretisation_.material_of_cell;
+  return kernels_[material.empty() ? 0 : index(material[index(cell)])];
 }
 
 State Equilibrium::rest() const {
@@ -130,8 +137,8 @@ bool Equilibrium::add_cell(int cell, const double* displacement, const State& st
       rows[i * n + a] = d.is_fixed[dof] ? -1 : static_cast<PetscInt>(dof);
       has_gap = has_gap || prescribed_gap_[dof] != 0;
     }
-  const CellResult& result = kernel_.evaluate(d.geometry(cell), cell_displacement.data(),
-                                              state.pressure.data() + index(cell) * n_modes, wanted);
+  const CellResult& result = kernel(cell).evaluate(d.geometry(cell), cell_displacement.data(),
+                                                   state.pressure.data() + index(cell) * n_modes, wanted);
   if (!result.valid) return false;
   largest_mismatch_ = std::max(largest_mismatch_, result.volume_mismatch);
   std::copy(result.volume_residual.begin(), result.volume_residual.end(),
@@ -273,7 +280,7 @@ std::vector<double> Equilibrium::cell_volumes(const State& state) {
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t i = 0; i < 3; ++i)
         cell_displacement[3 * a + i] = displacement.data()[3 * index(d.cell_nodes[index(cell) * n + a]) + i];
-    volumes.push_back(kernel_
+    volumes.push_back(kernel(cell)
                           .evaluate(d.geometry(cell), cell_displacement.data(),
                                     state.pressure.data() + index(cell) * n_modes, Wanted::stress)
                           .volume);

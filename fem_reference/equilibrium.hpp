@@ -22,7 +22,10 @@ struct Imbalance {
 /// The discrete equilibrium equations of a scene: internal force = load factor * load.
 class Equilibrium {
  public:
-  Equilibrium(const Discretisation& discretisation, const Formulation& formulation);
+  Equilibrium(const Discretisation& discretisation, const Formulation& formulation)
+      : Equilibrium(discretisation, std::vector<Formulation>{formulation}) {}
+  /// @param formulations  of each of the discretisation's materials: one formulation, several materials
+  Equilibrium(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
   State rest() const;
   void copy(const State& from, State& to) const;
@@ -54,9 +57,11 @@ class Equilibrium {
 
   Vec right_hand_side() const { return right_hand_side_.get(); }
   const Discretisation& discretisation() const { return discretisation_; }
+  /// Of the first material.
   const Formulation& formulation() const { return formulation_; }
 
  private:
+  CellKernel& kernel(int cell);
   void begin_assembly(const State& state, double load_factor);
   bool add_cell(int cell, const double* displacement, const State& state, Wanted wanted);
   Imbalance measure(bool valid, double load_factor);
@@ -65,7 +70,7 @@ class Equilibrium {
 
   const Discretisation& discretisation_;
   Formulation formulation_;
-  CellKernel kernel_;
+  std::vector<CellKernel> kernels_; ///< one for each material
   Vector force_, condensed_force_,
       right_hand_side_; ///< internal force; with condensed imbalance; of the Newton system
   std::vector<double> local_force_, local_condensed_, prescribed_gap_;

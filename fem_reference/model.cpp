@@ -13,6 +13,14 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// The case's formulation with each of the scene's materials.
+std::vector<Formulation> formulations_of(const cases::Scene& scene) {
+  std::vector<Formulation> formulations;
+  for (const cases::Material& material : cases::materials_of(scene.definition))
+    formulations.push_back(make_formulation(scene.definition.fem, material));
+  return formulations;
+}
+
 void sum_over_ranks(std::vector<double>& values, MPI_Comm communicator) {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
                 communicator);
@@ -22,18 +30,18 @@ void sum_over_ranks(std::vector<double>& values, MPI_Comm communicator) {
 
 struct Model::Implementation {
   Implementation(const cases::Scene& the_scene, MPI_Comm communicator)
-      : scene(the_scene), formulation(make_formulation(scene.definition.fem, scene.definition.material)),
+      : scene(the_scene), formulations(formulations_of(scene)),
         discretisation(cases::refine(scene, scene.definition.fem.refine),
-                       element_type(scene.definition.fem, formulation), {}, communicator),
-        equilibrium(discretisation, formulation), solver(discretisation, formulation.symmetry),
+                       element_type(scene.definition.fem, formulations.front()), {}, communicator),
+        equilibrium(discretisation, formulations), solver(discretisation, formulations.front().symmetry),
         last(equilibrium.rest()) {}
 
   std::vector<Eigen::Vector3d> body_displacement(const State& state) const;
   std::vector<double> body_cell_volumes(const State& state);
   cases::Solution solve(const LoadSteps& steps, Stability stability);
 
-  cases::Scene scene; ///< on the body's own mesh
-  Formulation formulation;
+  cases::Scene scene;                    ///< on the body's own mesh
+  std::vector<Formulation> formulations; ///< one for each of the scene's materials
   Discretisation discretisation;
   Equilibrium equilibrium;
   LinearSolver solver;

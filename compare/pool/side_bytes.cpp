@@ -52,12 +52,6 @@ void transfer_answers(Archive& archive, Comparison& comparison) {
   transfer(archive, comparison.peer);
 }
 
-template<class Archive, class Value>
-void transfer(Archive& archive, Value& value) {
-  static_assert(std::is_trivially_copyable_v<Value>, "a field of this type needs its own transfer()");
-  archive.raw(&value, sizeof value);
-}
-
 std::string to_bytes(const Comparison& comparison) {
   Writer writer;
   Comparison copy = comparison; // because one transfer() serves both directions

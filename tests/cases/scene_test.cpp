@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <limits>
 
 using namespace cases;
 using Eigen::Vector3d;
@@ -143,4 +144,50 @@ TEST_CASE(
   CHECK(n_pulled == 4);
   CHECK(n_pushed == 5);
   CHECK((sum(forces) - Vector3d(1, 0, 4)).norm() < rounding);
+}
+
+TEST_CASE("a patch has the faces of the surface around its point, and a finer mesh has the same patch") {
+  Case definition = box({10, 10, 10}, {10, 10, 10});
+  Load press = load(LoadKind::traction, "patch", {0, 0, -1});
+  press.region.near = Vector3d(5, 5, 10);
+  press.region.radius = 2;
+  definition.loads.push_back(press);
+  const Scene scene = make_scene(definition);
+  // Centres at (0.5, 0.5), (0.5, 1.5) and (1.5, 0.5) from the point in each quarter; (1.5, 1.5) is 2.12 away.
+  REQUIRE(scene.loads.size() == 1);
+  CHECK(scene.loads[0].selection.faces.size() == 12);
+  CHECK(scene.loads[0].selection.nodes.size() == 21);
+  CHECK((sum(nodal_forces(scene)) - Vector3d(0, 0, -12)).norm() <= rounding);
+  const Scene fine = refine(scene, 1);
+  CHECK(fine.loads[0].selection.faces.size() == 48);
+  CHECK((sum(nodal_forces(fine)) - Vector3d(0, 0, -12)).norm() <= rounding);
+
+  definition.loads[0].region.near = Vector3d(5, 5, 5);
+  CHECK_THROWS_AS(make_scene(definition), InputError); // nothing of the surface there
+  definition.loads[0].region.near = Vector3d(0, 0, 10);
+  definition.loads[0].region.radius = 0.8;
+  CHECK(make_scene(definition).loads[0].selection.faces.size() == 3); // round the corner
+}
+
+TEST_CASE("a cell is of the last material whose region has its centre, and its children are too") {
+  Case definition = box({2, 1, 4}, {2, 1, 4});
+  definition.material = LinearElastic{1, 0.3};
+  const double infinity = std::numeric_limits<double>::infinity();
+  RegionMaterial layer{
+      LinearElastic{2, 0.3}, "", {-infinity, -infinity, 2}, {infinity, infinity, infinity}, {}};
+  RegionMaterial corner{LinearElastic{3, 0.3}, "", {0, 0, 3}, {1, 1, 4}, {}};
+  definition.region_materials = {layer, corner};
+  const Scene scene = make_scene(definition);
+  CHECK(scene.material_of_cell == std::vector<int>{0, 0, 0, 0, 1, 1, 2, 1});
+  const Scene fine = refine(scene, 1);
+  REQUIRE(fine.material_of_cell.size() == 64);
+  for (std::size_t c = 0; c < 64; ++c) CHECK(material_of(fine, c) == material_of(scene, c / 8));
+  CHECK(std::get<LinearElastic>(materials_of(definition)[2]).youngs_modulus == 3);
+
+  corner.lower.z() = 3.6; // above every centre
+  definition.region_materials = {corner};
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("no cell has its centre in the box"));
+  corner.group = "skin";
+  definition.region_materials = {corner};
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("'skin' is no group of cells"));
 }

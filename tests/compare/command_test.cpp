@@ -39,10 +39,11 @@ std::string content(const fs::path& path) {
 }
 
 /// @param words  as typed in a shell, after the program's name
-Outcome springproof(const std::string& words) {
+/// @param before  shell commands in front
+Outcome springproof(const std::string& words, const std::string& before = "") {
   const Folder folder;
   const std::string errors = (folder.path / "stderr").string();
-  FILE* pipe = popen((SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
+  FILE* pipe = popen((before + SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
   REQUIRE(pipe);
   std::string out;
   std::array<char, 4096> block{};
@@ -282,4 +283,35 @@ TEST_CASE("a hard case that does not exist is refused with the nearest name, and
   const Outcome ordinary = springproof("run " + cases_folder + "/hard/mechanism.toml");
   CHECK(ordinary.status == 2);
   CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
+}
+
+TEST_CASE("every template gives a case that runs, and nothing is ever overwritten") {
+  const Folder folder;
+  const auto in_folder = [&](const std::string& words) {
+    return springproof(words, "cd " + folder.path.string() + " && ");
+  };
+  for (const char* name : {"box", "layers", "mesh", "voxels"}) {
+    CAPTURE(name);
+    const std::string new_case = std::string("new my-") + name + " --template " + name;
+    REQUIRE(in_folder(new_case).status == 0);
+    CHECK(content(folder.path / ("my-" + std::string(name) + ".toml")).find("TEMPLATE") == std::string::npos);
+    const Outcome run = in_folder("run --json my-" + std::string(name) + ".toml");
+    REQUIRE(run.status == 0);
+    const auto document = nlohmann::json::parse(run.out);
+    CHECK(document["cases"][0]["name"] == "my-" + std::string(name));
+    for (const auto& measure : document["cases"][0]["measures"]) CHECK(measure["error_percent"].is_number());
+    const Outcome again = in_folder(new_case);
+    CHECK(again.status == 2);
+    CHECK(again.error.find("nothing is overwritten") != std::string::npos);
+  }
+  // The mesh's drawing alone is in the way.
+  fs::remove(folder.path / "my-mesh.toml");
+  CHECK(in_folder("new my-mesh --template mesh").status == 2);
+  CHECK_FALSE(fs::exists(folder.path / "my-mesh.toml"));
+  for (const char* wrong : {"new ../up", "new .hidden", "new 'a b'", "new x --template bax"}) {
+    CAPTURE(wrong);
+    const Outcome outcome = in_folder(wrong);
+    CHECK(outcome.status == 2);
+    CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
+  }
 }

@@ -1,0 +1,63 @@
+"""Runs every springproof command of a page's ```sh blocks.
+
+run_commands.py PROGRAM SOURCE PAGE FOLDER
+
+Commands are what a reader types in the project's folder: lines that begin with springproof, build/springproof or mpirun. They
+are run in FOLDER, where cases and build/springproof are what they are in the project and nothing else is. Each must end with
+status 0, or with N where a comment behind it says "exits N". One that takes too long has a comment that begins with "not run by
+the tests"; it is shown, so that nobody takes it for tested. Other lines (./do, ctest, awk) are shown as such too.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+
+def commands(page):
+    """The lines of the page's sh blocks, continued ones joined."""
+    for block in re.findall(r"^ *```sh\n(.*?)^ *```", page.read_text(), re.DOTALL | re.MULTILINE):
+        for line in block.replace("\\\n", " ").splitlines():
+            line = line.strip()
+            if line and not line.startswith("#"):
+                yield line
+
+
+def prepare(folder, source, program):
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "build").mkdir(parents=True)
+    (folder / "build" / "springproof").symlink_to(program)
+    (folder / "cases").symlink_to(source / "cases")
+
+
+def main():
+    program, source, page, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:])
+    prepare(folder, source, program)
+    failures = n_run = 0
+    for line in commands(page):
+        command, _, comment = line.partition(" #")
+        comment = comment.strip()
+        if not re.match(r"(build/)?springproof |mpirun ", command):
+            print(f"no springproof command: {line}")
+            continue
+        if comment.startswith("not run by the tests"):
+            print(f"NOT RUN: {line}")
+            continue
+        said = re.search(r"exits (\d)", comment)
+        expected = int(said.group(1)) if said else 0
+        typed = re.sub(r"(?<![/\w])springproof ", "build/springproof ", command)
+        begin = time.monotonic()
+        done = subprocess.run(["sh", "-c", typed], cwd=folder, capture_output=True, text=True)
+        n_run += 1
+        print(f"{done.returncode} after {time.monotonic() - begin:.1f} s: {command}")
+        if done.returncode != expected:
+            failures += 1
+            print(f"  FAILED, must be {expected}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    print(f"{page.name}: {n_run} commands run, {failures} failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
