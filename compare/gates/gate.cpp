@@ -125,7 +125,7 @@ std::string describe(const Gate& gate) {
   const cases::Expectation& expected = gate.judgement.expectation;
   std::string text = fmt::format("{} {}", expected.measure, cases::name_of(expected.quantity));
   if (gate.judgement.value)
-    text += fmt::format(" = {:.8g} {}, {} [{:.8g}, {:.8g}]", *gate.judgement.value, gate.unit,
+    text += fmt::format(" = {:.9g} {}, {} [{}, {}]", *gate.judgement.value, gate.unit,
                         gate.met() ? "in" : "not in", expected.interval[0], expected.interval[1]);
   else
     text += ": " + gate.judgement.reason;

@@ -38,7 +38,7 @@ struct TestSuite {
 TestCase test_of(const GatedCase& judged, const Gate& gate) {
   const cases::Expectation& expected = gate.judgement.expectation;
   TestCase test;
-  test.name = fmt::format("{} {} in [{:.8g}, {:.8g}]", expected.measure, cases::name_of(expected.quantity),
+  test.name = fmt::format("{} {} in [{}, {}]", expected.measure, cases::name_of(expected.quantity),
                           expected.interval[0], expected.interval[1]);
   test.class_name = judged.name;
   if (!gate.met()) test.element = gate.judgement.value ? "failure" : "error";
