@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <poll.h>
@@ -14,8 +15,6 @@
 #include <system_error>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace compare {
 
 namespace {
@@ -25,17 +24,16 @@ std::system_error system_error(int code, const std::string& what) {
 }
 
 /// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
-/// take itself for this process.
+/// take itself for this process, and may have done so before main(): the system keeps the first state.
 const std::vector<std::string>& initial_environment() {
   static const std::vector<std::string> variables = [] {
+    std::ifstream kept("/proc/self/environ", std::ios::binary);
     std::vector<std::string> copies;
-    for (char** variable = environ; *variable; ++variable) copies.emplace_back(*variable);
+    for (std::string variable; std::getline(kept, variable, '\0');) copies.push_back(variable);
     return copies;
   }();
   return variables;
 }
-
-[[maybe_unused]] const bool is_environment_kept = (initial_environment(), true); // before main()
 
 /// Pointers into the words, with a null at the end, as the system wants them.
 std::vector<char*> pointers(std::vector<std::string>& words) {
