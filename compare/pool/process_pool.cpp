@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <poll.h>
@@ -14,8 +15,6 @@
 #include <system_error>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace compare {
 
 namespace {
@@ -25,19 +24,15 @@ std::system_error system_error(int code, const std::string& what) {
 }
 
 /// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
-/// take itself for this process.
+/// take itself for this process, and may have done so before main(): the system keeps the first state.
 const std::vector<std::string>& initial_environment() {
   static const std::vector<std::string> variables = [] {
+    std::ifstream kept("/proc/self/environ", std::ios::binary);
     std::vector<std::string> copies;
-    for (char** variable = environ; *variable; ++variable) copies.emplace_back(*variable);
+    for (std::string variable; std::getline(kept, variable, '\0');) copies.push_back(variable);
     return copies;
   }();
   return variables;
-}
-
-/// Before any other object of the program is made: one of them may start MPI, which marks the environment.
-__attribute__((constructor(101))) void keep_environment() {
-  initial_environment();
 }
 
 /// Pointers into the words, with a null at the end, as the system wants them.
@@ -150,9 +145,8 @@ class Worker {
 
 } // namespace
 
-std::vector<JobAnswer>
-run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
-                 const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
+std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                                        const std::function<void(std::size_t)>& on_done) {
   std::vector<JobAnswer> answers(jobs.size());
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
@@ -178,7 +172,7 @@ run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
       if (!news.answer) continue;
       answers[job] = std::move(*news.answer);
       ++n_answered;
-      on_done(job, answers[job]);
+      on_done(job);
       if (news.has_ended || next == jobs.size())
         employ(workers[w]);
       else {

@@ -58,7 +58,7 @@ msm::Model make_springs(const cases::Scene& scene) {
   return msm::Model(scene, stiffness_of_cells(design_for(scene)));
 }
 
-/// @param before  displacement under the smaller load; empty: there is none to start from
+/// @param before  displacement under the smaller load
 Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Points& before) {
   Round round;
   Stopwatch stopwatch;
@@ -68,21 +68,16 @@ Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Poin
   settings.tolerance = tolerance;
   settings.stability = msm::Stability::ignore;
   round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
-  if (round.first_seconds && !before.empty())
+  if (round.first_seconds)
     round.again_seconds = timed(round.again, [&] { return model.solve(settings, before); });
   return round;
 }
 
-/// The displacement under the smaller load. A lattice that is not stable there fails here, and has no
-/// re-solve.
+/// The displacement under the smaller load, where the equilibrium has to be stable.  @throws SolveError
 msm::Points springs_before(const cases::Scene& scene, double tolerance) {
   msm::EquilibriumSettings settings;
   settings.tolerance = tolerance;
-  try {
-    return make_springs(with_load(scene, 1 - load_change)).solve(settings).displacement;
-  } catch (const cases::SolveError&) {
-    return {};
-  }
+  return make_springs(with_load(scene, 1 - load_change)).solve(settings).displacement;
 }
 
 /// All ranks go by what rank 0 measured.
@@ -164,6 +159,18 @@ VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
   return run;
 }
 
+VariantRun time_springs(const cases::Scene& scene, double tolerance, const TimingRules& rules) {
+  try {
+    const msm::Points before = springs_before(scene, tolerance);
+    return repeat([&] { return solve_springs(scene, tolerance, before); }, rules,
+                  [](double seconds) { return seconds; });
+  } catch (const cases::SolveError& error) {
+    VariantRun run;
+    run.first = failed_solution(error);
+    return run;
+  }
+}
+
 } // namespace
 
 int n_repetitions(double seconds_of_first, const TimingRules& rules) {
@@ -174,18 +181,15 @@ int n_repetitions(double seconds_of_first, const TimingRules& rules) {
 
 VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
   const cases::Scene scene = cases::make_scene(with_variant(definition, variant));
-  const auto as_measured = [](double seconds) { return seconds; };
   switch (variant.program) {
-  case Program::springs: {
+  case Program::springs:
     if (rank() != 0) return {};
-    const msm::Points before = springs_before(scene, variant.tolerance);
-    return repeat([&] { return solve_springs(scene, variant.tolerance, before); }, rules, as_measured);
-  }
+    return time_springs(scene, variant.tolerance, rules);
   case Program::finite_elements:
     return repeat([&] { return solve_finite_elements(scene, variant, rules); }, rules, agreed);
   case Program::calculix:
     if (rank() != 0) return {};
-    return repeat([&] { return ask_calculix_once(scene); }, rules, as_measured);
+    return repeat([&] { return ask_calculix_once(scene); }, rules, [](double seconds) { return seconds; });
   }
   return {}; // not reached: every program is above
 }

@@ -35,9 +35,9 @@ struct VariantRun {
   std::optional<double> start_megabytes; ///< of it before the model was made
 };
 
-/// Solves a variant of a case again and again on one thread. Stability is looked at once, before the timing:
-/// it is a diagnosis and no part of the answer. Collective over MPI_COMM_WORLD; all but finite elements run
-/// on rank 0 alone, where alone their answer is.
+/// Solves a variant of a case again and again on one thread. Springs have to be stable under the smaller
+/// load, which is looked at once; the solves that are timed do not diagnose stability. Collective over
+/// MPI_COMM_WORLD; all but finite elements run on rank 0 alone, where alone their answer is.
 /// @throws InputError when the case has no such variant
 VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
 

@@ -35,7 +35,7 @@ SweepRow measured(const Variant& variant, double seconds, double error) {
   row.run.first.status = cases::Status::converged;
   row.run.setup_seconds = {1, 1, 1};
   row.run.first_seconds = {seconds, seconds, 100}; // a median is not moved by one slow round
-  row.measure_error_percent = {-2 * error, error, std::nullopt};
+  row.measure_error_percent = {-2 * error, std::nullopt}; // of the two measures of the case
   return row;
 }
 
