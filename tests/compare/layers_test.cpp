@@ -26,7 +26,7 @@ cases::Case column(double lower_modulus, double upper_modulus) {
   cases::Load load;
   load.region.name = "z+";
   load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 1e-5};
+  load.value = {0, 0, 1e-4};
   definition.loads.push_back(load);
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.element = cases::Element::q1;
@@ -46,7 +46,7 @@ cases::Case column(double lower_modulus, double upper_modulus) {
 
 TEST_CASE("layers in a row stretch by the sum of theirs, in finite elements refined or not",
           "[verification]") {
-  const double exact = 1e-5 * (3 / 0.2 + 1 / 0.8);
+  const double exact = 1e-4 * (3 / 0.2 + 1 / 0.8);
   cases::Case definition = column(0.2, 0.8);
   for (const int refine : {0, 1}) {
     definition.fem.refine = refine;
@@ -59,14 +59,14 @@ TEST_CASE("layers in a row stretch by the sum of theirs, in finite elements refi
 TEST_CASE("springs know the layers' materials: twice as stiff above is half the stretch above",
           "[verification]") {
   const auto stretch = [](double lower, double upper) {
-    return *compare_case(column(lower, upper), Only::msm).measures[0].msm;
+    return compare_case(column(lower, upper), Only::msm).measures[0].msm.value();
   };
   // A lattice of springs cannot have nu = 0, and the layers hinder each other's lateral strain; but scaled
   // together they stay in proportion, and a much stiffer layer adds almost nothing.
   CHECK(stretch(0.4, 1.6) ==
-        Approx(stretch(0.2, 0.8) / 2).epsilon(1e-4)); // strains of 1e-4 are not quite linear
+        Approx(stretch(0.2, 0.8) / 2).epsilon(1e-3)); // strains of 1e-3 are not quite linear
   CHECK(stretch(0.2, 0.8) < stretch(0.2, 0.2));
-  CHECK(stretch(0.2, 2000) < stretch(0.2, 0.8));
-  CHECK(stretch(0.2, 2000) >
+  CHECK(stretch(0.2, 20) < stretch(0.2, 0.8));
+  CHECK(stretch(0.2, 20) >
         0.7 * stretch(0.2, 0.2)); // three of four cells are as before, hindered at one side
 }
