@@ -2,6 +2,7 @@
 #include "cases/names.hpp"
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
+#include "compare/published.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,12 +24,14 @@ struct NewOptions {
 };
 
 /// A case file of cases/templates is named like the template, and may have one other file beside it.
-const fs::path templates = fs::path(SPRINGPROOF_CASES_DIR) / "templates";
+fs::path templates() {
+  return fs::path(cases_folder()) / "templates";
+}
 const std::string placeholder = "TEMPLATE";
 
 std::vector<std::string> template_names() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(templates))
+  for (const auto& entry : fs::directory_iterator(templates()))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -64,7 +67,7 @@ int write_new_case(const NewOptions& options) {
     throw cases::InputError("new: there is no template \"" + options.template_name + "\", allowed are " +
                             cases::alternatives(known));
   std::vector<std::pair<fs::path, fs::path>> copies; // from, to
-  for (const auto& entry : fs::directory_iterator(templates))
+  for (const auto& entry : fs::directory_iterator(templates()))
     if (entry.path().stem() == options.template_name)
       copies.emplace_back(entry.path(), options.name + entry.path().extension().string());
   std::sort(copies.begin(), copies.end());
