@@ -21,6 +21,11 @@ const Point& least(const std::vector<Point>& points, const Key& key) {
                            [&](const Point& a, const Point& b) { return key(a) < key(b); });
 }
 
+/// Two digits, or the whole number.
+std::string factor_text(double factor) {
+  return factor < 99.5 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
+}
+
 constexpr const char* without_points = "no model was measured.";
 
 } // namespace
@@ -45,8 +50,8 @@ std::string fastest_sentence(const std::vector<Point>& points, double error_perc
   const auto rival = fastest_within(points, error_percent, other);
   const std::string sentence = start + describe(winner) + " is the fastest";
   if (!rival) return sentence + fmt::format("; no {} get there.", name_of(other));
-  return sentence + fmt::format(", {:.2g} times as fast as the fastest {}, {}.",
-                                points[*rival].seconds / winner.seconds, name_of(other),
+  return sentence + fmt::format(", {} times as fast as the fastest {}, {}.",
+                                factor_text(points[*rival].seconds / winner.seconds), name_of(other),
                                 describe(points[*rival]));
 }
 

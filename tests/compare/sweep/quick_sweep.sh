@@ -1,12 +1,15 @@
 #!/bin/sh
-# quick_sweep.sh PROGRAM CASE FOLDER [LAUNCHER...]: a quick sweep ends in 0, prints its text once, and leaves its files,
-# none of them temporary.
+# quick_sweep.sh PROGRAM CASE FOLDER [LAUNCHER...]: a quick sweep prints its text once and leaves its files. One cell by the
+# nonlinear method is a mechanism: that is the one failed row, and with it the status is 1.
 set -eu
 program=$1 case=$2 folder=$3
 shift 3
 rm -rf "$folder"
-"$@" "$program" sweep --quick "$case" --out "$folder" > "$folder.text"
-for line in 'the sweep took' '^reference: ' '^displacement field, re-solve' 'springs hybrid: '; do
+status=0
+"$@" "$program" sweep --quick "$case" --out "$folder" > "$folder.text" || status=$?
+[ "$status" -eq 1 ] || { echo "the status is $status, not 1"; exit 1; }
+grep -q 'springs nonlinear_method  *1x1x1 .*failed: .*no stiffness' "$folder.text" || { echo "no row tells of the mechanism"; exit 1; }
+for line in 'failed: ' 'the sweep took' '^reference: ' '^displacement field, re-solve' 'springs hybrid: '; do
   n=$(grep -c "$line" "$folder.text" || true)
   case $line in
     springs*) wanted=2 ;; # errors of the field, and of the measures
