@@ -145,8 +145,9 @@ class Worker {
 
 } // namespace
 
-std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
-                                        const std::function<void(std::size_t)>& on_done) {
+std::vector<JobAnswer>
+run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                 const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
   std::vector<JobAnswer> answers(jobs.size());
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
@@ -172,7 +173,7 @@ std::vector<JobAnswer> run_in_processes(const ProcessPool& pool, const std::vect
       if (!news.answer) continue;
       answers[job] = std::move(*news.answer);
       ++n_answered;
-      on_done(job);
+      on_done(job, answers[job]);
       if (news.has_ended || next == jobs.size())
         employ(workers[w]);
       else {

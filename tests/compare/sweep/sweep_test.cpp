@@ -160,7 +160,7 @@ TEST_CASE(
   for (const Variant& variant : {springs(2), elements}) {
     const std::string line = to_line(folder + "cube_tensile.toml", variant, rules);
     const JobAnswer answer =
-        run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {line}, [](std::size_t) {
+        run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {line}, [](std::size_t, const compare::JobAnswer&) {
         }).front();
     INFO(answer.reason);
     REQUIRE(answer.bytes);
