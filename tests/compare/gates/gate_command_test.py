@@ -186,7 +186,7 @@ def test_documented_commands(folder):
     """The commands of docs/gates.md and of the README's gates, the workflow's among them, do what they are shown for."""
     text = "\n".join((Path(SOURCE) / page).read_text() for page in ("docs/gates.md", "README.md"))
     blocks = re.findall(r"^```(?:sh|yaml)\n(.*?)^```", text, re.M | re.S)
-    commands = [line.strip().removeprefix("run: ") for block in blocks for line in block.splitlines() if "build/springproof gate" in line]
+    commands = [line.strip().removeprefix("- run: ") for block in blocks for line in block.splitlines() if "build/springproof gate" in line]
     assert len(commands) >= 5, commands
     shutil.copytree(CASES, folder / "cases")
     (folder / "build").mkdir()
