@@ -20,7 +20,7 @@ struct DesignOptions {
   std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;
   double neo_hookean = 0;
   std::string curve_file;
-  double largest_strain = 0; ///< left out
+  double largest_strain = 0;        ///< left out
   std::vector<std::string> paths;   ///< of the multi-load method; empty: all
   std::vector<double> strain_range; ///< two, or left out
   bool springs_only = false;        ///< the multi-load method without its volume term

@@ -45,7 +45,8 @@ OwnedMatrix dense_matrix(const Eigen::MatrixXd& values) {
 OwnedMatrix sparse_matrix(const Eigen::SparseMatrix<double>& values) {
   const auto n = static_cast<PetscInt>(values.rows());
   std::vector<PetscInt> n_row(static_cast<std::size_t>(n));
-  for (PetscInt i = 0; i < n; ++i) n_row[static_cast<std::size_t>(i)] = static_cast<PetscInt>(values.col(i).nonZeros());
+  for (PetscInt i = 0; i < n; ++i)
+    n_row[static_cast<std::size_t>(i)] = static_cast<PetscInt>(values.col(i).nonZeros());
   Mat matrix = nullptr;
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 0, n_row.data(), &matrix));
   OwnedMatrix owned(matrix);

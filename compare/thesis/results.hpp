@@ -136,7 +136,8 @@ struct ThesisResults {
   /// file's own material. For drawings, volumes and fields.
   std::vector<Comparison> cases;
   std::vector<Trace> case_traces; ///< one per case
-  /// The cube of figure 4.15, nu = 0.25 with the printed set: the tests that the tables asked for have in common with it.
+  /// The cube of figure 4.15, nu = 0.25 with the printed set: the tests that the tables asked for have in
+  /// common with it.
   std::vector<Comparison> figure_4_15;
   std::vector<CellAnalysis> cells;
   std::vector<CaseVolumes> volumes;                  ///< one per case

@@ -26,10 +26,10 @@ struct DesignRequest {
 };
 
 struct DesignResult {
-  CellStiffness stiffness; ///< of the request's cell
+  CellStiffness stiffness;        ///< of the request's cell
   std::optional<double> residual; ///< what the method minimised, at its minimum; absent for a closed form
   LatticeModuli moduli;
-  std::vector<std::string> warnings; ///< why the design should not be trusted; empty for a sound one
+  std::vector<std::string> warnings;  ///< why the design should not be trusted; empty for a sound one
   std::vector<CellStiffness> cells{}; ///< of every cell of a mesh of unequal cells; empty when all are alike
 };
 

@@ -58,7 +58,8 @@ struct Slab {
 };
 
 constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
-  return 18 * layout.plane + 2 * layout.lead + 24 * 64;
+  const std::ptrdiff_t tile_row = 3 * 16;
+  return tile_row * (2 * 27 * (layout.nodes[1] + 2) + 3 * 2 * n_springs) + 24 * 64 + 16;
 }
 
 template<class Real>

@@ -6,10 +6,10 @@ namespace msm::grid {
 
 namespace {
 
-/// Planes of nodes are dealt out in slabs of four or a little more: the same on any number of threads, so
-/// that sums are too, and an even number, so that two threads have the same to do.
+/// Planes of nodes are dealt out in slabs of some sixteen: the same on any number of threads, so that sums
+/// are too, and an even number, so that two threads have the same to do.
 int slabs_of(int planes) {
-  return std::max(1, 2 * (planes / 8));
+  return planes < 8 ? 1 : 2 * std::max(1, planes / 16);
 }
 
 /// First plane of slab s of n.

@@ -34,7 +34,7 @@ SweepRow measured(const Variant& variant, double seconds, double error) {
   SweepRow row{variant, {}, error, {}};
   row.run.first.status = cases::Status::converged;
   row.run.setup_seconds = {1, 1, 1};
-  row.run.first_seconds = {seconds, seconds, 100}; // a median is not moved by one slow round
+  row.run.first_seconds = {seconds, seconds, 100};        // a median is not moved by one slow round
   row.measure_error_percent = {-2 * error, std::nullopt}; // of the two measures of the case
   return row;
 }
@@ -159,9 +159,9 @@ TEST_CASE(
                          cases::Element::q2,       {2, 2, 2}, 1e-9};
   for (const Variant& variant : {springs(2), elements}) {
     const std::string line = to_line(folder + "cube_tensile.toml", variant, rules);
-    const JobAnswer answer =
-        run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {line}, [](std::size_t, const compare::JobAnswer&) {
-        }).front();
+    const JobAnswer answer = run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {line},
+                                              [](std::size_t, const compare::JobAnswer&) {})
+                                 .front();
     INFO(answer.reason);
     REQUIRE(answer.bytes);
     const VariantRun run = variant_run_from(*answer.bytes);

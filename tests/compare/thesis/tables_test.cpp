@@ -55,7 +55,8 @@ TEST_CASE("the same tables come out byte for byte, on one worker and on three") 
         output("tables 4.1 4.3 5.12 --workers 3 --out " + three.string()));
   int n_files = 0, n_drawn = 0;
   for (const auto& file : fs::recursive_directory_iterator(one)) {
-    if (file.is_directory() || file.path().filename() == "report.html") continue; // the report tells the times
+    if (file.is_directory() || file.path().filename() == "report.html")
+      continue; // the report tells the times
     CAPTURE(file.path());
     const fs::path inside = fs::relative(file.path(), one);
     CHECK(content(file.path()) == content(three / inside));

@@ -1,0 +1,354 @@
+// Part of kernels_source.hpp, in its namespace: the springs, a pack of nodes at a time.
+#pragma once
+
+/// A spring's stiffness along the nodes of plane k: `share` times `scale`.
+template<class Real>
+struct Share {
+  const Real* share;
+  Real scale;
+};
+
+/// That of a group's first spring; the others of the group follow at a distance of layout.plane.
+template<class Real>
+SPRINGPROOF_INLINE Share<Real> spring_share(const Springs<Real>& s, int spring, int k) {
+  const std::ptrdiff_t plane = s.layout.plane;
+  if (s.by_node) return {s.by_node + (n_springs * k + spring) * plane, s.stiffness[spring]};
+  const bool along_row = spring == n_springs - 1;
+  const int dx = along_row ? 1 : spring % 3 - 1, dy = along_row ? 0 : group_dy[spring / 3],
+            dz = along_row ? 0 : group_dz[spring / 3];
+  return {s.share + (3 * (dy + 1) + dx + 1) * plane, s.stiffness[spring] * s.share_z[3 * k + dz + 1]};
+}
+
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> rest_of(const Springs<Real>& s, int spring) {
+  return {s.rest[spring][0], s.rest[spring][1], s.rest[spring][2]};
+}
+
+// What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
+// direction, k and k l0: the first end receives the result and the second one its opposite.
+
+/// k l0/|d|. A ghost may lie where a node is: hence the 1e-30.
+template<class P>
+SPRINGPROOF_INLINE P rest_tension(const Vec<P>& d, const P& k_rest, P& inverse_length) {
+  const P least = P{} + 1e-30f;
+  inverse_length = inverse_root(((least + d.x * d.x) + d.y * d.y) + d.z * d.z);
+  return k_rest * inverse_length;
+}
+
+/// (k - k l0/|d|) d
+template<class Real>
+struct Force {
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = false;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P& k_rest) const {
+    P inverse_length;
+    return (k - rest_tension(d, k_rest, inverse_length)) * d;
+  }
+};
+
+/// Tangent times the change c of d, for the first end: -(t c + (k - t) (d.c)/|d|² d) with t = k - k l0/|d|,
+/// at least 0 when clamped.
+template<class Real, Clamp clamp>
+struct Product {
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = true;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k,
+                                       const P& k_rest) const {
+    P inverse_length;
+    P t = k - rest_tension(d, k_rest, inverse_length);
+    if constexpr (clamp == Clamp::yes) t = t > Real(0) ? t : P{};
+    const P along = (t - k) * (dot(d, change) * (inverse_length * inverse_length));
+    return along * d - t * change;
+  }
+};
+
+// The springs are swept in tiles: some packs of every row, plane after plane, in a scratch of whole packs on the
+// boundaries of cache lines. For every pack of nodes it holds, one after the other:
+//   displacements of the nodes before them in their row, of themselves, and of those after them, all taken from the
+//   nodes' own places at rest (3 x 3 packs); the direction likewise, if there is one; and sums: what goes to the nodes
+//   before, to the nodes, and to those after (3 x 3 packs), which fold() brings together.
+// So whatever a spring needs is an aligned pack at a fixed distance from one of two addresses, its plane's and that of
+// the plane above. A plane has one row more before its first and after its last.
+template<class Action>
+constexpr std::ptrdiff_t node_packs = Action::needs_direction ? 27 : 18;
+template<class Action>
+constexpr std::ptrdiff_t sums_at = Action::needs_direction ? 18 : 9;
+constexpr std::ptrdiff_t direction_at = 9;
+
+/// Packs of a row in a tile, at most: with four, the five rows that a row's springs meet fit into the first-level cache.
+constexpr std::ptrdiff_t tile = 3;
+
+// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs and then k l0 of the 13, 0 beyond the
+// row's end.
+constexpr std::ptrdiff_t stiffness_packs = 2 * n_springs;
+
+/// Three packs one after the other.
+template<class Real>
+SPRINGPROOF_INLINE Vec<Pack<Real>> load_three(const Real* from) {
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  return {load(from), load(from + lanes), load(from + 2 * lanes)};
+}
+template<class Real>
+SPRINGPROOF_INLINE void store_three(Real* to, const Vec<Pack<Real>>& value) {
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  store(to, value.x);
+  store(to + lanes, value.y);
+  store(to + 2 * lanes, value.z);
+}
+template<class Real>
+SPRINGPROOF_INLINE void clear_packs(Real* begin, std::ptrdiff_t n) {
+  for (std::ptrdiff_t i = 0; i < n; ++i) store(begin + i * pack_size<Real>, Pack<Real>{});
+}
+
+template<class Action, class Real>
+SPRINGPROOF_INLINE void clear_sums(Real* row, std::ptrdiff_t n) {
+  for (std::ptrdiff_t p = 0; p < n; ++p)
+    clear_packs(row + (p * node_packs<Action> + sums_at<Action>)*pack_size<Real>, 9);
+}
+
+/// The packs of a row that a sweep works on.
+struct Tile {
+  std::ptrdiff_t first, n; ///< packs
+  bool is_last;            ///< nothing of the row follows
+};
+
+/// The first n numbers of a and the others of b.
+template<class P>
+SPRINGPROOF_INLINE P first_of(std::ptrdiff_t n, const P& a, const P& b) {
+  typename MaskOf<sizeof(a[0])>::type place, end;
+  for (int i = 0; i < static_cast<int>(sizeof(P) / sizeof(a[0])); ++i) {
+    place[i] = i;
+    end[i] = static_cast<decltype(end[0] + 0)>(n);
+  }
+  return place < end ? a : b;
+}
+
+template<class Real>
+void fill_stiffness(const Springs<Real>& s, const Tile& t, int k, int j, Real* to) {
+  using P = Pack<Real>;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  for (std::ptrdiff_t p = 0; p < t.n; ++p) {
+    const std::ptrdiff_t i = (t.first + p) * lanes, n_left = s.layout.nodes[0] - i;
+    for (int spring = 0; spring < n_springs; ++spring) {
+      const Share<Real> share = spring_share(s, spring, k);
+      P stiffness = share.scale * load(share.share + j * s.layout.row + i);
+      if (n_left < lanes) stiffness = first_of(n_left, stiffness, P{});
+      Real* const out = to + (p * stiffness_packs + spring) * lanes;
+      store(out, stiffness);
+      store(out + n_springs * lanes, s.rest_length[spring] * stiffness);
+    }
+  }
+}
+
+/// One vector field along a row into the scratch; h is what lies between neighbours.
+template<std::ptrdiff_t stride, class Real>
+SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h, std::ptrdiff_t n, Real* to) {
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  for (std::ptrdiff_t p = 0; p < n; ++p)
+    for (int c = 0; c < 3; ++c) {
+      const Real* at = from + p * lanes + c * distance;
+      Real* const out = to + (p * stride + c) * lanes;
+      const Real step = c == 0 ? h : Real(0);
+      store(out, load(at - 1) - step);
+      store(out + 3 * lanes, load(at));
+      store(out + 6 * lanes, load(at + 1) + step);
+    }
+}
+
+/// One spring of a pack of nodes, to the nodes that are dx further on in their row: the senders' sum grows, that of the
+/// nodes at the other end shrinks.
+/// @param from  where the senders' places at rest are, seen from the other row's, less the senders' displacement
+/// @param to    the pack at the senders' place in the other row
+/// @tparam is_first  nothing has come to those nodes' sums before
+template<int spring, int dx, bool is_first, class Real, class Action>
+SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from, const Vec<Pack<Real>>& v,
+                                     const Real* stiffness, Real* to, Vec<Pack<Real>>& own) {
+  using P = Pack<Real>;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (dx + 1) * lanes;
+  const Vec<P> d = load_three(to + side) + from;
+  Vec<P> change{};
+  if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
+  const Vec<P> f = action(d, change, load(stiffness + spring * lanes), load(stiffness + (n_springs + spring) * lanes));
+  own = own + f;
+  Real* const sum = to + sums_at<Action> * lanes + side;
+  if constexpr (is_first)
+    store_three(sum, Vec<P>{} - f);
+  else
+    store_three(sum, load_three(sum) - f);
+}
+
+/// The three springs of a group.
+/// @param edge  from a node to its neighbours along x, y, z at rest
+template<int group, class Real, class Action>
+SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge, const Vec<Pack<Real>>& u,
+                                    const Vec<Pack<Real>>& v, const Real* stiffness, Real* plane, Vec<Pack<Real>>& own) {
+  constexpr int dy = group_dy[group], dz = group_dz[group];
+  constexpr bool is_first = dy == 1 && dz == 1; // rows are swept upwards
+  Vec<Pack<Real>> from = Vec<Pack<Real>>{} - u;
+  if constexpr (dy == 1) from.y = edge.y - u.y;
+  if constexpr (dy == -1) from.y = -edge.y - u.y;
+  if constexpr (dz == 1) from.z = edge.z - u.z;
+  Real* const to = plane + dy * tile * node_packs<Action> * pack_size<Real>;
+  sweep_spring<3 * group, -1, is_first>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 1, 0, is_first>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 2, 1, is_first>(action, from, v, stiffness, to, own);
+}
+
+/// All springs of a tile's packs in one row.
+/// @tparam upwards  whether there is a plane above
+template<bool upwards, class Real, class Action>
+SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffness, Real* here,
+                                  Real* above, std::ptrdiff_t n) {
+  using P = Pack<Real>;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  const Vec<P> edge{P{} + s.rest[12][0], P{} + s.rest[10][1], P{} + s.rest[4][2]};
+  for (std::ptrdiff_t p = 0; p < n; ++p) {
+    const Vec<P> u = load_three(here + 3 * lanes);
+    Vec<P> v{};
+    if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
+    Real* const sum = here + (sums_at<Action> + 3) * lanes;
+    Vec<P> own = load_three(sum);
+    sweep_spring<n_springs - 1, 1, false>(action, Vec<P>{} - u, v, stiffness, here, own);
+    if constexpr (upwards) {
+      sweep_group<0>(action, edge, u, v, stiffness, above, own);
+      sweep_group<1>(action, edge, u, v, stiffness, above, own);
+      sweep_group<2>(action, edge, u, v, stiffness, above, own);
+    }
+    sweep_group<3>(action, edge, u, v, stiffness, here, own);
+    store_three(sum, own);
+    here += node_packs<Action> * lanes;
+    above += node_packs<Action> * lanes;
+    stiffness += stiffness_packs * lanes;
+  }
+}
+
+/// The last number of a and all but the last of b.
+template<class P>
+SPRINGPROOF_INLINE P shifted_right(const P& a, const P& b) {
+  constexpr int lanes = sizeof(P) / sizeof(a[0]);
+  typename MaskOf<sizeof(a[0])>::type mask;
+  for (int i = 0; i < lanes; ++i) mask[i] = lanes - 1 + i;
+  return __builtin_shuffle(a, b, mask);
+}
+/// All but the first number of a, and the first of b.
+template<class P>
+SPRINGPROOF_INLINE P shifted_left(const P& a, const P& b) {
+  constexpr int lanes = sizeof(P) / sizeof(a[0]);
+  typename MaskOf<sizeof(a[0])>::type mask;
+  for (int i = 0; i < lanes; ++i) mask[i] = 1 + i;
+  return __builtin_shuffle(a, b, mask);
+}
+
+/// The results of a tile's part of a row from its sums. What goes to the node after the tile is left there for the next
+/// tile, which finds it; what goes to the node before it is added there.
+/// @param result  of the tile's first node
+/// @param n_nodes  that the row has from there on
+template<class Action, class Real>
+SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std::ptrdiff_t distance,
+                             std::ptrdiff_t n_nodes) {
+  using P = Pack<Real>;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  Vec<P> before{};
+  if (t.first > 0)
+    for (int c = 0; c < 3; ++c) {
+      Real* const at = result + c * distance;
+      P& to = c == 0 ? before.x : c == 1 ? before.y : before.z;
+      to[lanes - 1] = at[0];
+      at[-1] += sums[c * lanes];
+    }
+  for (std::ptrdiff_t p = 0; p < t.n; ++p, sums += node_packs<Action> * lanes) {
+    const Vec<P> left = load_three(sums), right = load_three(sums + 6 * lanes);
+    const Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
+    const Vec<P> from_before{shifted_right(before.x, right.x), shifted_right(before.y, right.y),
+                             shifted_right(before.z, right.z)};
+    const Vec<P> from_after{shifted_left(left.x, next.x), shifted_left(left.y, next.y), shifted_left(left.z, next.z)};
+    const Vec<P> total = load_three(sums + 3 * lanes) + from_before + from_after;
+    before = right;
+    for (int c = 0; c < 3; ++c) {
+      Real* const to = result + p * lanes + c * distance;
+      const P& value = c == 0 ? total.x : c == 1 ? total.y : total.z;
+      if ((p + 1) * lanes <= n_nodes)
+        store(to, value);
+      else // what follows the row's end stays as it is
+        store(to, first_of(n_nodes - p * lanes, value, load(to)));
+    }
+  }
+  if (t.is_last) return;
+  result[t.n * lanes] = before.x[lanes - 1];
+  result[t.n * lanes + distance] = before.y[lanes - 1];
+  result[t.n * lanes + 2 * distance] = before.z[lanes - 1];
+}
+
+template<class Real, class Action>
+void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, const Action& action,
+                const Real* displacement, const Real* direction, Real* result) {
+  constexpr std::ptrdiff_t lanes = pack_size<Real>, row = tile * node_packs<Action> * lanes,
+                           stiffness_row = tile * stiffness_packs * lanes;
+  const Layout& layout = s.layout;
+  const int rows = layout.nodes[1];
+  const std::ptrdiff_t plane = (rows + 2) * row, n_nodes = layout.nodes[0] - t.first * lanes;
+  Real* const stiffness = slab.scratch + (64 - reinterpret_cast<std::size_t>(slab.scratch) % 64) / sizeof(Real);
+  Real* const planes = stiffness + 3 * stiffness_row;
+  const auto first_row = [&](int k) { return planes + (k - slab.first) % 2 * plane + row; };
+  const auto unpack_row = [&](int k, int j) {
+    Real* const to = first_row(k) + j * row;
+    const std::ptrdiff_t at = layout.at(0, j, k) + t.first * lanes;
+    unpack<node_packs<Action>>(displacement + at, layout.size, s.rest[12][0], t.n, to);
+    if constexpr (Action::needs_direction)
+      unpack<node_packs<Action>>(direction + at, layout.size, Real(0), t.n, to + direction_at * lanes);
+  };
+  const auto fold_row = [&](int k, int j) {
+    Real* const to = k < slab.last ? result + layout.at(0, j, k) : slab.spill + layout.at(0, j, -1);
+    fold<Action>(t, first_row(k) + j * row + sums_at<Action> * lanes, to + t.first * lanes,
+                 k < slab.last ? layout.size : layout.plane, n_nodes);
+  };
+  // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are the same
+  // in all planes but the first and the last.
+  const auto kind = [&](int j) { return s.by_node || j == 0 ? 0 : j == rows - 1 ? 2 : 1; };
+
+  // Rows outside the body: they only meet springs of no stiffness, but must be numbers.
+  for (int k = slab.first; k < slab.first + 2; ++k) {
+    clear_packs(first_row(k) - row, row / lanes);
+    clear_packs(first_row(k) + rows * row, row / lanes);
+  }
+  for (int j = 0; j < rows; ++j) {
+    unpack_row(slab.first, j);
+    clear_sums<Action>(first_row(slab.first) + j * row, t.n);
+  }
+  for (int k = slab.first; k < slab.last; ++k) {
+    const bool upwards = k + 1 < layout.nodes[2];
+    if (!s.by_node && (k == slab.first || k == 1 || !upwards))
+      for (int j = 0; j < rows; j = j == 1 && rows > 3 ? rows - 1 : j + 1)
+        fill_stiffness(s, t, k, j, stiffness + kind(j) * stiffness_row);
+    if (upwards) {
+      clear_sums<Action>(first_row(k + 1), t.n);
+      unpack_row(k + 1, 0);
+    }
+    for (int j = 0; j < rows; ++j) {
+      if (s.by_node) fill_stiffness(s, t, k, j, stiffness);
+      const Real* const of_row = stiffness + kind(j) * stiffness_row;
+      Real *const here = first_row(k) + j * row, *const above = first_row(k + 1) + j * row;
+      if (upwards) {
+        if (j + 1 < rows) unpack_row(k + 1, j + 1);
+        sweep_row<true>(s, action, of_row, here, above, t.n);
+      } else {
+        sweep_row<false>(s, action, of_row, here, above, t.n);
+      }
+      fold_row(k, j);
+    }
+  }
+  if (slab.last < layout.nodes[2])
+    for (int j = 0; j < rows; ++j) fold_row(slab.last, j);
+}
+
+/// The sum over all springs of action(d, change), added to the first end and taken from the other.
+template<class Real, class Action>
+void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action, const Real* displacement,
+                   const Real* direction, Real* result) {
+  const std::ptrdiff_t n_packs = (s.layout.nodes[0] + pack_size<Real> - 1) / pack_size<Real>,
+                       n_tiles = (n_packs + tile - 1) / tile;
+  for (std::ptrdiff_t t = 0; t < n_tiles; ++t) {
+    const std::ptrdiff_t first = n_packs * t / n_tiles, last = n_packs * (t + 1) / n_tiles;
+    sweep_tile(s, slab, {first, last - first, t + 1 == n_tiles}, action, displacement, direction, result);
+  }
+}
