@@ -24,13 +24,13 @@ std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vecto
   return whole;
 }
 
-struct Box {
+struct Bounds {
   Vector3d lower, upper;
 };
 
 template<class Points>
-Box bounding_box(const Points& points) {
-  Box box{points[0], points[0]};
+Bounds bounding_box(const Points& points) {
+  Bounds box{points[0], points[0]};
   for (const Vector3d& point : points) {
     box.lower = box.lower.cwiseMin(point);
     box.upper = box.upper.cwiseMax(point);
@@ -59,7 +59,7 @@ std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t ce
 } // namespace
 
 bool find_grid(HexMesh& mesh) {
-  const Box body = bounding_box(mesh.nodes), first = bounding_box(cell_vertices(mesh, 0));
+  const Bounds body = bounding_box(mesh.nodes), first = bounding_box(cell_vertices(mesh, 0));
   Grid grid;
   grid.origin = body.lower;
   grid.spacing = first.upper - first.lower;

@@ -1,5 +1,7 @@
 #include "cases/hex_mesh.hpp"
 
+#include "cases/index.hpp"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -34,10 +36,6 @@ std::array<int, N> pick(const std::array<int, 8>& cell, const std::array<int, N>
   std::array<int, N> nodes{};
   for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[static_cast<std::size_t>(local[v])];
   return nodes;
-}
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
 }
 
 } // namespace

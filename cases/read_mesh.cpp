@@ -1,6 +1,7 @@
 #include "cases/read_mesh.hpp"
 
 #include "cases/find_grid.hpp"
+#include "cases/index.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -22,10 +23,6 @@ enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
 
 /// gmsh's vertices of a hexahedron go around its bottom, then around its top; ours are numbered i + 2j + 4k.
 constexpr std::array<std::size_t, 8> gmsh_vertex{0, 1, 3, 2, 4, 5, 7, 6};
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// gmsh is one global model: it lives as long as a mesh is read. Quiet, without anyone's configuration files,
 /// and every error is thrown (a std::string).

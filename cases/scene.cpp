@@ -1,5 +1,6 @@
 #include "cases/scene.hpp"
 
+#include "cases/index.hpp"
 #include "cases/read_mesh.hpp"
 #include "cases/voxels.hpp"
 
@@ -17,10 +18,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node, it does not search for one
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;

@@ -1,5 +1,6 @@
 #include "cases/voxels.hpp"
 
+#include "cases/index.hpp"
 #include "cases/surface.hpp"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double most_cells = 50e6;
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Bounds {
   Vector3d lower, upper;

@@ -1,5 +1,7 @@
 #include "fem_reference/discretisation.hpp"
 
+#include "cases/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <deal.II/base/quadrature_lib.h>
@@ -21,11 +23,9 @@ namespace fem_reference {
 
 namespace {
 
-using Eigen::Vector3d;
+using cases::index;
 
-std::size_t index(long i) {
-  return static_cast<std::size_t>(i);
-}
+using Eigen::Vector3d;
 
 Vector3d to_eigen(const dealii::Point<3>& p) {
   return {p[0], p[1], p[2]};

@@ -84,7 +84,7 @@ StrainDisplacement with_mean_dilatation(StrainDisplacement b, const ShapeGradien
   return b;
 }
 
-void check(const cases::LinearElastic& material, cases::Element element) {
+void check_input(const cases::LinearElastic& material, cases::Element element) {
   if (element != cases::Element::q1 && element != cases::Element::q1_bbar)
     throw cases::InputError("element stiffness: the element must be q1 or q1_bbar");
   if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
@@ -97,7 +97,7 @@ void check(const cases::LinearElastic& material, cases::Element element) {
 
 ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertices,
                                    const cases::LinearElastic& material, cases::Element element) {
-  check(material, element);
+  check_input(material, element);
   const auto points = gauss_points(vertices);
   ShapeGradients mean = ShapeGradients::Zero();
   double volume = 0;

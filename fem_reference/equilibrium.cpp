@@ -1,5 +1,7 @@
 #include "fem_reference/equilibrium.hpp"
 
+#include "cases/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +9,7 @@ namespace fem_reference {
 
 namespace {
 
-std::size_t index(long i) {
-  return static_cast<std::size_t>(i);
-}
+using cases::index;
 
 /// Read access to a ghosted vector's owned and ghost entries.
 class LocalValues {

@@ -1,5 +1,6 @@
 #include "fem_reference/model.hpp"
 
+#include "cases/index.hpp"
 #include "fem_reference/load_path.hpp"
 
 #include <algorithm>
@@ -9,9 +10,7 @@ namespace fem_reference {
 
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
+using cases::index;
 
 /// The case's formulation with each of the scene's materials.
 std::vector<Formulation> formulations_of(const cases::Scene& scene) {

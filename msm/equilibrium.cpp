@@ -11,9 +11,9 @@ namespace msm {
 
 namespace {
 
-class LoadPath {
+class PathFollower {
  public:
-  LoadPath(EquilibriumSystem& system, const EquilibriumSettings& settings)
+  PathFollower(EquilibriumSystem& system, const EquilibriumSettings& settings)
       : system_(system), settings_(settings) {}
 
   Equilibrium follow(const Vector& start) {
@@ -211,7 +211,7 @@ class LoadPath {
 
 Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
                              const EquilibriumSettings& settings) {
-  return LoadPath(system, settings).follow(start);
+  return PathFollower(system, settings).follow(start);
 }
 
 } // namespace msm

@@ -1,5 +1,6 @@
 #include "msm/lattice.hpp"
 
+#include "cases/index.hpp"
 #include "msm/cell_volume.hpp"
 
 #include <algorithm>
@@ -9,9 +10,7 @@ namespace msm {
 
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
+using cases::index;
 
 template<std::size_t N>
 void add_links(const std::array<int, 8>& cell, const std::array<std::array<int, 2>, N>& pairs,

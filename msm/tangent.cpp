@@ -1,5 +1,7 @@
 #include "msm/tangent.hpp"
 
+#include "cases/index.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -7,9 +9,7 @@ namespace msm {
 
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
+using cases::index;
 
 /// Calls action(row, column, block row, block column) for the nine entries of a block; row = -1: not in the
 /// lower triangle of the free degrees of freedom.

@@ -15,7 +15,7 @@ std::string field(const std::optional<double>& value) {
 }
 
 /// Lower quartile, median, upper quartile.
-std::string quartiles(const std::vector<double>& seconds) {
+std::string quartile_columns(const std::vector<double>& seconds) {
   if (seconds.empty()) return ",,";
   const BoxPlot box = box_plot(seconds);
   return fmt::format("{:.6g},{:.6g},{:.6g}", box.lower_quartile, box.median, box.upper_quartile);
@@ -48,9 +48,10 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
                method_name(row.variant), row.variant.cells[0], row.variant.cells[1], row.variant.cells[2],
                row.variant.tolerance, cases::name_of(run.first.status), csv_text(run.first.message),
                run.first.unknowns, run.first_seconds.size(), run.is_warm ? 1 : 0);
-    fmt::print(out, "{},{},{},{},{},{},{}", quartiles(run.setup_seconds), quartiles(run.first_seconds),
-               quartiles(run.again_seconds), counters(run, !run.again_seconds.empty()),
-               field(run.start_megabytes), field(run.peak_megabytes), field(row.field_error_percent));
+    fmt::print(out, "{},{},{},{},{},{},{}", quartile_columns(run.setup_seconds),
+               quartile_columns(run.first_seconds), quartile_columns(run.again_seconds),
+               counters(run, !run.again_seconds.empty()), field(run.start_megabytes),
+               field(run.peak_megabytes), field(row.field_error_percent));
     for (std::size_t m = 0; m < sweep.definition.measures.size(); ++m)
       fmt::print(out, ",{}", m < row.measure_error_percent.size() ? field(row.measure_error_percent[m]) : "");
     fmt::print(out, "\n");

@@ -20,7 +20,7 @@ std::optional<double> printed_value(const PublishedFigure& figure) {
 
 /// What a beta_1 would err by if it were 45 deg + beta_2 of the small test: with our springs, and with
 /// springs that have the printed error of beta_2.
-void add_readings_from_beta_2(ComputedFigure& computed, PublishedFigure figure, const Reference& reference,
+void add_readings_from_beta_2(ComputedFigure& computed, PublishedFigure figure, const FemChoice& reference,
                               SolveSet& solves) {
   figure.load_set = "small";
   figure.measure = "beta_2";
@@ -34,7 +34,7 @@ void add_readings_from_beta_2(ComputedFigure& computed, PublishedFigure figure, 
   computed.from_printed_beta_2 = with_error(printed_value(figure));
 }
 
-ComputedFigure compute(const PublishedFigure& figure, const Reference& reference, SolveSet& solves) {
+ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference, SolveSet& solves) {
   const SolveJob fem_side = fem_job(figure, reference), msm_side = thesis_msm_job(figure);
   const Comparison &fem = solves.get(fem_side), &msm = solves.get(msm_side);
   const MeasuredPair pair = measured_pair(fem, msm, figure.measure);
@@ -64,7 +64,7 @@ std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figure
   for (const PublishedFigure& figure : figures) {
     if (figure.test == "cell") continue;
     TableEntry entry{figure, {}, ""};
-    for (const Reference& reference : references_of(figure))
+    for (const FemChoice& reference : references_of(figure))
       entry.computed.push_back(compute(figure, reference, solves));
     entries.push_back(std::move(entry));
   }

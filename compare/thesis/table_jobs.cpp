@@ -36,13 +36,13 @@ std::string quoted(const std::string& word) {
 
 } // namespace
 
-std::string Reference::name() const {
+std::string FemChoice::name() const {
   return cases::name_of(formulation) + " " + cases::name_of(element);
 }
 
-std::vector<Reference> references_of(const PublishedFigure& figure) {
+std::vector<FemChoice> references_of(const PublishedFigure& figure) {
   const cases::Fem declared = cases::read_case(path_of(figure)).fem;
-  std::vector<Reference> references{{declared.formulation, declared.element, true}};
+  std::vector<FemChoice> references{{declared.formulation, declared.element, true}};
   if (!is_linear_elastic(figure)) return references;
   for (const cases::Formulation other : {cases::Formulation::log_strain, cases::Formulation::small_strain})
     if (other != declared.formulation) references.push_back({other, cases::Element::q1_bbar, false});
@@ -54,7 +54,7 @@ std::string case_file_of(const PublishedFigure& figure) {
   return fmt::format("thesis/{}/cube_{}_{}.toml", figure.material, figure.test, figure.load_set);
 }
 
-SolveJob fem_job(const PublishedFigure& figure, const Reference& reference) {
+SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
   std::vector<std::string> settings = material_settings(figure);
   if (!reference.is_declared) {
     settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));

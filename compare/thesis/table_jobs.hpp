@@ -12,7 +12,7 @@
 namespace compare {
 
 /// A finite-element side that a figure is held against.
-struct Reference {
+struct FemChoice {
   cases::Formulation formulation;
   cases::Element element;
   bool is_declared; ///< by the case file
@@ -21,12 +21,12 @@ struct Reference {
 
 /// The case file's own [fem] first. The linear elastic figures in print come from two: log strain and small
 /// strain, both with B-bar; whichever is not declared is the other.
-std::vector<Reference> references_of(const PublishedFigure& figure);
+std::vector<FemChoice> references_of(const PublishedFigure& figure);
 
 /// Path below cases_folder() of the case behind a figure of chapters 4.3 and 5.3.
 std::string case_file_of(const PublishedFigure& figure);
 
-SolveJob fem_job(const PublishedFigure& figure, const Reference& reference);
+SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference);
 
 /// With the springs of the thesis: those that it prints (the bar's case files scale them to their cells),
 /// else those of its method.

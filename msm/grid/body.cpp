@@ -1,5 +1,7 @@
 #include "msm/grid/body.hpp"
 
+#include "cases/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +9,7 @@ namespace msm::grid {
 
 namespace {
 
-std::size_t index(std::ptrdiff_t i) {
-  return static_cast<std::size_t>(i);
-}
+using cases::index;
 
 bool is_empty(const CellSprings& s) {
   const auto is_zero = [](double k) { return k == 0; };

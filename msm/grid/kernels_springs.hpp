@@ -62,24 +62,25 @@ struct Product {
   }
 };
 
-// The springs are swept in tiles: some packs of every row, plane after plane, in a scratch of whole packs on the
-// boundaries of cache lines. For every pack of nodes it holds, one after the other:
-//   displacements of the nodes before them in their row, of themselves, and of those after them, all taken from the
-//   nodes' own places at rest (3 x 3 packs); the direction likewise, if there is one; and sums: what goes to the nodes
-//   before, to the nodes, and to those after (3 x 3 packs), which fold() brings together.
-// So whatever a spring needs is an aligned pack at a fixed distance from one of two addresses, its plane's and that of
-// the plane above. A plane has one row more before its first and after its last.
+// The springs are swept in tiles: some packs of every row, plane after plane, in a scratch of whole packs on
+// the boundaries of cache lines. For every pack of nodes it holds, one after the other:
+//   displacements of the nodes before them in their row, of themselves, and of those after them, all taken
+//   from the nodes' own places at rest (3 x 3 packs); the direction likewise, if there is one; and sums: what
+//   goes to the nodes before, to the nodes, and to those after (3 x 3 packs), which fold() brings together.
+// So whatever a spring needs is an aligned pack at a fixed distance from one of two addresses, its plane's
+// and that of the plane above. A plane has one row more before its first and after its last.
 template<class Action>
 constexpr std::ptrdiff_t node_packs = Action::needs_direction ? 27 : 18;
 template<class Action>
 constexpr std::ptrdiff_t sums_at = Action::needs_direction ? 18 : 9;
 constexpr std::ptrdiff_t direction_at = 9;
 
-/// Packs of a row in a tile, at most: with four, the five rows that a row's springs meet fit into the first-level cache.
+/// Packs of a row in a tile, at most: with four, the five rows that a row's springs meet fit into the
+/// first-level cache.
 constexpr std::ptrdiff_t tile = 3;
 
-// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs and then k l0 of the 13, 0 beyond the
-// row's end.
+// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs and then k l0 of the 13, 0
+// beyond the row's end.
 constexpr std::ptrdiff_t stiffness_packs = 2 * n_springs;
 
 /// Three packs one after the other.
@@ -142,7 +143,8 @@ void fill_stiffness(const Springs<Real>& s, const Tile& t, int k, int j, Real* t
 
 /// One vector field along a row into the scratch; h is what lies between neighbours.
 template<std::ptrdiff_t stride, class Real>
-SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h, std::ptrdiff_t n, Real* to) {
+SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h, std::ptrdiff_t n,
+                               Real* to) {
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
   for (std::ptrdiff_t p = 0; p < n; ++p)
     for (int c = 0; c < 3; ++c) {
@@ -155,20 +157,23 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
     }
 }
 
-/// One spring of a pack of nodes, to the nodes that are dx further on in their row: the senders' sum grows, that of the
-/// nodes at the other end shrinks.
-/// @param from  where the senders' places at rest are, seen from the other row's, less the senders' displacement
+/// One spring of a pack of nodes, to the nodes that are dx further on in their row: the senders' sum grows,
+/// that of the nodes at the other end shrinks.
+/// @param from  where the senders' places at rest are, seen from the other row's, less the senders'
+/// displacement
 /// @param to    the pack at the senders' place in the other row
 /// @tparam is_first  nothing has come to those nodes' sums before
 template<int spring, int dx, bool is_first, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from, const Vec<Pack<Real>>& v,
-                                     const Real* stiffness, Real* to, Vec<Pack<Real>>& own) {
+SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from,
+                                     const Vec<Pack<Real>>& v, const Real* stiffness, Real* to,
+                                     Vec<Pack<Real>>& own) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (dx + 1) * lanes;
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
-  const Vec<P> f = action(d, change, load(stiffness + spring * lanes), load(stiffness + (n_springs + spring) * lanes));
+  const Vec<P> f =
+      action(d, change, load(stiffness + spring * lanes), load(stiffness + (n_springs + spring) * lanes));
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
   if constexpr (is_first)
@@ -180,8 +185,9 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
 /// The three springs of a group.
 /// @param edge  from a node to its neighbours along x, y, z at rest
 template<int group, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge, const Vec<Pack<Real>>& u,
-                                    const Vec<Pack<Real>>& v, const Real* stiffness, Real* plane, Vec<Pack<Real>>& own) {
+SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
+                                    const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
+                                    Real* plane, Vec<Pack<Real>>& own) {
   constexpr int dy = group_dy[group], dz = group_dz[group];
   constexpr bool is_first = dy == 1 && dz == 1; // rows are swept upwards
   Vec<Pack<Real>> from = Vec<Pack<Real>>{} - u;
@@ -197,8 +203,8 @@ SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>&
 /// All springs of a tile's packs in one row.
 /// @tparam upwards  whether there is a plane above
 template<bool upwards, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffness, Real* here,
-                                  Real* above, std::ptrdiff_t n) {
+SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffness,
+                                  Real* here, Real* above, std::ptrdiff_t n) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
   const Vec<P> edge{P{} + s.rest[12][0], P{} + s.rest[10][1], P{} + s.rest[4][2]};
@@ -239,8 +245,8 @@ SPRINGPROOF_INLINE P shifted_left(const P& a, const P& b) {
   return __builtin_shuffle(a, b, mask);
 }
 
-/// The results of a tile's part of a row from its sums. What goes to the node after the tile is left there for the next
-/// tile, which finds it; what goes to the node before it is added there.
+/// The results of a tile's part of a row from its sums. What goes to the node after the tile is left there
+/// for the next tile, which finds it; what goes to the node before it is added there.
 /// @param result  of the tile's first node
 /// @param n_nodes  that the row has from there on
 template<class Action, class Real>
@@ -261,7 +267,8 @@ SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std:
     const Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
     const Vec<P> from_before{shifted_right(before.x, right.x), shifted_right(before.y, right.y),
                              shifted_right(before.z, right.z)};
-    const Vec<P> from_after{shifted_left(left.x, next.x), shifted_left(left.y, next.y), shifted_left(left.z, next.z)};
+    const Vec<P> from_after{shifted_left(left.x, next.x), shifted_left(left.y, next.y),
+                            shifted_left(left.z, next.z)};
     const Vec<P> total = load_three(sums + 3 * lanes) + from_before + from_after;
     before = right;
     for (int c = 0; c < 3; ++c) {
@@ -287,7 +294,8 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   const Layout& layout = s.layout;
   const int rows = layout.nodes[1];
   const std::ptrdiff_t plane = (rows + 2) * row, n_nodes = layout.nodes[0] - t.first * lanes;
-  Real* const stiffness = slab.scratch + (64 - reinterpret_cast<std::size_t>(slab.scratch) % 64) / sizeof(Real);
+  Real* const stiffness =
+      slab.scratch + (64 - reinterpret_cast<std::size_t>(slab.scratch) % 64) / sizeof(Real);
   Real* const planes = stiffness + 3 * stiffness_row;
   const auto first_row = [&](int k) { return planes + (k - slab.first) % 2 * plane + row; };
   const auto unpack_row = [&](int k, int j) {
@@ -302,8 +310,8 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
     fold<Action>(t, first_row(k) + j * row + sums_at<Action> * lanes, to + t.first * lanes,
                  k < slab.last ? layout.size : layout.plane, n_nodes);
   };
-  // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are the same
-  // in all planes but the first and the last.
+  // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are
+  // the same in all planes but the first and the last.
   const auto kind = [&](int j) { return s.by_node || j == 0 ? 0 : j == rows - 1 ? 2 : 1; };
 
   // Rows outside the body: they only meet springs of no stiffness, but must be numbers.
@@ -343,8 +351,8 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
 
 /// The sum over all springs of action(d, change), added to the first end and taken from the other.
 template<class Real, class Action>
-void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action, const Real* displacement,
-                   const Real* direction, Real* result) {
+void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
+                   const Real* displacement, const Real* direction, Real* result) {
   const std::ptrdiff_t n_packs = (s.layout.nodes[0] + pack_size<Real> - 1) / pack_size<Real>,
                        n_tiles = (n_packs + tile - 1) / tile;
   for (std::ptrdiff_t t = 0; t < n_tiles; ++t) {

@@ -1,10 +1,14 @@
 #include "msm/grid/spring_field.hpp"
 
+#include "cases/index.hpp"
+
 #include <Eigen/LU>
 
 namespace msm::grid {
 
 namespace {
+
+using cases::index;
 
 /// Planes of nodes are dealt out in slabs of some sixteen: the same on any number of threads, so that sums
 /// are too, and an even number, so that two threads have the same to do.
@@ -34,10 +38,6 @@ double stiffness_along(const CellSprings& cell, const Step& step) {
   if (x && z) return cell.face_diagonal[1];
   if (x && y) return cell.face_diagonal[2];
   return cell.edge[x ? 0 : y ? 1 : 2];
-}
-
-std::size_t index(std::ptrdiff_t i) {
-  return static_cast<std::size_t>(i);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "msm/snes/snes.hpp"
 
 #include "cases/error.hpp"
+#include "cases/index.hpp"
 #include "msm/problem.hpp"
 #include "msm/tangent.hpp"
 
@@ -15,6 +16,8 @@
 namespace msm {
 
 namespace {
+
+using cases::index;
 
 constexpr PetscInt direct_up_to = 30000; ///< unknowns; there both ways take about as long
 
@@ -34,10 +37,6 @@ void check(PetscErrorCode code) {
   const char* text = nullptr;
   PetscErrorMessage(code, &text, nullptr);
   throw std::runtime_error(std::string("PETSc: ") + (text ? text : "error"));
-}
-
-std::size_t index(PetscInt i) {
-  return static_cast<std::size_t>(i);
 }
 
 /// A rank's part of the lattice: its points, and the springs and cells whose first point is among them.
