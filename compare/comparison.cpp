@@ -3,6 +3,7 @@
 #include "compare/auto_fem.hpp"
 #include "compare/design.hpp"
 #include "compare/measure.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/solve_side.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/snes.hpp"
@@ -34,12 +35,6 @@ std::vector<MeasuredValue> measure_all(const Comparison& comparison) {
   return values;
 }
 
-int rank() {
-  int number = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &number);
-  return number;
-}
-
 /// PETSc's solver takes all ranks, the others rank 0 alone.
 Side solve_springs(Comparison& comparison) {
   const auto designed = [&] {
@@ -50,7 +45,7 @@ Side solve_springs(Comparison& comparison) {
     return solve_side(designed, [&](const std::vector<msm::CellStiffness>& stiffness) {
       return msm::solve_by_snes(comparison.scene, stiffness, MPI_COMM_WORLD);
     });
-  if (rank() != 0) return {};
+  if (mpi_rank() != 0) return {};
   return solve_side([&] { return msm::Model(comparison.scene, designed()); },
                     [](msm::Model& model) { return model.solve(); });
 }

@@ -3,6 +3,7 @@
 #include "compare/commands.hpp"
 #include "compare/design_options.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/plot_design.hpp"
 #include "compare/write_design.hpp"
 #include "msm/design/nonlinear_method.hpp"
@@ -11,7 +12,6 @@
 #include <fmt/ostream.h>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 
 namespace compare {
@@ -83,8 +83,7 @@ int run(const CommandOptions& options) {
   const msm::DesignRequest request = request_from(options.design);
   std::vector<DesignAttempt> attempts = attempts_of(options, request);
   if (options.measure) measure_on_cube(attempts, request);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (rank != 0) return 0;
   if (options.json)
     std::cout << to_json(options, attempts).dump(2) << '\n';

@@ -1,11 +1,11 @@
 #include "compare/design_study.hpp"
 
 #include "cases/names.hpp"
+#include "compare/mpi_rank.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <mpi.h>
 
 namespace compare {
 
@@ -73,8 +73,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
   const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
   const CubeReference reference =
       solve_cube_reference(request.material, is_ogden ? LoadSets::small_and_large : LoadSets::small);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (rank != 0) return;
   for (DesignAttempt& a : attempts)
     if (a.design) a.cube = cube_errors(reference, a.design->stiffness);

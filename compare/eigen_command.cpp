@@ -3,13 +3,13 @@
 #include "cases/scene.hpp"
 #include "compare/commands.hpp"
 #include "compare/design_options.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/write_eigen.hpp"
 #include "fem_reference/element_stiffness.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 
 namespace compare {
@@ -54,8 +54,7 @@ int run(EigenOptions options) {
   if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
     options.design.youngs_modulus = 1;
   const Cell cell = make_cell(options.design);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (rank != 0) return 0;
   const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(cell.fem), full_spectrum(cell.msm));
   const std::optional<cases::HexMesh> body = body_of(options, cell);

@@ -1,6 +1,7 @@
 #include "compare/finished.hpp"
 
 #include "compare/atomic_file.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/pool/side_bytes.hpp"
 #include "compare/report/html.hpp"
 #include "compare/version.hpp"
@@ -53,8 +54,7 @@ std::string FinishedCases::path_of(const cases::Case& definition) const {
 
 std::optional<Comparison> FinishedCases::find(const cases::Case& definition, const Request& request) const {
   if (folder_.empty()) return std::nullopt;
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   std::string bytes;
   if (rank == 0 && std::filesystem::is_regular_file(path_of(definition))) {
     const std::string content = html::read_whole(path_of(definition)),

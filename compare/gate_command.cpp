@@ -7,13 +7,13 @@
 #include "compare/finished.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/gates/write.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/pool/solve_jobs.hpp"
 #include "compare/write_results.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 
 namespace compare {
@@ -63,8 +63,7 @@ void check_blessing(const GateOptions& options, const std::vector<cases::Case>& 
 /// All cases solved, side by side; what an earlier command left in the folder of results is taken up.
 std::vector<Comparison> solve_all(const std::vector<cases::Case>& definitions, const Request& request,
                                   const FinishedCases& finished, int n_workers) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   std::vector<Comparison> solved(definitions.size());
   std::vector<SolveJob> jobs;
   std::vector<std::size_t> missing;
@@ -95,8 +94,7 @@ void study(Comparison& comparison, const GateOptions& options, const FinishedCas
   const bool is_asked = options.converge || asks_for_mesh_study(comparison.scene.definition);
   if (!is_asked || comparison.mesh_study) return;
   comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, meshes_of_a_study);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (rank == 0) finished.keep(comparison, request);
 }
 
@@ -122,8 +120,7 @@ void write(const GateOptions& options, const std::vector<GatedCase>& judged) {
 }
 
 int gate(const GateOptions& options) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   const std::vector<cases::Case> definitions = read_all(options);
   check_blessing(options, definitions);
   const auto external = read_external(definitions, options.displacements);

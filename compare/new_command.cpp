@@ -2,6 +2,7 @@
 #include "cases/names.hpp"
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/published.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <sstream>
 
 namespace compare {
@@ -74,8 +74,7 @@ int write_new_case(const NewOptions& options) {
   for (const auto& [from, to] : copies)
     if (fs::exists(fs::symlink_status(to)))
       throw cases::InputError("new: " + to.string() + " exists, and nothing is overwritten");
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (rank != 0) return 0;
   for (const auto& [from, to] : copies) {
     const std::string text = filled(from, options.name);

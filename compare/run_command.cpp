@@ -3,12 +3,12 @@
 #include "cases/read_case.hpp"
 #include "compare/external/external_side.hpp"
 #include "compare/finished.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/write.hpp"
 #include "compare/write_results.hpp"
 
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 
 namespace compare {
@@ -34,8 +34,7 @@ Only parse_only(const std::string& word) {
 
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
 Comparison answer(const cases::Case& definition, const Request& request, const FinishedCases& finished) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   if (auto earlier = finished.find(definition, request)) {
     if (rank == 0)
       std::cerr << definition.name << ": solved already, taken from the earlier results in the same folder\n";
@@ -54,8 +53,7 @@ int run(const RunOptions& options) {
       definitions; // all are read before any is solved: a mistake in the last costs nothing
   for (const std::string& file : options.files)
     definitions.push_back(cases::read_case(file, options.settings));
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   const auto external = read_external(definitions, options.displacements);
   const Request request{options.settings, external ? Only::fem : parse_only(options.only), options.meshes,
                         options.peer};

@@ -1,5 +1,6 @@
 #include "compare/stress.hpp"
 
+#include "compare/mpi_rank.hpp"
 #include "compare/solve_side.hpp"
 #include "compare/stress_springs.hpp"
 #include "fem_reference/model.hpp"
@@ -42,8 +43,7 @@ StressResult stress(const cases::HardCase& hard_case, int n_threads) {
   StressResult result;
   result.hard_case = hard_case;
   result.n_threads = n_threads;
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   for (const cases::ExpectedOutcome& expected : hard_case.expected) {
     const bool is_fem = expected.side == cases::Side::fem;
     if (!is_fem && rank != 0) continue;

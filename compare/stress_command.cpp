@@ -1,5 +1,6 @@
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/published.hpp"
 #include "compare/write_stress.hpp"
 
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 
 namespace compare {
@@ -80,8 +80,7 @@ void write_results(const std::string& folder, const std::vector<StressResult>& r
 }
 
 int run(const StressOptions& options) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   std::vector<std::string> skipped;
   std::vector<StressResult> results;
   bool met = true;

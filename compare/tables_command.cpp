@@ -1,4 +1,5 @@
 #include "compare/commands.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/stopwatch.hpp"
 #include "compare/thesis/regenerate.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -36,8 +36,7 @@ void write_times(const std::vector<PhaseTime>& times) {
 }
 
 int tables(const TablesOptions& options) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = mpi_rank();
   const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
   SolveOptions solving;
   solving.n_workers = options.workers;

@@ -1,6 +1,7 @@
 #include "cases/read_case.hpp"
 #include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
-#include <mpi.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -20,12 +20,6 @@ struct SweepOptions {
   std::string file, out;
   bool json = false, quick = false, perf = false;
 };
-
-int rank() {
-  int number = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &number);
-  return number;
-}
 
 /// What is finished is on disk before the next variant starts.
 void show(const Sweep& sweep, const std::string& folder) {
@@ -45,7 +39,7 @@ void write_files(const std::string& folder, const Sweep& sweep) {
 }
 
 int sweep(const SweepOptions& options) {
-  const bool speaks = rank() == 0;
+  const bool speaks = mpi_rank() == 0;
   const cases::Case definition = cases::read_case(options.file);
   const TimingRules rules = options.quick ? TimingRules{5, 0.1} : TimingRules{};
   const Sweep result = run_sweep(definition, options.quick ? Extent::quick : Extent::full, rules,
@@ -66,7 +60,7 @@ int sweep(const SweepOptions& options) {
 }
 
 int count(const SweepOptions& options) {
-  if (rank() != 0) return 0;
+  if (mpi_rank() != 0) return 0;
   const InstructionCounts counts = count_instructions();
   if (!counts.reason.empty()) {
     std::cerr << counts.reason << '\n';

@@ -4,6 +4,7 @@
 #include "compare/calculix.hpp"
 #include "compare/design.hpp"
 #include "compare/machine.hpp"
+#include "compare/mpi_rank.hpp"
 #include "compare/pool/bytes.hpp"
 #include "compare/solve_side.hpp"
 #include "fem_reference/model.hpp"
@@ -23,12 +24,6 @@ struct Round {
   cases::Solution first, again;
   std::optional<double> setup_seconds, first_seconds, again_seconds;
 };
-
-int rank() {
-  int number = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &number);
-  return number;
-}
 
 /// The seconds that one solve takes; nothing when it fails.
 std::optional<double> timed(cases::Solution& solution, const std::function<cases::Solution()>& solve) {
@@ -183,12 +178,12 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
   const cases::Scene scene = cases::make_scene(with_variant(definition, variant));
   switch (variant.program) {
   case Program::springs:
-    if (rank() != 0) return {};
+    if (mpi_rank() != 0) return {};
     return time_springs(scene, variant.tolerance, rules);
   case Program::finite_elements:
     return repeat([&] { return solve_finite_elements(scene, variant, rules); }, rules, agreed);
   case Program::calculix:
-    if (rank() != 0) return {};
+    if (mpi_rank() != 0) return {};
     return repeat([&] { return ask_calculix_once(scene); }, rules, [](double seconds) { return seconds; });
   }
   return {}; // not reached: every program is above
