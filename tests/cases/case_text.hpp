@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/error.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -14,17 +15,6 @@ namespace case_text {
 
 namespace fs = std::filesystem;
 using cases::InputError;
-
-/// A folder of its own for each test process, removed at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof_case_text_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return (path / name).string();
-  }
-};
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -42,7 +32,7 @@ struct Mistake {
 /// The mistake is refused where it is made, with a message that says what is asked for.
 template<class Reader>
 void check_refused(const std::string& text, const Mistake& mistake, const Reader& read) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", text);
   INFO("replaced: " << mistake.from << "\nby: " << mistake.to);
   try {

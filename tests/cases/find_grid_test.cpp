@@ -31,7 +31,7 @@ HexMesh shuffled(const HexMesh& mesh) {
   return other;
 }
 
-Grid l_shape() {
+Grid l_shape_at_a_distance() {
   Grid grid;
   grid.cells = {3, 2, 2};
   grid.spacing = {1, 0.5, 0.3};
@@ -43,7 +43,7 @@ Grid l_shape() {
 } // namespace
 
 TEST_CASE("a grid is found again however its cells are numbered and turned") {
-  for (const Grid& grid : {l_shape(), Grid{{2, 3, 4}, {0.1, 0.1, 0.1}, {0, 0, 0}, {}}}) {
+  for (const Grid& grid : {l_shape_at_a_distance(), Grid{{2, 3, 4}, {0.1, 0.1, 0.1}, {0, 0, 0}, {}}}) {
     const HexMesh original = make_grid_mesh(grid);
     HexMesh mesh = shuffled(original);
     REQUIRE(find_grid(mesh));

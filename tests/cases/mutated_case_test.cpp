@@ -39,7 +39,7 @@ bool is_hard(const std::string& path) {
 
 TEST_CASE(
     "300 damaged case files each end in a case or in one line that says what is wrong, within a second") {
-  const case_text::Folder folder;
+  const TemporaryFolder folder;
   const std::vector<std::string> files = case_files();
   REQUIRE(files.size() > 20);
   fuzz::Random random(20261121);

@@ -10,14 +10,13 @@
 
 using namespace cases;
 namespace fs = std::filesystem;
-using case_text::Folder;
 using case_text::Mistake;
 using case_text::replaced;
 
 namespace {
 
 // Line numbers matter below: `schema` is on line 1.
-const std::string good = R"(schema = 1
+const std::string good_case = R"(schema = 1
 name = "cube-shear-small"
 description = "Shear of the cube."
 [body]
@@ -60,14 +59,14 @@ void check_refused(const std::string& text, const Mistake& mistake) {
 }
 
 Case read_text_as_case(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return read_case(folder.write("case.toml", text), overrides);
 }
 
 } // namespace
 
 TEST_CASE("a complete case file is read to the last key") {
-  const Case c = read_text_as_case(good);
+  const Case c = read_text_as_case(good_case);
   CHECK(c.name == "cube-shear-small");
   CHECK(c.description == "Shear of the cube.");
   CHECK(fs::path(c.file).filename() == "case.toml");
@@ -224,7 +223,7 @@ TEST_CASE("what a case file leaves out follows from its material") {
     std::string shorter = text;
     return shorter.erase(text.find(from), text.find(to) - text.find(from));
   };
-  const std::string bare = cut(cut(good, "[fem]", "[[measure]]"), "description", "[body]");
+  const std::string bare = cut(cut(good_case, "[fem]", "[[measure]]"), "description", "[body]");
   const Case linear = read_text_as_case(bare);
   CHECK(linear.description.empty());
   CHECK(linear.fem.formulation == Formulation::log_strain);
@@ -239,9 +238,9 @@ TEST_CASE("what a case file leaves out follows from its material") {
 }
 
 TEST_CASE("a body of a mesh file takes the names of groups as regions, and finds the file beside the case") {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("bar.geo", "");
-  std::string text = replaced(good, "shape = \"box\"\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n",
+  std::string text = replaced(good_case, "shape = \"box\"\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n",
                               "shape = \"mesh\"\nfile = \"bar.geo\"\n");
   text = replaced(text, "region = \"z-\"", "region = \"clamped end\"");
   const Case c = read_case(folder.write("case.toml", text));
@@ -723,7 +722,8 @@ TEST_CASE("a mistake in a case file is refused with its line, its key, its value
       {"reason = \"Table 4.5\"", "reason = \"\"", 36, "expect[0].reason", {"not empty"}},
       {"reason = \"Table 4.5\"\n", "", 32, "expect[0].reason", {"is missing"}},
   };
-  for (const Mistake& mistake : mistakes) check_refused(replaced(good, mistake.from, mistake.to), mistake);
+  for (const Mistake& mistake : mistakes)
+    check_refused(replaced(good_case, mistake.from, mistake.to), mistake);
 }
 
 TEST_CASE("a nearly incompressible material is refused for elements that lock and for the linear method") {
@@ -756,15 +756,15 @@ value = [0, 0, 0.01]
 TEST_CASE("a file that cannot be read is named, with the reason") {
   CHECK_THROWS_WITH(read_case("/no/such/case.toml"),
                     Catch::StartsWith("/no/such/case.toml: cannot be read: No such file"));
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK_THROWS_WITH(read_case(folder.path.string()), Catch::Contains("cannot be read"));
 }
 
 TEST_CASE("settings of the command line replace and add values") {
-  const Case c = read_text_as_case(good, {"load[0].value=[0, 0, 0.01]", "fem.element=q1", "fem.refine = 0",
-                                          "measure[0].top=z+ x+ y-", "measure[0].bottom = \"z- x+ y-\"",
-                                          "name=a b", "msm={design=\"given\", stiffness=[1,2,3]}",
-                                          "expect[0].error_percent=[-1,1]"});
+  const Case c = read_text_as_case(
+      good_case, {"load[0].value=[0, 0, 0.01]", "fem.element=q1", "fem.refine = 0", "measure[0].top=z+ x+ y-",
+                  "measure[0].bottom = \"z- x+ y-\"", "name=a b", "msm={design=\"given\", stiffness=[1,2,3]}",
+                  "expect[0].error_percent=[-1,1]"});
   CHECK(c.loads[0].value == Eigen::Vector3d(0, 0, 0.01));
   CHECK(c.fem.element == Element::q1);
   CHECK(c.fem.refine == 0);
@@ -773,7 +773,7 @@ TEST_CASE("settings of the command line replace and add values") {
   CHECK(c.name == "a b");
   CHECK(c.msm.design == Design::given);
   CHECK(c.expectations[0].interval == std::array<double, 2>{-1, 1});
-  const Case single = read_text_as_case(good, {"load[0].value[2]=0.5"});
+  const Case single = read_text_as_case(good_case, {"load[0].value[2]=0.5"});
   CHECK(single.loads[0].value == Eigen::Vector3d(0.002, 0, 0.5));
 }
 
@@ -796,21 +796,21 @@ TEST_CASE("a mistake in a setting of the command line is told as such") {
   };
   for (const auto& [setting, message] : settings) {
     INFO(setting);
-    CHECK_THROWS_WITH(read_text_as_case(good, {setting}), Catch::StartsWith(message));
+    CHECK_THROWS_WITH(read_text_as_case(good_case, {setting}), Catch::StartsWith(message));
   }
 }
 
 TEST_CASE("a region is moved along, or turned about an axis, and then no load is needed") {
   const std::string loads = "[[load]]\nregion = \"z+\"\nkind = \"nodal_force\"\nvalue = [0.002, 0, 0.0]\n";
-  const Case pressed = read_text_as_case(
-      replaced(good, loads, "[[moved]]\nregion = \"z+\"\ncomponents = [\"z\"]\ndisplacement = [0, 0, -5]\n"));
+  const Case pressed = read_text_as_case(replaced(
+      good_case, loads, "[[moved]]\nregion = \"z+\"\ncomponents = [\"z\"]\ndisplacement = [0, 0, -5]\n"));
   REQUIRE(pressed.moved.size() == 1);
   CHECK(pressed.loads.empty());
   CHECK(pressed.moved[0].components == std::array<bool, 3>{false, false, true});
   CHECK(pressed.moved[0].displacement == Eigen::Vector3d(0, 0, -5));
   CHECK(pressed.moved[0].angle == 0);
-  const Case turned = read_text_as_case(
-      replaced(good, loads, "[[moved]]\nregion = \"z+\"\nangle = 90\naxis = \"z\"\ncentre = [5, 5, 10]\n"));
+  const Case turned = read_text_as_case(replaced(
+      good_case, loads, "[[moved]]\nregion = \"z+\"\nangle = 90\naxis = \"z\"\ncentre = [5, 5, 10]\n"));
   REQUIRE(turned.moved.size() == 1);
   CHECK(turned.moved[0].angle == 90);
   CHECK(turned.moved[0].axis == Eigen::Vector3d::UnitZ());
@@ -840,9 +840,9 @@ TEST_CASE("every case file of the project is read, and its regions exist") {
 }
 
 TEST_CASE("materials of regions, patches and voxel bodies are read") {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("body.stl", "");
-  std::string text = replaced(good, "shape = \"box\"\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n",
+  std::string text = replaced(good_case, "shape = \"box\"\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n",
                               "shape = \"voxels\"\nsurface = \"body.stl\"\nedge = 0.5\n");
   text = replaced(text, "region = \"z+\"", "near = [5, 5, 10]\nradius = 2.5");
   text = replaced(
@@ -867,7 +867,7 @@ TEST_CASE("every material must suit the element and the springs' design") {
   const std::string other =
       "[[region_material]]\naxis = \"z\"\nfrom = 5\nmodel = \"linear_elastic\"\nyoungs_modulus = 1\n"
       "poissons_ratio = 0.1\n[[fixed]]";
-  const std::string text = replaced(good, "[[fixed]]", other);
+  const std::string text = replaced(good_case, "[[fixed]]", other);
   CHECK_NOTHROW(read_text_as_case(text));
   const auto with = [&](const std::string& design) {
     return replaced(text, "design = \"moduli\"\npoissons_ratio = 0.3\nsplit = 0.8\n", design);
@@ -881,7 +881,7 @@ TEST_CASE("every material must suit the element and the springs' design") {
 TEST_CASE(
     "what is left open in the finite elements needs an expectation that says how accurate they must be") {
   const std::string text =
-      replaced(replaced(good, "refine = 1", "accuracy = \"auto\""), "\"log_strain\"", "\"auto\"");
+      replaced(replaced(good_case, "refine = 1", "accuracy = \"auto\""), "\"log_strain\"", "\"auto\"");
   const Case c = read_text_as_case(text);
   CHECK(c.fem.has_auto_accuracy);
   CHECK(c.fem.has_auto_formulation);

@@ -1,6 +1,7 @@
 #include "cases/read_mesh.hpp"
 
 #include "cases/scene.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -16,18 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof_read_mesh_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return (path / name).string();
-  }
-};
-
 HexMesh read_text_as_mesh(const std::string& name, const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return read_mesh({folder.write(name, text), {"case.toml", 6, 8, "body.file"}});
 }
 
@@ -37,7 +28,7 @@ HexMesh read_thesis_mesh(const std::string& name) {
 
 using Points = std::vector<std::array<double, 3>>;
 
-const Points unit_cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+const Points gmsh_cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 /// A .msh of one volume whose cells are of one gmsh type; node tags 1, 2, ... and cell tags 101, 102, ...
@@ -62,8 +53,8 @@ Points shifted(Points points, double by) {
   return points;
 }
 
-template<class Container>
-Container operator+(Container a, const Container& b) {
+template<class T>
+std::vector<T> operator+(std::vector<T> a, const std::vector<T>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
@@ -135,7 +126,7 @@ void check_refused(const std::string& name, const std::string& text, const std::
 } // namespace
 
 TEST_CASE("the vertices of a hexahedron of gmsh are put where ours belong") {
-  const HexMesh mesh = read_text_as_mesh("one.msh", msh(unit_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
+  const HexMesh mesh = read_text_as_mesh("one.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
   REQUIRE(mesh.cells.size() == 1);
   for (int v = 0; v < 8; ++v) {
     const int node = mesh.cells[0][static_cast<std::size_t>(v)];
@@ -216,17 +207,17 @@ Physical Point("elsewhere") = {99};
 
 TEST_CASE("a mesh that the models cannot use is refused with the reason") {
   const std::vector<int> one{1, 2, 3, 4, 5, 6, 7, 8}, two{9, 10, 11, 12, 13, 14, 15, 16};
-  check_refused("a.msh", msh(unit_cube, 4, {{1, 2, 4, 5}, {2, 3, 4, 7}}),
+  check_refused("a.msh", msh(gmsh_cube, 4, {{1, 2, 4, 5}, {2, 3, 4, 7}}),
                 "other than eight-node hexahedra: 2 of type Tetrahedron 4");
-  check_refused("a.msh", msh(unit_cube, 6, {{1, 2, 4, 5, 6, 8}}), "1 of type Prism 6");
-  check_refused("a.msh", msh(unit_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}),
+  check_refused("a.msh", msh(gmsh_cube, 6, {{1, 2, 4, 5, 6, 8}}), "1 of type Prism 6");
+  check_refused("a.msh", msh(gmsh_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}),
                 "1 of 1 hexahedra are inverted or degenerate");
-  check_refused("a.msh", msh(unit_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}), "elements 101");
-  check_refused("a.msh", msh(unit_cube, 5, {{1, 2, 3, 4, 5, 6, 6, 8}}),
+  check_refused("a.msh", msh(gmsh_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}), "elements 101");
+  check_refused("a.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 6, 8}}),
                 "1 of 1 hexahedra are inverted or degenerate");
-  check_refused("a.msh", msh(unit_cube + shifted(unit_cube, 1), 5, {one, two}),
+  check_refused("a.msh", msh(gmsh_cube + shifted(gmsh_cube, 1), 5, {one, two}),
                 "falls into 2 pieces that share no node");
-  check_refused("a.msh", msh(unit_cube, 3, {{1, 2, 3, 4}}), "");
+  check_refused("a.msh", msh(gmsh_cube, 3, {{1, 2, 3, 4}}), "");
   check_refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "has format 2.2, must be 4");
   check_refused("a.msh", "solid cube\n", "is no gmsh mesh");
   check_refused("a.msh", "", "is no gmsh mesh");

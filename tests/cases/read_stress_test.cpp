@@ -8,7 +8,7 @@ using case_text::Mistake;
 namespace {
 
 // Line numbers matter below: `[stress]` is on line 18.
-const std::string good = R"(schema = 1
+const std::string good_stress = R"(schema = 1
 name = "cube"
 [body]
 shape = "box"
@@ -45,14 +45,14 @@ outcome = "stable equilibrium"
 )";
 
 HardCase read_text(const std::string& text) {
-  const case_text::Folder folder;
+  const TemporaryFolder folder;
   return read_hard_case(folder.write("case.toml", text));
 }
 
 } // namespace
 
 TEST_CASE("a complete hard case is read to the last key") {
-  const HardCase hard = read_text(good);
+  const HardCase hard = read_text(good_stress);
   CHECK(hard.definition.name == "cube");
   CHECK_FALSE(hard.is_heavy);
   CHECK(hard.start == Start::perturbed);
@@ -78,7 +78,7 @@ TEST_CASE("a complete hard case is read to the last key") {
 
 TEST_CASE("springs of any sign may be given to a hard case") {
   const HardCase hard =
-      read_text(case_text::replaced(good, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
+      read_text(case_text::replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
   CHECK(hard.stiffness == std::array<double, 3>{31, -20, 33});
 }
 
@@ -117,23 +117,23 @@ TEST_CASE("every mistake in [stress] is refused where it is made") {
       {"[stress.fem]", "[stress.fme]", 33, "stress.fme", {"did you mean \"fem\"?"}},
   };
   for (const Mistake& mistake : mistakes)
-    case_text::check_refused(case_text::replaced(good, mistake.from, mistake.to), mistake,
+    case_text::check_refused(case_text::replaced(good_stress, mistake.from, mistake.to), mistake,
                              [](const std::string& path) { read_hard_case(path); });
 }
 
 TEST_CASE("a hard case that expects nothing, or a hybrid of given springs, is refused") {
   const auto read = [](const std::string& path) { read_hard_case(path); };
-  const std::string without = good.substr(0, good.find("[stress.msm]"));
+  const std::string without = good_stress.substr(0, good_stress.find("[stress.msm]"));
   case_text::check_refused(without, {"", "", 18, "stress.msm", {"is missing", "[stress.hybrid]"}}, read);
-  case_text::check_refused(case_text::replaced(good, "seed = 7", "seed = 7\nstiffness = [1, 2, 3]") +
+  case_text::check_refused(case_text::replaced(good_stress, "seed = 7", "seed = 7\nstiffness = [1, 2, 3]") +
                                "[stress.hybrid]\noutcome = \"mechanism\"\n",
                            {"", "", 22, "stress.stiffness", {"left out beside [stress.hybrid]"}}, read);
 }
 
 TEST_CASE("a hard case is no ordinary case, nor an ordinary case a hard one") {
-  case_text::check_refused(good, {"", "", 18, "stress", {"hard case", "command stress"}},
+  case_text::check_refused(good_stress, {"", "", 18, "stress", {"hard case", "command stress"}},
                            [](const std::string& path) { read_case(path); });
-  case_text::check_refused(good.substr(0, good.find("[stress]")),
+  case_text::check_refused(good_stress.substr(0, good_stress.find("[stress]")),
                            {"", "", 1, "stress", {"is missing", "[stress]"}},
                            [](const std::string& path) { read_hard_case(path); });
 }

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double rounding = 1e-13;
+constexpr double force_rounding = 1e-13;
 
 Region region(const std::string& name) {
   Region result;
@@ -75,20 +75,20 @@ TEST_CASE("each kind of load adds up to what it says") {
   const Vector3d value(0.1, -0.2, 0.3);
   SECTION("nodal_force: on every node") {
     definition.loads = {load(LoadKind::nodal_force, "z+", value)};
-    CHECK((sum(nodal_forces(make_scene(definition))) - 12 * value).norm() < rounding);
+    CHECK((sum(nodal_forces(make_scene(definition))) - 12 * value).norm() < force_rounding);
   }
   SECTION("total_force: in all") {
     definition.loads = {load(LoadKind::total_force, "z+ x-", value)};
-    CHECK((sum(nodal_forces(make_scene(definition))) - value).norm() < rounding);
+    CHECK((sum(nodal_forces(make_scene(definition))) - value).norm() < force_rounding);
   }
   SECTION("traction: times the area, a vertex carrying a quarter of an inner node's part") {
     definition.loads = {load(LoadKind::traction, "z+", value)};
     const Scene scene = make_scene(definition);
     const auto forces = nodal_forces(scene);
-    CHECK((sum(forces) - 6 * value).norm() < rounding);
+    CHECK((sum(forces) - 6 * value).norm() < force_rounding);
     CHECK((forces[static_cast<std::size_t>(select_node(scene.mesh, region("z+ x- y-")))] - value / 4).norm() <
-          rounding);
-    CHECK(moment(scene, forces, {1, 1.5, 4}).norm() < rounding); // no moment about the face's centre
+          force_rounding);
+    CHECK(moment(scene, forces, {1, 1.5, 4}).norm() < force_rounding); // no moment about the face's centre
   }
 }
 
@@ -101,9 +101,10 @@ TEST_CASE("a torque gives its moment about its axis and no net force, on any mes
     definition.loads = {torque};
     const Scene scene = make_scene(definition);
     const auto forces = nodal_forces(scene);
-    CHECK(sum(forces).norm() < rounding);
-    CHECK((moment(scene, forces, {1, 1.5, 0}) - Vector3d(0, 0, 0.7)).norm() < rounding);
-    CHECK(polar_moment(scene.mesh, scene.loads[0]) == Approx(2.0 * 3.0 * (4 + 9) / 12).epsilon(rounding));
+    CHECK(sum(forces).norm() < force_rounding);
+    CHECK((moment(scene, forces, {1, 1.5, 0}) - Vector3d(0, 0, 0.7)).norm() < force_rounding);
+    CHECK(polar_moment(scene.mesh, scene.loads[0]) ==
+          Approx(2.0 * 3.0 * (4 + 9) / 12).epsilon(force_rounding));
   }
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("the quarters of a symmetric scene carry a quarter of its nodal forces
   quarter.symmetry = {{region("x+"), {true, false, false}}, {region("y+"), {false, true, false}}};
   const Scene scene = make_scene(quarter);
   CHECK(4 * sum(nodal_forces(scene)).z() ==
-        Approx(sum(nodal_forces(make_scene(whole))).z()).epsilon(rounding));
+        Approx(sum(nodal_forces(make_scene(whole))).z()).epsilon(force_rounding));
   const auto is_fixed = fixed_degrees_of_freedom(scene);
   const auto corner = static_cast<std::size_t>(select_node(scene.mesh, region("x+ y+ z+")));
   CHECK(is_fixed[3 * corner]);
@@ -143,7 +144,7 @@ TEST_CASE(
   }
   CHECK(n_pulled == 4);
   CHECK(n_pushed == 5);
-  CHECK((sum(forces) - Vector3d(1, 0, 4)).norm() < rounding);
+  CHECK((sum(forces) - Vector3d(1, 0, 4)).norm() < force_rounding);
 }
 
 TEST_CASE("a patch has the faces of the surface around its point, and a finer mesh has the same patch") {
@@ -157,10 +158,10 @@ TEST_CASE("a patch has the faces of the surface around its point, and a finer me
   REQUIRE(scene.loads.size() == 1);
   CHECK(scene.loads[0].selection.faces.size() == 12);
   CHECK(scene.loads[0].selection.nodes.size() == 21);
-  CHECK((sum(nodal_forces(scene)) - Vector3d(0, 0, -12)).norm() <= rounding);
+  CHECK((sum(nodal_forces(scene)) - Vector3d(0, 0, -12)).norm() <= force_rounding);
   const Scene fine = refine(scene, 1);
   CHECK(fine.loads[0].selection.faces.size() == 48);
-  CHECK((sum(nodal_forces(fine)) - Vector3d(0, 0, -12)).norm() <= rounding);
+  CHECK((sum(nodal_forces(fine)) - Vector3d(0, 0, -12)).norm() <= force_rounding);
 
   definition.loads[0].region.near = Vector3d(5, 5, 5);
   CHECK_THROWS_AS(make_scene(definition), InputError); // nothing of the surface there

@@ -7,7 +7,6 @@
 #include <cstring>
 
 using namespace cases;
-using case_text::Folder;
 using Eigen::Vector3d;
 
 namespace {
@@ -65,7 +64,7 @@ std::string as_binary(const Surface& surface) {
 } // namespace
 
 TEST_CASE("a surface is the same from text and from a binary file") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Surface text = read_stl(folder.write("text.stl", tetrahedron), {});
   REQUIRE(text.size() == 4);
   CHECK(text[1][2] == Vector3d(0, 0, 1));
@@ -74,7 +73,7 @@ TEST_CASE("a surface is the same from text and from a binary file") {
 }
 
 TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Surface closed = read_stl(folder.write("a.stl", tetrahedron), {});
   Surface open = closed, turned = closed, doubled = closed;
   open.pop_back();
@@ -86,7 +85,7 @@ TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
 }
 
 TEST_CASE("what is no STL, is cut short or has a position that is not finite is refused with its name") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string binary = as_binary(read_stl(folder.write("good.stl", tetrahedron), {}));
   const std::vector<std::pair<std::string, std::string>> broken{
       {"", "is empty"},

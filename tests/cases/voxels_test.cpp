@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 using namespace cases;
-using case_text::Folder;
 using Eigen::Vector3d;
 
 namespace {
@@ -49,7 +48,7 @@ std::string ball() {
 }
 
 HexMesh voxels(const std::string& facets, double edge) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return make_voxel_mesh({folder.write("body.stl", "solid\n" + facets + "endsolid\n"), edge, {}});
 }
 

@@ -1,5 +1,7 @@
 // The program as its users run it: exit status, standard output, standard error, files.
 
+#include "tests/temporary_folder.hpp"
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdio>
@@ -22,17 +24,6 @@ struct Outcome {
   std::string out, error;
 };
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() /
-                  ("springproof-command-" + std::to_string(::getpid()) + "-" + std::to_string(count()++));
-  static int& count() {
-    static int n = 0;
-    return n;
-  }
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
 std::string content(const fs::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -41,7 +32,7 @@ std::string content(const fs::path& path) {
 /// @param words  as typed in a shell, after the program's name
 /// @param before  shell commands in front
 Outcome springproof(const std::string& words, const std::string& before = "") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string errors = (folder.path / "stderr").string();
   FILE* pipe = popen((before + SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
   REQUIRE(pipe);
@@ -83,7 +74,7 @@ TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
 }
 
 TEST_CASE("a broken case ends in exit status 2, one message and no files, even behind a good case") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";
   std::ofstream(broken) << "schema = 1\nname = \"b\"\nbdoy = 3\n";
   const Outcome outcome = springproof("run " + shear + " " + broken.string() + " --out " + out.string());
@@ -104,7 +95,7 @@ TEST_CASE("a region that selects nothing is refused before any solve, with its p
 
 TEST_CASE(
     "run --out leaves results, a comparison, both models' fields and what is solved, and nothing temporary") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path / "out";
   REQUIRE(springproof("run " + shear + " --out " + out.string()).status == 0);
   std::vector<std::string> names;
@@ -220,7 +211,7 @@ TEST_CASE("eigen --json numbers the spaces from 1 as the thesis does") {
 }
 
 TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string out = (folder.path / "eigen").string();
   REQUIRE(springproof("eigen --poisson 0.35 --out " + out).status == 0);
   for (const char* name : {"dot_diagram.csv", "dot_diagram.svg", "dot_diagram.png", "coupling.csv",
@@ -231,7 +222,7 @@ TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
 }
 
 TEST_CASE("design --out draws the figures of its method") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string out = (folder.path / "design").string();
   REQUIRE(springproof("design --neo-hookean 0.04 --method nonlinear_method --out " + out).status == 0);
   for (const char* name : {"design.json", "uniaxial.csv", "uniaxial.svg", "contributions.svg",
@@ -242,7 +233,7 @@ TEST_CASE("design --out draws the figures of its method") {
 }
 
 TEST_CASE("stress puts a hard case to its models, and says in one document what became of each") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome =
       springproof("stress --json mechanism disconnected_piece --out " + folder.path.string());
   REQUIRE(outcome.status == 0);
@@ -264,7 +255,7 @@ TEST_CASE("stress puts a hard case to its models, and says in one document what 
 }
 
 TEST_CASE("a hard case that ends otherwise than expected makes stress answer 1, and the others go on") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = content(cases_folder + "/hard/mechanism.toml");
   const std::string expected = "outcome = \"mechanism\"";
   text.replace(text.find(expected), expected.size(), "outcome = \"limit point\"");
@@ -286,7 +277,7 @@ TEST_CASE("a hard case that does not exist is refused with the nearest name, and
 }
 
 TEST_CASE("every template gives a case that runs, and nothing is ever overwritten") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto in_folder = [&](const std::string& words) {
     return springproof(words, "cd " + folder.path.string() + " && ");
   };

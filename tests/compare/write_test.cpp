@@ -3,6 +3,7 @@
 #include "compare/write.hpp"
 
 #include "cases/error.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -15,18 +16,6 @@
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A fresh folder that goes away with the test.
-struct Folder {
-  fs::path path = fs::temp_directory_path() /
-                  ("springproof-write-" + std::to_string(::getpid()) + "-" + std::to_string(count()++));
-  static int& count() {
-    static int n = 0;
-    return n;
-  }
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 compare::Comparison one_cell_comparison() {
   compare::Comparison comparison;
@@ -93,7 +82,7 @@ TEST_CASE("a failed side is a failed row with its reason, and its values are nul
 }
 
 TEST_CASE("a file is written whole or not at all") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string target = (folder.path / "deep" / "file.txt").string();
   compare::write_file(target, [](std::ostream& out) { out << "whole"; });
   CHECK_THROWS_AS(compare::write_file(target,
@@ -113,7 +102,7 @@ TEST_CASE("the published figures are read whole, and a broken row is named") {
   // six measures in the columns of 4.5, 4.6, 4.7, 5.1, 5.3, 5.4; six volumes; three bars
   CHECK(compare::read_published_figures().size() ==
         3 * 11 + 2 * (6 + 9) + 11 + 6 * (5 + 5 + 2 + 2 + 2 + 2) + 6 + 3);
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = (folder.path / "broken.csv").string();
   std::ofstream(path) << "a,b\n1,2\n1\n";
   CHECK_THROWS_WITH(compare::read_csv(path), Catch::Contains("broken.csv:3") && Catch::Contains("1 fields"));

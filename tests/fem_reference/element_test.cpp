@@ -13,8 +13,6 @@ using cases::Element;
 
 namespace {
 
-constexpr Element all_elements[] = {Element::q1, Element::q1_bbar, Element::q1_p0, Element::q2,
-                                    Element::q2_p1};
 constexpr cases::Formulation all_formulations[] = {
     cases::Formulation::small_strain, cases::Formulation::saint_venant_kirchhoff,
     cases::Formulation::log_strain, cases::Formulation::hyperelastic};
@@ -110,7 +108,7 @@ TEST_CASE("an element's tangent is the derivative of its internal force, its pre
                 {Eigen::Vector3d(0.3, 0.3, -0.4).asDiagonal(), 0},
                 {general, 0.02}}; // and neither
   for (const auto formulation : all_formulations)
-    for (const auto element : all_elements) {
+    for (const auto element : scenes::all_elements) {
       if (!has_meaning(formulation, element)) continue;
       OneCell cell(formulation, element, material_of(formulation));
       for (const auto& state : states) {
@@ -138,7 +136,7 @@ TEST_CASE("a cell that is turned after it was deformed turns its forces with it"
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(2.2, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   for (const auto formulation : all_formulations)
-    for (const auto element : all_elements) {
+    for (const auto element : scenes::all_elements) {
       if (formulation == cases::Formulation::small_strain || !has_meaning(formulation, element)) continue;
       OneCell cell(formulation, element, material_of(formulation));
       const Eigen::VectorXd u = cell.displacement(gradient, 0.02);
@@ -161,7 +159,7 @@ TEST_CASE("a rigid motion gives a cell no force", "[verification]") {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(2.2, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   for (const auto formulation : all_formulations)
-    for (const auto element : all_elements) {
+    for (const auto element : scenes::all_elements) {
       if (formulation == cases::Formulation::small_strain || !has_meaning(formulation, element)) continue;
       OneCell cell(formulation, element, material_of(formulation));
       CAPTURE(cases::name_of(formulation), cases::name_of(element));

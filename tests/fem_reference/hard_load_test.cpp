@@ -8,7 +8,6 @@
 #include <numeric>
 
 using cases::Element;
-using cases::Formulation;
 using scenes::LoadSet;
 using scenes::Test;
 
@@ -30,7 +29,7 @@ TEST_CASE("the cube with Poisson's ratio 0.4999 keeps its volume under every loa
     for (const auto element : {Element::q1_p0, Element::q2_p1}) {
       const int cells = element == Element::q1_p0 ? 4 : 2;
       const auto definition = scenes::cube(test, LoadSet::large, scenes::thesis_elastic(0.4999),
-                                           Formulation::log_strain, element, cells);
+                                           cases::Formulation::log_strain, element, cells);
       const auto solution = fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();
       CAPTURE(cases::name_of(element), solution.newton_iterations);
       CHECK(std::abs(volume(solution) - 1000) <=
@@ -47,7 +46,7 @@ TEST_CASE("a lubricated block of Ogden material is pressed to two fifths of its 
                 (std::pow(0.4, material.alpha[p]) - std::pow(0.4, -material.alpha[p] / 2)) / 0.4;
   for (const auto element : {Element::q1_p0, Element::q2_p1}) {
     auto definition =
-        scenes::cube(Test::tensile, LoadSet::small, material, Formulation::hyperelastic, element, 2);
+        scenes::cube(Test::tensile, LoadSet::small, material, cases::Formulation::hyperelastic, element, 2);
     definition.fixed.clear();
     definition.loads.clear();
     for (const char* face : {"x-", "y-", "z-"}) {
@@ -73,12 +72,12 @@ TEST_CASE("a lubricated block of Ogden material is pressed to two fifths of its 
 }
 
 TEST_CASE("five times the large tensile load is carried, or refused with the load reached and the reason") {
-  for (const auto formulation :
-       {Formulation::saint_venant_kirchhoff, Formulation::log_strain, Formulation::hyperelastic}) {
+  for (const auto formulation : {cases::Formulation::saint_venant_kirchhoff, cases::Formulation::log_strain,
+                                 cases::Formulation::hyperelastic}) {
     cases::Material material = scenes::thesis_elastic();
     Element element = Element::q1;
-    if (formulation == Formulation::log_strain) element = Element::q1_bbar;
-    if (formulation == Formulation::hyperelastic) {
+    if (formulation == cases::Formulation::log_strain) element = Element::q1_bbar;
+    if (formulation == cases::Formulation::hyperelastic) {
       material = scenes::thesis_ogden();
       element = Element::q1_p0;
     }
@@ -89,11 +88,12 @@ TEST_CASE("five times the large tensile load is carried, or refused with the loa
       const auto solution = fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();
       CHECK(is_finite(solution));
       CHECK(solution.residual <= 1e-9);
-      CHECK(formulation !=
-            Formulation::log_strain); // whose nominal stress E ln(l)/l has a maximum far below this load
+      CHECK(
+          formulation !=
+          cases::Formulation::log_strain); // whose nominal stress E ln(l)/l has a maximum far below this load
     } catch (const cases::SolveError& error) {
       CAPTURE(error.what(), error.load_reached());
-      CHECK(formulation == Formulation::log_strain);
+      CHECK(formulation == cases::Formulation::log_strain);
       CHECK(error.load_reached() > 0.05);
       CHECK(error.load_reached() <
             0.6); // E/e over the load's 0.3 MPa is 0.37; the clamp and the vertices shift it

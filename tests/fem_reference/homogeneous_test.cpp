@@ -87,15 +87,12 @@ bool on_right(const Vector3d& x) {
   return x.x() > 1 - 1e-9;
 }
 
-constexpr Element all_elements[] = {Element::q1, Element::q1_bbar, Element::q1_p0, Element::q2,
-                                    Element::q2_p1};
-
 } // namespace
 
 TEST_CASE("one cell under uniaxial and equibiaxial stretch is the closed form of its Ogden material",
           "[verification]") {
   for (const auto& material : materials(2.))
-    for (const Element element : all_elements)
+    for (const Element element : scenes::all_elements)
       for (const int n_held : {1, 2})
         for (const double stretch : {0.5, 0.8, 1.3, 2.}) {
           const Solved cell = stretched(material, element, stretch, n_held);
@@ -111,7 +108,7 @@ TEST_CASE("one cell under uniaxial and equibiaxial stretch is the closed form of
 
 TEST_CASE("one cell in simple shear carries the derivative of its Ogden energy", "[verification]") {
   for (const auto& material : materials(2.))
-    for (const Element element : all_elements)
+    for (const Element element : scenes::all_elements)
       for (const double gamma : {0.1, 0.5, 1.5}) { // 1.5: principal stretches 2 and 1/2
         cases::Scene scene = one_cell(material, element, {"x-", "x+", "y-", "y+", "z-", "z+"});
         for (auto& fixed : scene.fixed) fixed.components = {true, true, true};

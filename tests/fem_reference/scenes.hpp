@@ -8,6 +8,9 @@
 /// Scenes that the tests of the finite-element side share.
 namespace scenes {
 
+constexpr cases::Element all_elements[] = {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q1_p0,
+                                           cases::Element::q2, cases::Element::q2_p1};
+
 enum class Test { tensile, shear, torsion };
 enum class LoadSet { small, large };
 

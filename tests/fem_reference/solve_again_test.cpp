@@ -5,13 +5,12 @@
 #include <catch2/catch.hpp>
 
 using cases::Element;
-using cases::Formulation;
 using scenes::LoadSet;
 using scenes::Test;
 
 namespace {
 
-fem_reference::Model model_of(Formulation formulation, Element element) {
+fem_reference::Model model_of(cases::Formulation formulation, Element element) {
   return fem_reference::Model(
       cases::make_scene(
           scenes::cube(Test::shear, LoadSet::large, scenes::thesis_elastic(), formulation, element, 2)),
@@ -28,7 +27,7 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
 } // namespace
 
 TEST_CASE("a re-solve after less load finds the equilibrium that a solve from rest finds", "[verification]") {
-  const auto formulation = GENERATE(Formulation::small_strain, Formulation::log_strain);
+  const auto formulation = GENERATE(cases::Formulation::small_strain, cases::Formulation::log_strain);
   const auto element = GENERATE(Element::q1, Element::q1_bbar, Element::q2);
   auto model = model_of(formulation, element);
   const cases::Solution first = model.solve();
@@ -42,17 +41,17 @@ TEST_CASE("a re-solve after less load finds the equilibrium that a solve from re
 
 TEST_CASE("a linear body's re-solve needs no factorisation, a nonlinear one's does") {
   for (const Element element : {Element::q1, Element::q1_bbar, Element::q2}) {
-    auto linear = model_of(Formulation::small_strain, element);
+    auto linear = model_of(cases::Formulation::small_strain, element);
     CHECK(linear.solve().factorisations == 1);
     CHECK(linear.solve_again(0.9).factorisations == 0);
-    auto nonlinear = model_of(Formulation::log_strain, element);
+    auto nonlinear = model_of(cases::Formulation::log_strain, element);
     CHECK(nonlinear.solve().factorisations > 1);
     CHECK(nonlinear.solve_again(0.9).factorisations > 0);
   }
 }
 
 TEST_CASE("a looser tolerance is met with no more iterations") {
-  auto model = model_of(Formulation::log_strain, Element::q1);
+  auto model = model_of(cases::Formulation::log_strain, Element::q1);
   const cases::Solution tight = model.solve({1, 1e-10}), loose = model.solve({1, 1e-2});
   CHECK(loose.residual <= 1e-2);
   CHECK(loose.newton_iterations < tight.newton_iterations);

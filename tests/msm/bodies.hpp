@@ -1,9 +1,12 @@
 #pragma once
 
 #include "cases/scene.hpp"
+#include "cases/solution.hpp"
 #include "msm/lattice.hpp"
 
+#include <algorithm>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 /// Bodies and loads that several tests use.
@@ -51,12 +54,23 @@ inline msm::CellStiffness cell(double edge, double face, double internal, double
   return {1e-3 * edge, 1e-3 * face, 1e-3 * internal, volume};
 }
 
+/// Brain tissue's Ogden set in the thesis (section 5.3.1), MPa.
+inline const cases::Ogden thesis_ogden = {
+    {0.01444, 0.01444, 0.01444}, {5.7255, 5.7255, 5.7255}, std::nullopt};
+
+/// Springs that the thesis prints, and a weaker set with a volume term.
+inline const msm::CellStiffness thesis_cell = cell(31, 47, 33), hybrid_cell = cell(20, 25, 20, 0.14);
+
 /// Four of eight cells of a 2x2x2 grid: an edge and a face of some cells lie inside, others outside.
 inline cases::Grid masked_grid() {
   cases::Grid grid;
   grid.cells = {2, 2, 2};
   grid.present = {true, true, true, false, false, true, false, false};
   return grid;
+}
+
+inline msm::Lattice masked_lattice() {
+  return msm::make_lattice(cases::make_grid_mesh(masked_grid()), {cell(31, 47, 33, 0.14)});
 }
 
 /// Points moved by up to `size` mm, the same ones in every run.
@@ -66,6 +80,15 @@ inline msm::Points disturbed(msm::Points points, double size) {
   for (Eigen::Vector3d& point : points)
     point += Eigen::Vector3d(any(generator), any(generator), any(generator));
   return points;
+}
+
+/// Largest difference of two displacements, mm.
+inline double largest_difference(const cases::Solution& a, const cases::Solution& b) {
+  if (a.displacement.size() != b.displacement.size()) throw std::invalid_argument("not of one body");
+  double largest = 0;
+  for (std::size_t n = 0; n < a.displacement.size(); ++n)
+    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
+  return largest;
 }
 
 } // namespace bodies

@@ -11,8 +11,6 @@ using msm::Points;
 
 namespace {
 
-const msm::CellStiffness stiffness = bodies::cell(31, 47, 33, 0.14);
-
 /// Assembled stiffness (N/m) of the spring between the nodes at two places of the unit grid; 0 when there is
 /// none.
 double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
@@ -24,14 +22,11 @@ double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
   return 0;
 }
 
-Lattice masked_lattice() {
-  return msm::make_lattice(cases::make_grid_mesh(bodies::masked_grid()), {stiffness});
-}
-
 } // namespace
 
 TEST_CASE("springs shared by cells are one spring with the sum of their stiffnesses") {
-  const Lattice lattice = msm::make_lattice(cases::make_box_mesh({2, 2, 2}, {2, 2, 2}), {stiffness});
+  const Lattice lattice =
+      msm::make_lattice(cases::make_box_mesh({2, 2, 2}, {2, 2, 2}), {bodies::thesis_cell});
   const double tolerance = 1e-14; // relative; a sum of at most four equal terms
   const Vector3d centre(1, 1, 1);
   SECTION("inside the body") {
@@ -53,7 +48,7 @@ TEST_CASE("springs shared by cells are one spring with the sum of their stiffnes
 
 TEST_CASE("a lattice with cells missing has the springs of the present cells alone") {
   // present: (0,0,0) (1,0,0) (0,1,0) (1,0,1)
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   const double tolerance = 1e-14; // relative; a sum of at most four equal terms
   CHECK(between(lattice, {1, 1, 0}, {1, 1, 1}) == Approx(3 * 31).epsilon(tolerance)); // three cells meet here
   CHECK(between(lattice, {1, 0, 0}, {1, 1, 1}) == Approx(2 * 47).epsilon(tolerance));
@@ -74,7 +69,7 @@ TEST_CASE("cells of different stiffness add what each brings") {
 }
 
 TEST_CASE("a rigid motion of the lattice gives no force") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(1.9, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   Points moved = lattice.rest;
@@ -85,7 +80,7 @@ TEST_CASE("a rigid motion of the lattice gives no force") {
 }
 
 TEST_CASE("the internal force of a lattice is minus the gradient of its energy") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   const Points at = bodies::disturbed(lattice.rest, 0.2);
   const Points force = msm::internal_force(lattice, at);
   const double h = 1e-6; // mm; the central difference then errs by about 1e-13, its rounding by 1e-10

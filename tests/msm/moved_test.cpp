@@ -15,7 +15,7 @@ using msm::Path;
 namespace {
 
 const double pi = std::acos(-1.0);
-const msm::CellStiffness thesis_cell = bodies::cell(31, 47, 33), hybrid = bodies::cell(20, 25, 20, 0.14);
+using bodies::thesis_cell;
 
 cases::Moved shifted(const std::string& region, const Vector3d& by) {
   cases::Moved moved;
@@ -37,13 +37,6 @@ cases::Scene moved_scene(const std::array<int, 3>& cells, const std::vector<case
   cases::Case definition = bodies::clamped_box(cells, {});
   definition.moved = moved;
   return cases::make_scene(definition);
-}
-
-double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  double largest = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
-  return largest;
 }
 
 } // namespace
@@ -76,13 +69,13 @@ TEST_CASE("a body pressed by its top takes the shape that the load of the same h
                   {bodies::region("z-"), {false, false, true}}};
   msm::EquilibriumSettings settings;
   settings.tolerance = 1e-12;
-  const cases::Solution by_load = Model(cases::make_scene(loaded), {hybrid}).solve(settings);
+  const cases::Solution by_load = Model(cases::make_scene(loaded), {bodies::hybrid_cell}).solve(settings);
   cases::Case moved = loaded;
   moved.loads.clear();
   moved.moved = {shifted("z+", {0, 0, by_load.displacement.back().z()})};
   moved.moved[0].components = {false, false, true};
-  const cases::Solution by_hand = Model(cases::make_scene(moved), {hybrid}).solve(settings);
-  CHECK(largest_difference(by_load, by_hand) < 1e-10); // mm, as asked; residual 1e-12
+  const cases::Solution by_hand = Model(cases::make_scene(moved), {bodies::hybrid_cell}).solve(settings);
+  CHECK(bodies::largest_difference(by_load, by_hand) < 1e-10); // mm, as asked; residual 1e-12
 }
 
 TEST_CASE("the multigrid path and the direct path carry a moved top to the same equilibrium",
@@ -93,11 +86,11 @@ TEST_CASE("the multigrid path and the direct path carry a moved top to the same 
   const std::vector<cases::Moved> motions = {shifted("z+", {0.5, 0, -1}),
                                              turned("z+", 60, Vector3d::UnitZ(), {3, 3, 6})};
   for (const cases::Moved& motion : motions)
-    for (const msm::CellStiffness& stiffness : {thesis_cell, hybrid}) {
+    for (const msm::CellStiffness& stiffness : {thesis_cell, bodies::hybrid_cell}) {
       const cases::Scene scene = moved_scene({6, 6, 6}, {motion});
       const cases::Solution direct = Model(scene, {stiffness}, {Path::direct, 1}).solve(tight);
       const cases::Solution multigrid = Model(scene, {stiffness}, {Path::multigrid, 1}).solve(tight);
-      CHECK(largest_difference(direct, multigrid) < 1e-8); // mm
+      CHECK(bodies::largest_difference(direct, multigrid) < 1e-8); // mm
       CHECK(multigrid.lowest_eigenvalue.value() ==
             Approx(direct.lowest_eigenvalue.value()).epsilon(0.01)); // 3 digits
       CHECK(multigrid.residual <= 1e-11);

@@ -14,10 +14,6 @@ using msm::TransverseTerm;
 
 namespace {
 
-Lattice masked_lattice() {
-  return msm::make_lattice(cases::make_grid_mesh(bodies::masked_grid()), {bodies::cell(31, 47, 33, 0.14)});
-}
-
 MatrixXd full(const Tangent::Matrix& lower) {
   return MatrixXd(MatrixXd(lower).selfadjointView<Eigen::Lower>());
 }
@@ -29,7 +25,7 @@ VectorXd flat(const Points& points) {
 } // namespace
 
 TEST_CASE("the tangent of a lattice is minus the derivative of its internal force") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   const Points at = bodies::disturbed(lattice.rest, 0.2);
   Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
   const MatrixXd matrix = full(tangent.assemble(at, TransverseTerm::exact));
@@ -47,7 +43,7 @@ TEST_CASE("the tangent of a lattice is minus the derivative of its internal forc
 }
 
 TEST_CASE("held degrees of freedom have no row and no column in the tangent") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   std::vector<bool> is_fixed(3 * lattice.rest.size(), false);
   is_fixed[0] = is_fixed[4] = is_fixed[17] = true;
   Tangent all(lattice, std::vector<bool>(is_fixed.size(), false)), held(lattice, is_fixed);
@@ -65,7 +61,7 @@ TEST_CASE("held degrees of freedom have no row and no column in the tangent") {
 }
 
 TEST_CASE("the exact tangent of a compressed lattice may be indefinite, the clamped one never is") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   Points at = lattice.rest;
   for (Eigen::Vector3d& point : at) point *= 0.6;
   Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
@@ -77,7 +73,7 @@ TEST_CASE("the exact tangent of a compressed lattice may be indefinite, the clam
 }
 
 TEST_CASE("an unloaded lattice has the six rigid motions as its only motions without stiffness") {
-  const Lattice lattice = masked_lattice();
+  const Lattice lattice = bodies::masked_lattice();
   Tangent tangent(lattice, std::vector<bool>(3 * lattice.rest.size(), false));
   const VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<MatrixXd>(full(tangent.assemble(lattice.rest, TransverseTerm::exact)))

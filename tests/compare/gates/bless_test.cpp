@@ -78,7 +78,7 @@ std::string content(const std::string& path) {
 } // namespace
 
 TEST_CASE("blessing moves missed regression intervals and leaves every other byte of the file") {
-  const case_text::Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("block.toml", text);
   const std::string difference = compare::bless(judge_file(path, 2.0, 1.0));
   std::string expected = case_text::replaced(text, "[ 0.99,1.01 ]", "[ 1.9900,2.0100 ]");
@@ -96,7 +96,7 @@ TEST_CASE("blessing moves missed regression intervals and leaves every other byt
 }
 
 TEST_CASE("an interval is found behind characters of several bytes, and in a file with lines of Windows") {
-  const case_text::Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write(
       "block.toml", case_text::replaced(inline_text(),
                                         "[[expect]]\nmeasure = \"L\"\nfem = [1, 2]\n"
@@ -117,7 +117,7 @@ TEST_CASE("an interval is found behind characters of several bytes, and in a fil
 }
 
 TEST_CASE("nothing is blessed without a value, and a file that has changed meanwhile is refused") {
-  const case_text::Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("block.toml", text);
   const auto judged_before = judge_file(path, 2.0, std::nullopt);
   CHECK(compare::intervals_to_bless(judged_before).size() == 1);

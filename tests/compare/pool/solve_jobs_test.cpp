@@ -11,13 +11,13 @@ using compare::SolveJob;
 
 namespace {
 
-const std::string folder = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/linear_elastic/";
+const std::string linear_elastic = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/linear_elastic/";
 // Two cells to a side: the loads are those of the thesis's nodes.
 const std::vector<std::string> coarse{"body.cells=[2, 2, 2]", "fem.formulation=small_strain"};
 
 SolveJob shear(Only side, std::vector<std::string> more = {}) {
   more.insert(more.begin(), coarse.begin(), coarse.end());
-  return {folder + "cube_shear_small.toml", more, side};
+  return {linear_elastic + "cube_shear_small.toml", more, side};
 }
 
 std::vector<Comparison> solve(const std::vector<SolveJob>& jobs, int n_workers) {
@@ -62,7 +62,7 @@ TEST_CASE(
     "settings that make no case, and loads that cannot be carried, fail their own side with the reason") {
   const auto solved = solve({shear(Only::msm, {"msm.design=hybrid", "material.poissons_ratio=0.2"}),
                              shear(Only::msm, {"msm.design=given", "msm.stiffness=[0, 0, 30]"}),
-                             {folder + "no_such_case.toml", {}, Only::fem},
+                             {linear_elastic + "no_such_case.toml", {}, Only::fem},
                              shear(Only::msm)},
                             2);
   for (const std::size_t j : {0, 1}) CHECK(solved[j].msm.solution.status == cases::Status::failed);

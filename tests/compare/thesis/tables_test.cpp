@@ -1,5 +1,7 @@
 // `springproof tables` as its users run it.
 
+#include "tests/temporary_folder.hpp"
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,11 +16,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springproof-tables-" + std::to_string(::getpid()));
-  ~Folder() { fs::remove_all(path); }
-};
 
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -49,7 +46,7 @@ std::string words_of(const Json& entry) {
 
 // The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
 TEST_CASE("the same tables come out byte for byte, on one worker and on three") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
   CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
         output("tables 4.1 4.3 5.12 --workers 3 --out " + three.string()));

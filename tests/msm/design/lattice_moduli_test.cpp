@@ -33,7 +33,7 @@ Eigen::Matrix3d strain(int i, int j, double size) {
   return e;
 }
 
-const msm::CellStiffness stiffness = {0.031, 0.047, 0.033, 0.14};
+const msm::CellStiffness with_volume = {0.031, 0.047, 0.033, 0.14};
 
 } // namespace
 
@@ -41,7 +41,7 @@ TEST_CASE("every interior point of an affinely deformed lattice is in equilibriu
   const int n = 4;
   const double edge = 1.3;
   const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {n, n, n});
-  const msm::Lattice lattice = msm::make_lattice(mesh, {stiffness});
+  const msm::Lattice lattice = msm::make_lattice(mesh, {with_volume});
   Eigen::Matrix3d deformation;
   deformation << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, 0.1, -0.15, 1.1;
   msm::Points positions = lattice.rest;
@@ -58,17 +58,20 @@ TEST_CASE("every interior point of an affinely deformed lattice is in equilibriu
 
 TEST_CASE("the closed moduli are the assembled lattice's affine stiffness", "[verification]") {
   const double edge = 1.6;
-  const msm::LatticeModuli moduli = msm::lattice_moduli(stiffness, edge);
+  const msm::LatticeModuli moduli = msm::lattice_moduli(with_volume, edge);
   const double tolerance = 1e-12; // both exact: round-off of the sum over 64 cells
-  CHECK(moduli.c11 == Approx(modulus(stiffness, edge, strain(0, 0, 1), strain(0, 0, 1))).epsilon(tolerance));
-  CHECK(moduli.c12 == Approx(modulus(stiffness, edge, strain(0, 0, 1), strain(1, 1, 1))).epsilon(tolerance));
-  CHECK(moduli.c44 == Approx(modulus(stiffness, edge, strain(1, 2, 1), strain(1, 2, 1))).epsilon(tolerance));
+  CHECK(moduli.c11 ==
+        Approx(modulus(with_volume, edge, strain(0, 0, 1), strain(0, 0, 1))).epsilon(tolerance));
+  CHECK(moduli.c12 ==
+        Approx(modulus(with_volume, edge, strain(0, 0, 1), strain(1, 1, 1))).epsilon(tolerance));
+  CHECK(moduli.c44 ==
+        Approx(modulus(with_volume, edge, strain(1, 2, 1), strain(1, 2, 1))).epsilon(tolerance));
 }
 
 TEST_CASE("closed moduli and the cell's affine response agree to round-off", "[verification]") {
   const double edge = 0.7;
-  const msm::LatticeModuli closed = msm::lattice_moduli(stiffness, edge);
-  const msm::LatticeModuli affine = msm::lattice_moduli(stiffness, msm::cube(edge));
+  const msm::LatticeModuli closed = msm::lattice_moduli(with_volume, edge);
+  const msm::LatticeModuli affine = msm::lattice_moduli(with_volume, msm::cube(edge));
   const double tolerance = 1e-13; // the same finite sums in another order
   CHECK(affine.c11 == Approx(closed.c11).epsilon(tolerance));
   CHECK(affine.c12 == Approx(closed.c12).epsilon(tolerance));

@@ -1,6 +1,7 @@
 #include "msm/design/linear_method.hpp"
 
 #include "msm/tangent.hpp"
+#include "tests/msm/bodies.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -16,8 +17,6 @@ msm::CellVertices distorted() {
   }
   return cell;
 }
-
-const msm::CellStiffness stiffness = {0.031, 0.047, 0.033, 0};
 
 } // namespace
 
@@ -40,9 +39,9 @@ TEST_CASE("the cell's matrix is the tangent of its lattice at rest", "[verificat
 }
 
 TEST_CASE("a cell of springs has six zero-energy modes and no more", "[verification]") {
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<msm::CellMatrix>(msm::cell_stiffness_matrix(distorted(), stiffness))
-          .eigenvalues();
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<msm::CellMatrix>(
+                                          msm::cell_stiffness_matrix(distorted(), bodies::thesis_cell))
+                                          .eigenvalues();
   const double zero = 1e-12 * eigenvalues(23); // round-off of a dense 24x24 eigenproblem
   CHECK(eigenvalues.head<6>().cwiseAbs().maxCoeff() <= zero);
   CHECK(eigenvalues(6) > 1e-3 * eigenvalues(23)); // a deformation costs a visible share of the stiffest one
@@ -50,18 +49,18 @@ TEST_CASE("a cell of springs has six zero-energy modes and no more", "[verificat
 
 TEST_CASE("the linear method returns the springs that a spring matrix was made of", "[verification]") {
   const msm::CellVertices cell = GENERATE(msm::cube(2), distorted());
-  const msm::LinearFit fit = msm::linear_method(msm::cell_stiffness_matrix(cell, stiffness), cell);
+  const msm::LinearFit fit = msm::linear_method(msm::cell_stiffness_matrix(cell, bodies::thesis_cell), cell);
   const double tolerance = 1e-12; // condition number of the 576x3 least-squares problem is below 10
-  CHECK(fit.stiffness.edge == Approx(stiffness.edge).epsilon(tolerance));
-  CHECK(fit.stiffness.face_diagonal == Approx(stiffness.face_diagonal).epsilon(tolerance));
-  CHECK(fit.stiffness.internal_diagonal == Approx(stiffness.internal_diagonal).epsilon(tolerance));
+  CHECK(fit.stiffness.edge == Approx(bodies::thesis_cell.edge).epsilon(tolerance));
+  CHECK(fit.stiffness.face_diagonal == Approx(bodies::thesis_cell.face_diagonal).epsilon(tolerance));
+  CHECK(fit.stiffness.internal_diagonal == Approx(bodies::thesis_cell.internal_diagonal).epsilon(tolerance));
   CHECK(fit.residual <= 1e-14); // N/mm, of stiffnesses near 0.1: round-off
 }
 
 TEST_CASE("no neighbouring stiffness set has a smaller residual") {
   const msm::CellVertices cell = msm::cube(1);
   // Any symmetric matrix will do: this one no springs can represent.
-  msm::CellMatrix reference = msm::cell_stiffness_matrix(cell, stiffness);
+  msm::CellMatrix reference = msm::cell_stiffness_matrix(cell, bodies::thesis_cell);
   reference.diagonal().array() += 0.1;
   const msm::LinearFit fit = msm::linear_method(reference, cell);
   const auto residual = [&](const msm::CellStiffness& k) {

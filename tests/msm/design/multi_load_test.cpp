@@ -2,6 +2,7 @@
 
 #include "cases/error.hpp"
 #include "msm/design/lattice_moduli.hpp"
+#include "tests/msm/bodies.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -10,7 +11,6 @@ namespace {
 
 using cases::LoadPath;
 
-const cases::Ogden martins = {{0.01444, 0.01444, 0.01444}, {5.7255, 5.7255, 5.7255}, std::nullopt};
 const std::vector<LoadPath> all_paths = {LoadPath::uniaxial, LoadPath::equibiaxial, LoadPath::pure_shear,
                                          LoadPath::simple_shear};
 
@@ -34,7 +34,7 @@ TEST_CASE("a small linear elastic fit with a volume term is isotropic with the m
 
 TEST_CASE("the reference material's free direction carries no stress", "[verification]") {
   for (const cases::Material& material :
-       {cases::Material(martins), cases::Material(cases::LinearElastic{0.3, 0.35})}) {
+       {cases::Material(bodies::thesis_ogden), cases::Material(cases::LinearElastic{0.3, 0.35})}) {
     for (const double strain : {-0.1, 0.2}) {
       const double round_off = 1e-14;
       CHECK(std::abs(msm::material_state(material, LoadPath::uniaxial, strain).cauchy_stress(1, 1)) <=
@@ -48,7 +48,7 @@ TEST_CASE("the reference material's free direction carries no stress", "[verific
 }
 
 TEST_CASE("the Ogden reference has the thesis's uniaxial curve and keeps its volume", "[verification]") {
-  const msm::MaterialState state = msm::material_state(martins, LoadPath::uniaxial, 0.3);
+  const msm::MaterialState state = msm::material_state(bodies::thesis_ogden, LoadPath::uniaxial, 0.3);
   const double stretch = std::exp(0.3);
   const double expected = 3 * 0.005044 * (std::pow(stretch, 5.7255) - std::pow(stretch, -5.7255 / 2));
   CHECK(state.cauchy_stress(2, 2) == Approx(expected).epsilon(1e-4)); // 0.01444 was rounded to four digits
@@ -57,7 +57,7 @@ TEST_CASE("the Ogden reference has the thesis's uniaxial curve and keeps its vol
 
 TEST_CASE("no neighbouring stiffness set fits better") {
   const msm::MultiLoadSettings wide = settings(-0.2, 0.4, true);
-  const msm::MultiLoadFit fit = msm::multi_load_method(martins, 1, wide);
+  const msm::MultiLoadFit fit = msm::multi_load_method(bodies::thesis_ogden, 1, wide);
   double sum = 0;
   for (const msm::PathFit& path : fit.paths) sum += path.weight * path.error * path.error;
   CHECK(fit.objective == Approx(sum).epsilon(1e-14));                           // its definition
@@ -67,14 +67,16 @@ TEST_CASE("no neighbouring stiffness set fits better") {
     msm::MultiLoadSettings alone = wide;
     alone.weights = {0, 0, 0, 0};
     alone.weights[p] = 1;
-    CHECK(msm::multi_load_method(martins, 1, alone).paths[p].error <=
+    CHECK(msm::multi_load_method(bodies::thesis_ogden, 1, alone).paths[p].error <=
           fit.paths[p].error * (1 + 1e-9)); // solver's tolerance
   }
 }
 
 TEST_CASE("stiffnesses scale with the edge and the volume term does not", "[verification]") {
-  const msm::CellStiffness one = msm::multi_load_method(martins, 1, settings(-0.1, 0.3, true)).stiffness;
-  const msm::CellStiffness two = msm::multi_load_method(martins, 2, settings(-0.1, 0.3, true)).stiffness;
+  const msm::CellStiffness one =
+      msm::multi_load_method(bodies::thesis_ogden, 1, settings(-0.1, 0.3, true)).stiffness;
+  const msm::CellStiffness two =
+      msm::multi_load_method(bodies::thesis_ogden, 2, settings(-0.1, 0.3, true)).stiffness;
   const double tolerance = 1e-6; // the solver's parameter tolerance, times the problem's condition
   CHECK(two.edge == Approx(2 * one.edge).epsilon(tolerance));
   CHECK(two.internal_diagonal == Approx(2 * one.internal_diagonal).epsilon(tolerance));
@@ -82,7 +84,7 @@ TEST_CASE("stiffnesses scale with the edge and the volume term does not", "[veri
 }
 
 TEST_CASE("a fit without a volume term has none, and no negative spring") {
-  const msm::MultiLoadFit fit = msm::multi_load_method(martins, 1, settings(-0.2, 0.4, false));
+  const msm::MultiLoadFit fit = msm::multi_load_method(bodies::thesis_ogden, 1, settings(-0.2, 0.4, false));
   CHECK(fit.stiffness.volume == 0);
   CHECK(fit.stiffness.edge >= 0);
   CHECK(fit.stiffness.face_diagonal >= 0);
@@ -92,7 +94,7 @@ TEST_CASE("a fit without a volume term has none, and no negative spring") {
 TEST_CASE("a split that is given is kept") {
   msm::MultiLoadSettings held = settings(-0.1, 0.3, true);
   held.split = 0.6;
-  const msm::CellStiffness k = msm::multi_load_method(martins, 1, held).stiffness;
+  const msm::CellStiffness k = msm::multi_load_method(bodies::thesis_ogden, 1, held).stiffness;
   const double internal = 4 * k.internal_diagonal / 3, face = 2 * k.face_diagonal;
   CHECK(internal / (internal + face) == Approx(0.6).epsilon(1e-12)); // two products
 }
@@ -117,5 +119,5 @@ TEST_CASE("multi-load settings without a meaning are refused") {
   SECTION("an empty strain range") {
     broken.highest_strain = broken.lowest_strain;
   }
-  CHECK_THROWS_AS(msm::multi_load_method(martins, 1, broken), cases::InputError);
+  CHECK_THROWS_AS(msm::multi_load_method(bodies::thesis_ogden, 1, broken), cases::InputError);
 }

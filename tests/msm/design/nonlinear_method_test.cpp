@@ -2,16 +2,16 @@
 
 #include "cases/error.hpp"
 #include "msm/lattice.hpp"
+#include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace {
 
-const cases::Ogden martins = {{0.01444, 0.01444, 0.01444}, {5.7255, 5.7255, 5.7255}, std::nullopt};
 const msm::CellStiffness published = {0.014, 0.017, 0.063, 0}; // thesis eq. 5.12, in N/mm
 
 msm::UniaxialCurve ogden_reference() {
-  return msm::sample(msm::ogden_law(martins), 0.5, {0, 0.4});
+  return msm::sample(msm::ogden_law(bodies::thesis_ogden), 0.5, {0, 0.4});
 }
 
 msm::UniaxialCurve linear_reference(double poissons_ratio) {
@@ -101,8 +101,9 @@ TEST_CASE("a Yeoh law of one coefficient is the neo-Hookean one with mu = 2 C1",
 
 TEST_CASE("uniaxial curves have the initial slope 3 mu when incompressible", "[verification]") {
   const double h = 1e-5;
-  const double slope =
-      (msm::ogden_law(martins)(std::exp(h)) - msm::ogden_law(martins)(std::exp(-h))) / (2 * h);
+  const double slope = (msm::ogden_law(bodies::thesis_ogden)(std::exp(h)) -
+                        msm::ogden_law(bodies::thesis_ogden)(std::exp(-h))) /
+                       (2 * h);
   CHECK(slope == Approx(3 * 0.04332).epsilon(1e-8)); // difference: h² times (alpha²)
 }
 

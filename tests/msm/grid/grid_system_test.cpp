@@ -11,15 +11,6 @@ using msm::Path;
 
 namespace {
 
-/// Largest difference of two displacements, mm.
-double difference(const cases::Solution& a, const cases::Solution& b) {
-  REQUIRE(a.displacement.size() == b.displacement.size());
-  double largest = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
-  return largest;
-}
-
 msm::EquilibriumSettings tight() {
   msm::EquilibriumSettings settings;
   settings.tolerance = 1e-11; // so that what differs is not the residual
@@ -30,7 +21,7 @@ msm::EquilibriumSettings tight() {
 void check_agreement(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
   const cases::Solution direct = Model(scene, stiffness, {Path::direct, 1}).solve(tight());
   const cases::Solution multigrid = Model(scene, stiffness, {Path::multigrid, 1}).solve(tight());
-  CHECK(difference(direct, multigrid) < 1e-8); // mm, as asked
+  CHECK(bodies::largest_difference(direct, multigrid) < 1e-8); // mm, as asked
   CHECK(multigrid.lowest_eigenvalue.value() ==
         Approx(direct.lowest_eigenvalue.value()).epsilon(0.01)); // 3 digits
   CHECK(multigrid.unknowns == direct.unknowns);
@@ -54,23 +45,25 @@ cases::Scene masked_scene() {
 } // namespace
 
 TEST_CASE("the multigrid path and the direct path find the same equilibrium", "[verification]") {
-  const msm::CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::cell(20, 25, 20, 0.14);
   SECTION("of a cube under large tension") {
-    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.05))), {springs});
+    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.05))),
+                    {bodies::thesis_cell});
   }
   SECTION("of a box of odd numbers of cells under shear") {
-    check_agreement(cases::make_scene(bodies::clamped_box({7, 9, 5}, bodies::shear(0.01))), {springs});
+    check_agreement(cases::make_scene(bodies::clamped_box({7, 9, 5}, bodies::shear(0.01))),
+                    {bodies::thesis_cell});
   }
   SECTION("of a cube with a cell volume term under torsion") {
-    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))), {hybrid});
+    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))),
+                    {bodies::hybrid_cell});
   }
   SECTION("of a body with holes") {
-    check_agreement(masked_scene(), {hybrid});
+    check_agreement(masked_scene(), {bodies::hybrid_cell});
   }
   SECTION("of flat cells") {
     cases::Case flat = bodies::clamped_box({12, 12, 8}, bodies::tensile(0.02));
     flat.body = cases::Box{{12, 12, 0.8}, {12, 12, 8}};
-    check_agreement(cases::make_scene(flat), {springs});
+    check_agreement(cases::make_scene(flat), {bodies::thesis_cell});
   }
   SECTION("of a cube of two materials") {
     const cases::Scene scene = cases::make_scene(bodies::clamped_box({6, 6, 6}, bodies::tensile(0.02)));
@@ -88,7 +81,7 @@ TEST_CASE("an equilibrium does not depend on the number of threads") {
     settings.tolerance = 1e-5; // all that differs is rounding, wherever Newton stops
     return Model(scene, {bodies::cell(31, 47, 33)}, {Path::multigrid, n_threads}).solve(settings);
   };
-  CHECK(difference(solve(1), solve(2)) < 1e-9); // mm, as asked
+  CHECK(bodies::largest_difference(solve(1), solve(2)) < 1e-9); // mm, as asked
 }
 
 TEST_CASE("the multigrid path tells a mechanism and a limit point") {
