@@ -59,14 +59,14 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<Plane>& planes
     lower = lower.cwiseMin(node);
     upper = upper.cwiseMax(node);
   }
-  const double tolerance =
+  const double rounding =
       1e-9 * (upper - lower).norm(); // far above the rounding of i * spacing, far below a cell
   std::vector<bool> selected(mesh.nodes.size());
   Selection selection;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     selected[n] = std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
       const double position = (plane.upper ? upper : lower)[plane.axis];
-      return std::abs(mesh.nodes[n][plane.axis] - position) <= tolerance;
+      return std::abs(mesh.nodes[n][plane.axis] - position) <= rounding;
     });
     if (selected[n]) selection.nodes.push_back(static_cast<int>(n));
   }

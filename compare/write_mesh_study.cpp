@@ -8,6 +8,8 @@
 
 namespace compare {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 /// The reason that all measures share, if there is one: then it is told once.
@@ -43,7 +45,6 @@ void write_text(std::ostream& out, const MeshStudy& study) {
 }
 
 void add_mesh_study(nlohmann::ordered_json& side, const MeshStudy& study) {
-  using Json = nlohmann::ordered_json;
   Json errors = Json::object(), measures = Json::array();
   for (const StudiedMeasure& m : study.measures) {
     errors[m.name] = m.discretisation_error_percent ? Json(*m.discretisation_error_percent) : Json(nullptr);

@@ -8,6 +8,8 @@
 
 namespace compare {
 
+using Json = nlohmann::ordered_json;
+
 void write_text(std::ostream& out, const Peer& peer) {
   const cases::Solution& s = peer.side.solution;
   fmt::print(out, "  peer {}: {}", peer.program, cases::name_of(s.status));
@@ -23,7 +25,6 @@ void write_text(std::ostream& out, const Peer& peer) {
 }
 
 nlohmann::ordered_json to_json(const Peer& peer) {
-  using Json = nlohmann::ordered_json;
   const cases::Solution& s = peer.side.solution;
   return {{"program", peer.program},
           {"status", cases::name_of(s.status)},

@@ -1,10 +1,26 @@
 #include "fem_reference/session.hpp"
 
+#include <cstdlib>
 #include <deal.II/base/mpi.h>
 
 namespace fem_reference {
 
+namespace {
+
+/// A process that no launcher started has nobody to talk to, but Open MPI would start its daemon for it and look
+/// for networks: half a second. What the user has set stays.
+void start_alone() {
+  for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+    if (std::getenv(launched)) return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);
+}
+
+} // namespace
+
 struct Session::Implementation {
+  Implementation() = default;
+  bool is_alone = (start_alone(), true); ///< before MPI starts: first of the members
   int argc = 1;
   char name[12] = "springproof";
   char* arguments[2] = {name, nullptr};

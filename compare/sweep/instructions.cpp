@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <unistd.h>
@@ -23,21 +24,29 @@ fs::path driver() {
   return fs::read_symlink("/proc/self/exe").parent_path() / "springproof_kernel_calls";
 }
 
-constexpr int few_calls = 2, more_calls = 12;
+const char* const kernels[] = {"force_double",   "force_float",   "product_double",  "product_float",
+                               "diagonal_float", "energy_double", "multigrid_cycle", "list_force"};
+constexpr int cells_of_cube = 10;
 
-/// Instructions of the driver with so many calls.
-double instructions(const std::string& kernel, int cells, int calls, const std::string& instruction_set) {
-  const fs::path file = fs::temp_directory_path() / fmt::format("springproof-callgrind-{}.out", ::getpid());
-  const std::string command = fmt::format(
-      "SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --callgrind-out-file='{}' '{}' {} {} {} "
-      ">/dev/null 2>&1",
-      instruction_set, file.string(), driver().string(), kernel, cells, calls);
-  const int status = std::system(command.c_str());
-  std::ifstream counted(file);
-  if (status != 0 || !counted) throw std::runtime_error("it failed: " + command);
-  const double total = callgrind_total(counted);
-  fs::remove(file);
-  return total;
+/// Instructions of one call of each kernel. One run for all: valgrind takes seconds to start.
+std::vector<double> instructions(const std::string& instruction_set) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("springproof-callgrind-{}", ::getpid());
+  fs::create_directories(folder);
+  std::vector<double> totals;
+  std::string command = fmt::format(
+      "SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --collect-atstart=no "
+      "--toggle-collect=springproof_counted_call --dump-after=springproof_counted_call "
+      "--callgrind-out-file='{}/out' '{}' {}",
+      instruction_set, folder.string(), driver().string(), cells_of_cube);
+  for (const char* kernel : kernels) command += std::string(" ") + kernel;
+  const int status = std::system((command + " >/dev/null 2>&1").c_str());
+  for (std::size_t n = 1; status == 0 && n <= std::size(kernels); ++n) {
+    std::ifstream counted(folder / fmt::format("out.{}", n));
+    if (counted) totals.push_back(callgrind_total(counted));
+  }
+  fs::remove_all(folder);
+  if (totals.size() != std::size(kernels)) throw std::runtime_error("it failed: " + command);
+  return totals;
 }
 
 } // namespace
@@ -59,16 +68,11 @@ InstructionCounts count_instructions() {
   }
   const char* asked = std::getenv("SPRINGPROOF_INSTRUCTION_SET");
   result.instruction_set = asked && *asked ? asked : "avx2";
-  constexpr int cells = 10;
-  const double n_nodes = std::pow(cells + 1., 3);
+  const double n_nodes = std::pow(cells_of_cube + 1., 3);
   try {
-    for (const char* kernel : {"force_double", "force_float", "product_double", "product_float",
-                               "diagonal_float", "energy_double", "multigrid_cycle", "list_force"}) {
-      const double few = instructions(kernel, cells, few_calls, result.instruction_set);
-      const double more = instructions(kernel, cells, more_calls, result.instruction_set);
-      const double per_call = (more - few) / (more_calls - few_calls);
-      result.counts.push_back({kernel, cells, per_call, per_call / n_nodes});
-    }
+    const std::vector<double> totals = instructions(result.instruction_set);
+    for (std::size_t n = 0; n < totals.size(); ++n)
+      result.counts.push_back({kernels[n], cells_of_cube, totals[n], totals[n] / n_nodes});
   } catch (const std::exception& error) {
     result.counts.clear();
     result.reason = std::string("sweep --perf: ") + error.what();

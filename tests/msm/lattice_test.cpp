@@ -26,7 +26,7 @@ double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
 
 TEST_CASE("springs shared by cells are one spring with the sum of their stiffnesses") {
   const Lattice lattice =
-      msm::make_lattice(cases::make_box_mesh({2, 2, 2}, {2, 2, 2}), {bodies::thesis_cell});
+      msm::make_lattice(cases::make_box_mesh({2, 2, 2}, {2, 2, 2}), {bodies::cell(31, 47, 33, 0.14)});
   const double tolerance = 1e-14; // relative; a sum of at most four equal terms
   const Vector3d centre(1, 1, 1);
   SECTION("inside the body") {
