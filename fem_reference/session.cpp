@@ -7,8 +7,8 @@ namespace fem_reference {
 
 namespace {
 
-/// A process that no launcher started has nobody to talk to, but Open MPI would start its daemon for it and look
-/// for networks: half a second. What the user has set stays.
+/// A process that no launcher started has nobody to talk to, but Open MPI would start its daemon for it and
+/// look for networks: half a second. What the user has set stays.
 void start_alone() {
   for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(launched)) return;

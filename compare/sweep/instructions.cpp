@@ -33,11 +33,11 @@ std::vector<double> instructions(const std::string& instruction_set) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("springproof-callgrind-{}", ::getpid());
   fs::create_directories(folder);
   std::vector<double> totals;
-  std::string command = fmt::format(
-      "SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --collect-atstart=no "
-      "--toggle-collect=springproof_counted_call --dump-after=springproof_counted_call "
-      "--callgrind-out-file='{}/out' '{}' {}",
-      instruction_set, folder.string(), driver().string(), cells_of_cube);
+  std::string command =
+      fmt::format("SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --collect-atstart=no "
+                  "--toggle-collect=springproof_counted_call --dump-after=springproof_counted_call "
+                  "--callgrind-out-file='{}/out' '{}' {}",
+                  instruction_set, folder.string(), driver().string(), cells_of_cube);
   for (const char* kernel : kernels) command += std::string(" ") + kernel;
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
   for (std::size_t n = 1; status == 0 && n <= std::size(kernels); ++n) {

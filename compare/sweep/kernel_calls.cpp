@@ -1,5 +1,6 @@
-// springproof_kernel_calls CELLS KERNEL... calls each of these kernels of the springs once on a cube of cells, for
-// `springproof sweep --perf` to have their instructions counted: those below springproof_counted_call.
+// springproof_kernel_calls CELLS KERNEL... calls each of these kernels of the springs once on a cube of
+// cells, for `springproof sweep --perf` to have their instructions counted: those below
+// springproof_counted_call.
 
 #include "msm/grid/multigrid.hpp"
 #include "msm/lattice.hpp"

@@ -83,7 +83,7 @@ TEST_CASE("refinement stops at the first mesh that is accurate enough, and says 
           "[verification]") {
   cases::Case definition = block(1e-3, 0);
   definition.fem.formulation = cases::Formulation::small_strain;
-  definition.fem.refine = 4;
+  definition.fem.refine = 3;
   cases::Scene reference = cases::make_scene(definition);
   std::vector<std::string> none;
   const double limit = shift(reference, solve_fem(reference, none));

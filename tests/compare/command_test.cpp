@@ -45,7 +45,8 @@ Outcome springproof(const std::string& words, const std::string& before = "") {
 
 } // namespace
 
-TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else") {
+TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else",
+          "[unit][long]") {
   for (const auto& entry : fs::recursive_directory_iterator(cases_folder + "/thesis")) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path());

@@ -97,7 +97,7 @@ TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
 TEST_CASE(
     "at least 75 of 90 errors in print are met within a point, all volumes within 2 mm3, the bar within 1.6 "
     "points",
-    "[verification]") {
+    "[verification][long]") {
   const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.2 5.3 5.4 5.12 --json"));
   const auto group = [&](const std::string& name) {
     for (const Json& candidate : document["summary"]["groups"])
