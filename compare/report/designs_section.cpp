@@ -26,7 +26,7 @@ std::string designs_section(const ThesisResults& results) {
   if (results.designs.empty()) return "";
   std::string html =
       R"(<p>The same tests with springs of other designs: |error| against the table's declared reference. A
-method designs from the table's own material. Click a worst error for its command.</p>
+method designs from the table's own material. Click an error for its command.</p>
 <div class='scroll'><table data-table='designs'><thead><tr><th class='text'>table</th><th
 class='text'>design</th><th>figures</th><th>missing</th><th>mean, %</th><th>worst, %</th><th
 class='text'>where</th><th class='text'>why some are missing</th></tr></thead><tbody>
@@ -34,6 +34,7 @@ class='text'>where</th><th class='text'>why some are missing</th></tr></thead><t
   for (std::size_t r = 0; r < results.designs.size(); ++r) {
     const DesignRow& row = results.designs[r];
     const bool is_first = r == 0 || results.designs[r - 1].table != row.table;
+    const Trace whole_table{"", {}, "build/springproof tables " + row.table};
     std::string reasons;
     for (const std::string& reason : row.reasons) reasons += (reasons.empty() ? "" : "<br>") + escape(reason);
     html += fmt::format(R"(<tr{}><td class='text'>{}</td><td
@@ -41,7 +42,7 @@ class='text'>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class='text'
 class='long'>{}</td></tr>
 )",
                         is_first ? " class='group'" : "", is_first ? row.table : "", escape(row.design),
-                        row.n_figures, row.n_missing, number(row.mean),
+                        row.n_figures, row.n_missing, traced(number(row.mean), whole_table),
                         traced(number(row.worst), row.worst_trace), escape(row.worst_at), reasons);
   }
   return html + "</tbody></table></div>\n";
@@ -57,7 +58,8 @@ interquartile range of the box)</caption>
 )";
   for (const CaseVolumes& v : results.volumes)
     html += volume_row(traced(v.name, v.trace), "FEM", v.fem, v.rest) + volume_row("", "MSM", v.msm, v.rest);
-  html += "</tbody></table></div>\n";
+  html += "</tbody></table></div>\n<p>The whole table again, box plots and all: <code>build/springproof tables "
+          "5.2</code></p>\n";
   for (const CellVolumeChange& change : results.cell_volume_changes)
     html += fmt::format(
         "<p>Figure 5.10, {} loads: the springs' cells between the whiskers change their volume by up to "

@@ -1,5 +1,6 @@
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
+#include "compare/report/traced.hpp"
 #include "compare/thesis/sheet.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@ namespace {
 
 std::string counts(const SummaryGroup& group) {
   std::string html =
-      fmt::format("<tbody class='measure'>\n<tr><th class='text' rowspan='{}'>{}, {} figures</th>",
-                  group.within.size(), escape(group.name), group.n_entries);
+      fmt::format("<tbody class='measure'>\n<tr><th class='text' rowspan='{}'>{}</th>", group.within.size(),
+                  traced(fmt::format("{}, {} figures", group.name, group.n_entries), group.trace));
   for (const Within& w : group.within)
     html += fmt::format("{}<td>{:g} {}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         &w == &group.within.front() ? "" : "<tr>", w.bound, escape(group.unit), w.declared,
@@ -25,7 +26,8 @@ std::string beyond(const TableEntry& entry) {
   for (const ComputedFigure& c : entry.computed)
     computed +=
         fmt::format("{}{}: {}", computed.empty() ? "" : "<br>", escape(c.reference),
-                    c.value ? number(c.value, p.test == "cell" ? 4 : 2) : "no value, " + escape(c.reason));
+                    c.value ? traced(number(c.value, p.test == "cell" ? 4 : 2), c.trace)
+                            : "no value, " + escape(c.reason));
   return fmt::format(
       R"(<tr><td class='text'><a href='#table-{0}'>{0}</a></td><td class='text'>{1}</td><td>{2:g}</td>
 <td>{3}</td><td class='long'>{4}</td></tr>
@@ -40,7 +42,8 @@ std::string summary_section(const ThesisResults& results) {
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   if (groups.empty()) return "";
   std::string html =
-      R"(<div class='scroll'><table data-table='summary'><caption>Printed figures that are reproduced</caption>
+      R"(<div class='scroll'><table data-table='summary'><caption>Printed figures that are reproduced; a click on a group shows the
+command that counts it again</caption>
 <thead><tr><th></th><th>within</th><th>by the declared reference</th><th>only by the other</th>
 <th>by neither</th></tr></thead>
 )";

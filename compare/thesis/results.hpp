@@ -121,6 +121,7 @@ struct SummaryGroup {
   int n_entries;
   std::vector<Within> within;
   double listing_bound; ///< entries beyond it are listed
+  Trace trace;          ///< counts again
   std::vector<const TableEntry*>
       beyond; ///< by every reference; the entry's finding explains it, or nothing does
 };

@@ -1,7 +1,9 @@
 #include "compare/thesis/results.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
+#include <set>
 
 namespace compare {
 
@@ -25,6 +27,15 @@ Within count(const std::vector<const TableEntry*>& entries, double bound) {
        : is_met_by_other(*entry, bound)                   ? within.other_only
                                                           : within.neither);
   return within;
+}
+
+/// The tables that these stand in, and no other.
+Trace tables_of(const std::vector<const TableEntry*>& entries) {
+  std::set<std::string> tables;
+  for (const TableEntry* entry : entries) tables.insert(entry->published.table);
+  Trace trace;
+  trace.command = fmt::format("build/springproof tables {}", fmt::join(tables, " "));
+  return trace;
 }
 
 /// A kind of figure, which is counted by itself.
@@ -78,7 +89,8 @@ std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
     for (const TableEntry& entry : entries)
       if (kind.has(entry.published)) members.push_back(&entry);
     if (members.empty()) continue;
-    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound, {}};
+    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound,
+                       tables_of(members), {}};
     for (const double bound : kind.bounds) group.within.push_back(count(members, bound));
     for (const TableEntry* entry : members)
       if (count({entry}, kind.listing_bound).neither == 1) group.beyond.push_back(entry);

@@ -2,7 +2,7 @@
 
 usage: browser_test.py SPRINGPROOF FOLDER
 
-FOLDER receives a report of a few tables and the screenshots, to be looked at. Only Python's standard library is used.
+FOLDER receives the whole report and the screenshots, to be looked at. Only Python's standard library is used.
 """
 
 import json
@@ -15,8 +15,9 @@ import tempfile
 import zlib
 from pathlib import Path
 
-TABLES = ["4.3", "5.3", "5.12"]
-VIEWS = 6  # three cubes of table 5.3, three bars
+TABLES = ["4.1", "4.2", "4.3", "4.5", "4.6", "4.7", "5.1", "5.2", "5.3", "5.4", "5.12"]
+SECTIONS = ["summary", "designs", "advice", "volumes", "machine", "cases"]
+VIEWS = 15  # cube: three tests, two load sets, two materials; three bars
 WIDTH = 1280
 SCALE = 0.5  # of the screenshots: reading them takes Python longer than Chromium takes to make them
 
@@ -124,13 +125,25 @@ def check_views(found):
             assert view[deed], (name, deed)
 
 
+def check_calculator(said, advice):
+    """For E = 50 kPa, nu = 0.45 and cells of 1 mm the page names the recommended design, its stiffnesses and its errors."""
+    best, = (row for row in advice if row["poissons_ratio"] == 0.45 and row["recommended"])
+    assert said.startswith(best["design"] + ": "), said
+    for symbol, over in zip("efd", best["stiffness_per_E_L0"]):
+        number = float(re.search(rf"k_{symbol} = ([-.e0-9]+)", said).group(1))  # N/m; E L0 is 50 N/m
+        assert abs(number - 50 * over) < 1e-3 * abs(number), (said, best)
+    worst = re.search(r"up to ([.0-9]+) % under the\s+small loads, ([.0-9]+) % under the\s+large", said)
+    for number, load_set in zip(worst.groups(), ("small", "large")):
+        assert abs(float(number) - best[load_set]["worst_error_percent"]) < 0.06, (said, best)
+
+
 def main():
     springproof, folder = sys.argv[1], Path(sys.argv[2]).resolve()
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if not chromium:
         print("no Chromium here: nothing was compared")
         return
-    subprocess.run([springproof, "tables", *TABLES, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([springproof, "tables", "--out", folder], check=True, stdout=subprocess.DEVNULL)
     report = folder / "report.html"
     text = report.read_text()
     assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", text), "the page refers to something outside itself"
@@ -144,9 +157,10 @@ def main():
     found = json.loads(match.group(1))
     assert found["errors"] == [], found["errors"]
     rows = {table["name"]: table["rows"] for table in found["tables"]}
-    for table in TABLES + ["summary", "volumes", "machine", "cases"]:
+    for table in TABLES + SECTIONS:
         assert rows.get(table, 0) > 1, (table, rows)
     check_views(found)
+    check_calculator(found["calculator"], json.loads((folder / "tables.json").read_text())["advice"])
 
     size = f"--window-size={WIDTH},{found['height']}"
     live, still = folder / "views.png", folder / "without_scripts.png"

@@ -53,6 +53,10 @@
     record.box = [box.left + scrollX, box.top + scrollY, box.width, box.height].map(Math.round);
   }
   found.height = document.documentElement.scrollHeight;
+  const form = document.getElementById("calculator");
+  Object.entries({ young: "50", nu: "0.45", edge: "1" }).forEach(([name, value]) => { form[name].value = value; });
+  form.young.dispatchEvent(new Event("input", { bubbles: true }));
+  found.calculator = form.querySelector("output").textContent;
   const result = document.createElement("script");
   result.type = "application/json";
   result.id = "found";
