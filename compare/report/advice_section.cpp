@@ -86,8 +86,9 @@ loads</th><th colspan='3'>large loads</th></tr>
     html += row(a, previous);
     previous = &a;
   }
-  return html + "</tbody></table></div>\n<p>The means again, and everything else here, under <code>advice</code> "
-                "of <code>build/springproof tables --json</code>.</p>\n";
+  return html +
+         "</tbody></table></div>\n<p>The means again, and everything else here, under <code>advice</code> "
+         "of <code>build/springproof tables --json</code>.</p>\n";
 }
 
 } // namespace compare::html

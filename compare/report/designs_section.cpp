@@ -58,8 +58,9 @@ interquartile range of the box)</caption>
 )";
   for (const CaseVolumes& v : results.volumes)
     html += volume_row(traced(v.name, v.trace), "FEM", v.fem, v.rest) + volume_row("", "MSM", v.msm, v.rest);
-  html += "</tbody></table></div>\n<p>The whole table again, box plots and all: <code>build/springproof tables "
-          "5.2</code></p>\n";
+  html +=
+      "</tbody></table></div>\n<p>The whole table again, box plots and all: <code>build/springproof tables "
+      "5.2</code></p>\n";
   for (const CellVolumeChange& change : results.cell_volume_changes)
     html += fmt::format(
         "<p>Figure 5.10, {} loads: the springs' cells between the whiskers change their volume by up to "

@@ -24,10 +24,9 @@ std::string beyond(const TableEntry& entry) {
   const PublishedFigure& p = entry.published;
   std::string computed;
   for (const ComputedFigure& c : entry.computed)
-    computed +=
-        fmt::format("{}{}: {}", computed.empty() ? "" : "<br>", escape(c.reference),
-                    c.value ? traced(number(c.value, p.test == "cell" ? 4 : 2), c.trace)
-                            : "no value, " + escape(c.reason));
+    computed += fmt::format("{}{}: {}", computed.empty() ? "" : "<br>", escape(c.reference),
+                            c.value ? traced(number(c.value, p.test == "cell" ? 4 : 2), c.trace)
+                                    : "no value, " + escape(c.reason));
   return fmt::format(
       R"(<tr><td class='text'><a href='#table-{0}'>{0}</a></td><td class='text'>{1}</td><td>{2:g}</td>
 <td>{3}</td><td class='long'>{4}</td></tr>

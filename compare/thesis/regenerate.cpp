@@ -26,7 +26,8 @@ void check_known(const std::vector<std::string>& tables) {
   for (const std::string& table : tables)
     if (std::find(known.begin(), known.end(), table) == known.end())
       throw cases::InputError(
-          fmt::format("table '{}' is not known; there are {}", table, fmt::join(known, ", ")));
+          fmt::format("table '{}' is not known; there are {}{}", table, fmt::join(known, ", "),
+                      table == "4.4" ? " (4.4 lists the loads, which the case files hold)" : ""));
 }
 
 /// All that stands on solves. Called twice: see SolveSet.

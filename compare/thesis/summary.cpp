@@ -89,8 +89,9 @@ std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
     for (const TableEntry& entry : entries)
       if (kind.has(entry.published)) members.push_back(&entry);
     if (members.empty()) continue;
-    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound,
-                       tables_of(members), {}};
+    SummaryGroup group{kind.name, kind.unit,          static_cast<int>(members.size()),
+                       {},        kind.listing_bound, tables_of(members),
+                       {}};
     for (const double bound : kind.bounds) group.within.push_back(count(members, bound));
     for (const TableEntry* entry : members)
       if (count({entry}, kind.listing_bound).neither == 1) group.beyond.push_back(entry);
