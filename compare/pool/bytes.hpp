@@ -61,6 +61,12 @@ class Reader {
 template<class Archive, class Value>
 void transfer(Archive& archive, Value& value);
 
+/// One after the other.
+template<class Archive, class... Values>
+void transfer_all(Archive& archive, Values&... values) {
+  (transfer(archive, values), ...);
+}
+
 template<class Archive>
 void transfer(Archive& archive, Eigen::Vector3d& vector) {
   archive.raw(vector.data(), 3 * sizeof(double));
@@ -86,22 +92,10 @@ void transfer(Archive& archive, std::optional<Value>& optional) {
 
 template<class Archive>
 void transfer(Archive& archive, cases::Solution& s) {
-  transfer(archive, s.status);
-  transfer(archive, s.message);
-  transfer(archive, s.outcome);
-  transfer(archive, s.displacement);
-  transfer(archive, s.cell_volume);
-  transfer(archive, s.unknowns);
-  transfer(archive, s.residual);
-  transfer(archive, s.load_reached);
-  transfer(archive, s.newton_iterations);
-  transfer(archive, s.relaxation_iterations);
-  transfer(archive, s.linear_iterations);
-  transfer(archive, s.force_evaluations);
-  transfer(archive, s.factorisations);
-  transfer(archive, s.lowest_eigenvalue);
-  transfer(archive, s.negative_eigenvalues);
-  transfer(archive, s.inverted_cells);
+  transfer_all(archive, s.status, s.message, s.outcome, s.displacement, s.cell_volume, s.unknowns, s.residual,
+               s.load_reached, s.newton_iterations, s.relaxation_iterations, s.linear_iterations,
+               s.force_evaluations, s.factorisations, s.lowest_eigenvalue, s.negative_eigenvalues,
+               s.inverted_cells);
 }
 
 template<class Archive, class Value>

@@ -6,50 +6,34 @@ namespace compare {
 
 template<class Archive>
 void transfer(Archive& archive, Side& side) {
-  transfer(archive, side.solution);
-  transfer(archive, side.setup_seconds);
-  transfer(archive, side.solve_seconds);
+  transfer_all(archive, side.solution, side.setup_seconds, side.solve_seconds);
 }
 
 template<class Archive>
 void transfer(Archive& archive, msm::DesignResult& design) {
-  transfer(archive, design.stiffness);
-  transfer(archive, design.residual);
-  transfer(archive, design.moduli);
-  transfer(archive, design.warnings);
-  transfer(archive, design.cells);
+  transfer_all(archive, design.stiffness, design.residual, design.moduli, design.warnings, design.cells);
 }
 
 template<class Archive>
 void transfer(Archive& archive, StudiedMeasure& measure) {
-  transfer(archive, measure.name);
-  transfer(archive, measure.values);
-  transfer(archive, measure.limit);
-  transfer(archive, measure.discretisation_error_percent);
-  transfer(archive, measure.reason);
+  transfer_all(archive, measure.name, measure.values, measure.limit, measure.discretisation_error_percent,
+               measure.reason);
 }
 
 template<class Archive>
 void transfer(Archive& archive, MeshStudy& study) {
-  transfer(archive, study.refine);
-  transfer(archive, study.unknowns);
-  transfer(archive, study.measures);
+  transfer_all(archive, study.refine, study.unknowns, study.measures);
 }
 
 template<class Archive>
 void transfer(Archive& archive, Peer& peer) {
-  transfer(archive, peer.program);
-  transfer(archive, peer.side);
-  transfer(archive, peer.largest_difference);
+  transfer_all(archive, peer.program, peer.side, peer.largest_difference);
 }
 
 template<class Archive>
 void transfer_answers(Archive& archive, Comparison& comparison) {
-  transfer(archive, comparison.fem);
-  transfer(archive, comparison.msm);
-  transfer(archive, comparison.design);
-  transfer(archive, comparison.mesh_study);
-  transfer(archive, comparison.peer);
+  transfer_all(archive, comparison.fem, comparison.msm, comparison.design, comparison.mesh_study,
+               comparison.peer);
 }
 
 std::string to_bytes(const Comparison& comparison) {

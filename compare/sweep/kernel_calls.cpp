@@ -2,6 +2,7 @@
 // cells, for `springproof sweep --perf` to have their instructions counted: those below
 // springproof_counted_call.
 
+#include "compare/sweep/timed_cube.hpp"
 #include "msm/grid/multigrid.hpp"
 #include "msm/lattice.hpp"
 
@@ -22,16 +23,6 @@ using msm::grid::Body;
 using msm::grid::Clamp;
 using msm::grid::Field;
 
-/// A cube of cells of 1 mm, its lowest plane held.
-Body cube(int cells) {
-  Body body;
-  body.cells = {cells, cells, cells};
-  body.spacing = {1, 1, 1};
-  body.springs = {{{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0}};
-  set_layout(body, [](int, int, int k, int) { return k == 0; });
-  return body;
-}
-
 /// One call of a kernel on fields that stay as they are.
 template<class Real>
 struct Grid {
@@ -49,14 +40,14 @@ struct Grid {
 
 template<class Real>
 void run_grid(int cells, void (Grid<Real>::*kernel)()) {
-  const Body body = cube(cells);
+  const Body body = compare::timed_cube(cells);
   Grid<Real> grid(body);
   (grid.*kernel)(); // the first call also binds its functions
   springproof_counted_call([&] { (grid.*kernel)(); });
 }
 
 void run_multigrid(int cells) {
-  const Body body = cube(cells);
+  const Body body = compare::timed_cube(cells);
   const std::deque<Body> bodies = msm::grid::coarsenings(body);
   msm::grid::Multigrid multigrid(bodies, 1);
   Field<double> field = Field<double>::Zero(3 * body.layout.size), solution = field;

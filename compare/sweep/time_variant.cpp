@@ -191,14 +191,8 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
 
 template<class Archive>
 void transfer(Archive& archive, VariantRun& run) {
-  transfer(archive, run.first);
-  transfer(archive, run.again);
-  transfer(archive, run.setup_seconds);
-  transfer(archive, run.first_seconds);
-  transfer(archive, run.again_seconds);
-  transfer(archive, run.is_warm);
-  transfer(archive, run.peak_megabytes);
-  transfer(archive, run.start_megabytes);
+  transfer_all(archive, run.first, run.again, run.setup_seconds, run.first_seconds, run.again_seconds,
+               run.is_warm, run.peak_megabytes, run.start_megabytes);
 }
 
 std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules) {

@@ -1,3 +1,4 @@
+#include "compare/sweep/timed_cube.hpp"
 #include "msm/grid/multigrid.hpp"
 #include "msm/lattice.hpp"
 #include "tests/bench/peak.hpp"
@@ -10,16 +11,6 @@ using msm::grid::Body;
 using msm::grid::Clamp;
 using msm::grid::Field;
 
-/// A cube of cells of 1 mm, its lowest plane held.
-Body cube(int cells) {
-  Body body;
-  body.cells = {cells, cells, cells};
-  body.spacing = {1, 1, 1};
-  body.springs = {{{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0}};
-  set_layout(body, [](int, int, int k, int) { return k == 0; });
-  return body;
-}
-
 double n_nodes(const Body& body) {
   return (body.cells[0] + 1.0) * (body.cells[1] + 1.0) * (body.cells[2] + 1.0);
 }
@@ -29,14 +20,15 @@ void count_nodes(benchmark::State& state, double nodes) {
       benchmark::Counter(nodes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Additions and multiplications for one spring's force, as the kernels do it: the difference of two displaced nodes 3,
-/// its square 6, the reciprocal root from the estimate 10, k - k l0/|d| 2, times the difference to both ends 12.
+/// Additions and multiplications for one spring's force, as the kernels do it: the difference of two
+/// displaced nodes 3, its square 6, the reciprocal root from the estimate 10, k - k l0/|d| 2, times the
+/// difference to both ends 12.
 constexpr double flops_per_spring = 33;
 
 /// Range: cells along an edge, threads.
 template<class Real>
 void grid_force(benchmark::State& state) {
-  const Body body = cube(static_cast<int>(state.range(0)));
+  const Body body = compare::timed_cube(static_cast<int>(state.range(0)));
   const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
   Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), force = displacement;
   for (auto _ : state) springs.force(displacement, force);
@@ -52,7 +44,7 @@ BENCHMARK_TEMPLATE(grid_force, float)->Args({40, 1})->Args({40, 2})->UseRealTime
 
 template<class Real>
 void grid_product(benchmark::State& state) {
-  const Body body = cube(static_cast<int>(state.range(0)));
+  const Body body = compare::timed_cube(static_cast<int>(state.range(0)));
   const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
   Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), direction = displacement,
               product = displacement;
@@ -63,7 +55,7 @@ BENCHMARK_TEMPLATE(grid_product, double)->Args({40, 1})->Args({40, 2})->UseRealT
 BENCHMARK_TEMPLATE(grid_product, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
 
 void multigrid_cycle(benchmark::State& state) {
-  const Body body = cube(static_cast<int>(state.range(0)));
+  const Body body = compare::timed_cube(static_cast<int>(state.range(0)));
   const std::deque<Body> bodies = msm::grid::coarsenings(body);
   msm::grid::Multigrid multigrid(bodies, static_cast<int>(state.range(1)));
   Field<double> field = Field<double>::Zero(3 * body.layout.size), solution = field;

@@ -1,17 +1,18 @@
 #!/bin/sh
-# run.sh SOURCE BUILD: builds the springs' side with sanitizers in BUILD, and runs its unit tests and small hard cases. Fails
+# run.sh SOURCE BUILD: builds the readers of cases and the springs' side with sanitizers in BUILD, and runs their unit tests
+# (damaged case files among them) and small hard cases. Fails
 # when a sanitizer finds anything, a test fails, or a hard case ends otherwise than it must. Some hundred times slower than a
 # release build are the cases that need many eigenvalue iterations: they are not among these.
 set -eu
 source=$1
 build=$2
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DSPRINGPROOF_SANITIZE=ON >&2
-cmake --build "$build" --target springproof_msm_tests springproof_hard_springs >&2
+cmake --build "$build" --target springproof_cases_tests springproof_msm_tests springproof_hard_springs >&2
 
 export OPENBLAS_NUM_THREADS=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$source/tests/sanitize/leaks.txt:print_suppressions=0"
-"$build/springproof_msm_tests" "~[verification]" &
+(cd "$build" && ./springproof_cases_tests "~[verification]" && ./springproof_msm_tests "~[verification]") &
 unit_tests=$!
 hard_cases=0
 (cd "$source/cases/hard" && "$build/springproof_hard_springs" bar_buckling.toml bar_buckling_imperfect.toml \

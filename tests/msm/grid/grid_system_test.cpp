@@ -69,7 +69,7 @@ TEST_CASE("the multigrid path and the direct path find the same equilibrium", "[
     const cases::Scene scene = cases::make_scene(bodies::clamped_box({6, 6, 6}, bodies::tensile(0.02)));
     std::vector<msm::CellStiffness> stiffness;
     for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-      stiffness.push_back(c % 6 < 3 ? springs : bodies::cell(310, 470, 330));
+      stiffness.push_back(c % 6 < 3 ? bodies::thesis_cell : bodies::cell(310, 470, 330));
     check_agreement(scene, stiffness);
   }
 }
