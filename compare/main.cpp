@@ -14,19 +14,18 @@ enum class BlasWarning { give, withhold };
 
 int run_action(const compare::Action& action, BlasWarning warning) {
   const fem_reference::Session session;
-  const bool speaks = session.rank() == 0; // every rank meets the same error; one tells it
   compare::use_one_blas_thread();
-  if (speaks && warning == BlasWarning::give && !compare::blas_is_openblas())
+  if (session.rank() == 0 && warning == BlasWarning::give && !compare::blas_is_openblas())
     std::cerr
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";
   try {
     return action();
   } catch (const cases::InputError& error) {
-    if (speaks) std::cerr << error.what() << '\n';
+    session.give_up(error.what(), wrong_input);
     return wrong_input;
   } catch (const std::exception& error) {
-    std::cerr << "springproof: internal error: " << error.what() << '\n';
+    session.give_up(std::string("springproof: internal error: ") + error.what(), internal_error);
     return internal_error;
   }
 }

@@ -1,7 +1,10 @@
 #include "fem_reference/session.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <deal.II/base/mpi.h>
+#include <iostream>
+#include <thread>
 
 namespace fem_reference {
 
@@ -37,6 +40,21 @@ int Session::rank() const {
 }
 int Session::n_ranks() const {
   return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+}
+
+void Session::give_up(const std::string& message, int status) const {
+  if (rank() == 0) std::cerr << message << std::endl;
+  MPI_Request everyone;
+  MPI_Ibarrier(MPI_COMM_WORLD, &everyone);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  int all_are_here = 0;
+  while (MPI_Test(&everyone, &all_are_here, MPI_STATUS_IGNORE) == MPI_SUCCESS && !all_are_here) {
+    if (std::chrono::steady_clock::now() > end) {
+      if (rank() != 0) std::cerr << "rank " << rank() << ": " << message << std::endl;
+      MPI_Abort(MPI_COMM_WORLD, status);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 } // namespace fem_reference

@@ -4,8 +4,8 @@
 
 namespace compare {
 
-/// A cube of cells of 1 mm with the linear method's springs of E = 0.3 MPa and nu = 0.35, its lowest plane held: what the
-/// kernels are timed on.
+/// A cube of cells of 1 mm with the linear method's springs of E = 0.3 MPa and nu = 0.35, its lowest plane
+/// held: what the kernels are timed on.
 inline msm::grid::Body timed_cube(int cells) {
   msm::grid::Body body;
   body.cells = {cells, cells, cells};

@@ -180,6 +180,13 @@ def test_two_ranks(folder):
         again = springproof(command, EXACT, CUBE, "--out", folder / command, launcher=launcher, env=environment)
         assert again.returncode == 0 and again.stderr.count("solved already") == 2, again
     assert springproof("gate", CUBE, "--set", "fem.element=q1", launcher=launcher, env=environment).returncode == 1
+    # Rank 0 alone finds that it cannot write: the other one must not wait for ever.
+    file = folder / "file"
+    file.write_text("in the way")
+    sweep = ["sweep", "--quick", Path(SOURCE) / "tests/compare/sweep/tiny.toml", "--out", file / "below"]
+    for words in (sweep, ["run", EXACT, "--out", file / "below"], ["run", "no-such.toml"]):
+        stuck = springproof(*words, launcher=launcher, env=environment)
+        assert stuck.returncode == 2 and stuck.stderr.count(str(words[-1])) >= 1, (words, stuck)
 
 
 def test_documented_commands(folder):
