@@ -7,19 +7,48 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <omp.h>
 
 namespace msm {
 
 namespace {
 
+/// While it lives, OpenMP's parallel regions have one thread. CHOLMOD asks for four of its own accord,
+/// whatever OMP_NUM_THREADS says; on two cores that took three to five times as long as one.
+class OneThread {
+ public:
+  OneThread() { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_ = omp_get_max_active_levels();
+};
+
 /// CHOLMOD with METIS' nested dissection, which on lattices of cells fills in a third of what minimum degree
 /// does.
-class Factorisation : public Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
+class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
  public:
+  using CholmodSupernodalLLT::info;
   Factorisation() {
     cholmod().nmethods = 1;
     cholmod().method[0].ordering = CHOLMOD_METIS;
     cholmod().print = 0;
+  }
+
+  void analyse(const Tangent::Matrix& matrix) {
+    const OneThread one;
+    analyzePattern(matrix);
+  }
+  void factorise(const Tangent::Matrix& matrix, double shift) {
+    const OneThread one;
+    setShift(shift);
+    factorize(matrix);
+  }
+  Vector solution(const Vector& right_side) const {
+    const OneThread one;
+    return solve(right_side);
   }
 
   /// The smallest of pivot over diagonal entry: how much of a diagonal entry elimination leaves. Rounding
@@ -46,7 +75,7 @@ class DirectSystem : public EquilibriumSystem {
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_fixed),
         load_(on_free(to_vector(problem, problem.force))) {
-    factorisation_.analyzePattern(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
+    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
 
   const Vector& load() const override { return load_; }
@@ -68,7 +97,7 @@ class DirectSystem : public EquilibriumSystem {
     const double shift =
         convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
     if (!factorise(displacement, term, shift)) return std::nullopt;
-    const Vector step = with_supports(factorisation_.solve(imbalance.head(tangent_.n_free())));
+    const Vector step = with_supports(factorisation_.solution(imbalance.head(tangent_.n_free())));
     if (!step.allFinite() || !(step.dot(imbalance) > 0)) return std::nullopt;
     return step;
   }
@@ -82,7 +111,7 @@ class DirectSystem : public EquilibriumSystem {
     double shift = 0;
     while (!factorise(displacement, TransverseTerm::exact, shift))
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
-    const auto apply = [&](const Vector& v) -> Vector { return factorisation_.solve(v); };
+    const auto apply = [&](const Vector& v) { return factorisation_.solution(v); };
     LargestMode mode = largest_mode(apply, tangent_.n_free());
     return {1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
@@ -159,8 +188,7 @@ class DirectSystem : public EquilibriumSystem {
       return is_definite_;
     const Tangent::Matrix& matrix = tangent_.assemble(positions(displacement), term);
     diagonal_ = matrix.diagonal();
-    factorisation_.setShift(shift);
-    factorisation_.factorize(matrix);
+    factorisation_.factorise(matrix, shift);
     ++work_.factorisations;
     factorised_at_ = displacement;
     factorised_term_ = term;
