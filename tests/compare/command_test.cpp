@@ -277,7 +277,7 @@ TEST_CASE("a hard case that does not exist is refused with the nearest name, and
   CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
 }
 
-TEST_CASE("every template gives a case that runs, and nothing is ever overwritten") {
+TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[unit][long]") {
   const TemporaryFolder folder;
   const auto in_folder = [&](const std::string& words) {
     return springproof(words, "cd " + folder.path.string() + " && ");

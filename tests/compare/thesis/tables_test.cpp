@@ -45,7 +45,7 @@ std::string words_of(const Json& entry) {
 } // namespace
 
 // The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
-TEST_CASE("the same tables come out byte for byte, on one worker and on three") {
+TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[unit][long]") {
   const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
   CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
