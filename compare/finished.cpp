@@ -32,6 +32,8 @@ std::string identity_of(const cases::Case& definition, const Request& request) {
   for (const std::string& setting : request.settings) text += "set " + setting + "\n";
   text += html::read_whole(definition.file);
   if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += html::read_whole(mesh->path);
+  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body))
+    text += html::read_whole(voxels->path);
   return fmt::format("{}\n", text.size()) + text;
 }
 

@@ -18,7 +18,7 @@ struct Request {
 
 /// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a case. One is
 /// taken up again only if nothing has changed since: this very program, the text of the case file (and of its
-/// mesh), the request and PETSC_OPTIONS. Failed solves are not kept.
+/// mesh or surface), the request and PETSC_OPTIONS. Failed solves are not kept.
 class FinishedCases {
  public:
   /// @param folder  of `--out`; empty: nothing is kept, nothing found

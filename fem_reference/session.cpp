@@ -22,8 +22,6 @@ void start_alone() {
 } // namespace
 
 struct Session::Implementation {
-  Implementation() = default;
-  bool is_alone = (start_alone(), true); ///< before MPI starts: first of the members
   int argc = 1;
   char name[12] = "springproof";
   char* arguments[2] = {name, nullptr};
@@ -32,7 +30,10 @@ struct Session::Implementation {
                                                1}; // one thread a rank: cases and ranks share the cores
 };
 
-Session::Session() : implementation_(std::make_unique<Implementation>()) {}
+Session::Session() {
+  start_alone();
+  implementation_ = std::make_unique<Implementation>();
+}
 Session::~Session() = default;
 
 int Session::rank() const {

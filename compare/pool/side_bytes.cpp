@@ -32,8 +32,9 @@ void transfer(Archive& archive, Peer& peer) {
 
 template<class Archive>
 void transfer_answers(Archive& archive, Comparison& comparison) {
+  cases::Fem& fem = comparison.scene.definition.fem; // what "auto" was taken to mean
   transfer_all(archive, comparison.fem, comparison.msm, comparison.design, comparison.mesh_study,
-               comparison.peer);
+               comparison.peer, comparison.choices, fem.formulation, fem.refine);
 }
 
 std::string to_bytes(const Comparison& comparison) {

@@ -75,10 +75,6 @@ template<class Action>
 constexpr std::ptrdiff_t sums_at = Action::needs_direction ? 18 : 9;
 constexpr std::ptrdiff_t direction_at = 9;
 
-/// Packs of a row in a tile, at most: with four, the five rows that a row's springs meet fit into the
-/// first-level cache.
-constexpr std::ptrdiff_t tile = 3;
-
 // The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs and then k l0 of the 13, 0
 // beyond the row's end.
 constexpr std::ptrdiff_t stiffness_packs = 2 * n_springs;

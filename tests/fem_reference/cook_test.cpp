@@ -71,7 +71,8 @@ TEST_CASE("Cook's membrane of q1 cells deflects as the deal.II code gallery prin
   deflects(Element::q1, 4, {12.07, 13.86, 14.49, 14.67, 14.72}, 0.01);
 }
 
-TEST_CASE("Cook's membrane of q2 cells deflects as the deal.II code gallery prints it", "[verification][long]") {
+TEST_CASE("Cook's membrane of q2 cells deflects as the deal.II code gallery prints it",
+          "[verification][long]") {
   deflects(Element::q2, 2, {14.30, 14.65, 14.71, 14.73, 14.74, 14.74}, 0.01);
 }
 

@@ -36,6 +36,21 @@ bool is_same(const cases::Solution& a, const cases::Solution& b) {
 
 } // namespace
 
+TEST_CASE("what a worker chose for a case that leaves it open comes back with its numbers") {
+  const SolveJob job = shear(
+      Only::fem,
+      {"fem.formulation=auto", "load[0].value=[0.00001, 0, 0]",
+       R"(expect=[{measure="alpha_1", error_percent=[-50, 50], reference="regression", reason="wide"}])"});
+  const Comparison there = solve({job}, 1).front(),
+                   here = compare::compare_case(cases::read_case(job.case_file, job.settings), Only::fem);
+  REQUIRE(here.scene.definition.fem.formulation == cases::Formulation::small_strain);
+  CHECK(there.scene.definition.fem.formulation == cases::Formulation::small_strain);
+  REQUIRE(here.choices.size() == 1);
+  REQUIRE(there.choices.size() == 1);
+  CHECK(there.choices[0].substr(0, 24) == here.choices[0].substr(0, 24)); // seconds stand behind
+  CHECK(is_same(there.fem.solution, here.fem.solution));
+}
+
 TEST_CASE("workers give the numbers of this process to the last bit, one worker or several") {
   const std::vector<SolveJob> jobs{shear(Only::both), shear(Only::msm, {"msm.design=moduli"}),
                                    shear(Only::fem)};

@@ -55,6 +55,8 @@ std::vector<Both> bodies_of_all_kinds() {
   const CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::cell(31, 47, 33, 0.14);
   all.emplace_back(cases::make_box_mesh({5, 4, 11}, {5, 4, 11}), std::vector{springs});
   all.emplace_back(cases::make_box_mesh({17, 2, 2}, {17, 2, 2}), std::vector{hybrid});
+  all.emplace_back(cases::make_box_mesh({60, 2, 2}, {60, 2, 2}),
+                   std::vector{hybrid}); // several tiles in a row
   all.emplace_back(cases::make_box_mesh({3, 2, 0.6}, {3, 2, 2}), std::vector{hybrid}); // flat cells
   all.emplace_back(cases::make_grid_mesh(bodies::masked_grid()), std::vector{hybrid});
   all.emplace_back(cases::make_box_mesh({2, 1, 1}, {2, 1, 1}),
