@@ -1,10 +1,10 @@
 #include "cases/names.hpp"
-#include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
 #include "compare/design_options.hpp"
 #include "compare/gnuplot.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/plot_design.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write_design.hpp"
 #include "msm/design/nonlinear_method.hpp"
 

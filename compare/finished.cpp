@@ -1,10 +1,9 @@
 #include "compare/finished.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/pool/side_bytes.hpp"
-#include "compare/report/html.hpp"
 #include "compare/version.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,7 +18,7 @@ namespace {
 /// The commit does not tell one build of uncommitted changes from another; the program's own bytes do.
 const std::string& this_program() {
   static const std::string identity =
-      fmt::format("{} {:x}", program_commit(), std::hash<std::string>()(html::read_whole("/proc/self/exe")));
+      fmt::format("{} {:x}", program_commit(), std::hash<std::string>()(read_file("/proc/self/exe")));
   return identity;
 }
 
@@ -30,10 +29,9 @@ std::string identity_of(const cases::Case& definition, const Request& request) {
       fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
                   static_cast<int>(request.only), request.meshes, request.peer, petsc ? petsc : "");
   for (const std::string& setting : request.settings) text += "set " + setting + "\n";
-  text += html::read_whole(definition.file);
-  if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += html::read_whole(mesh->path);
-  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body))
-    text += html::read_whole(voxels->path);
+  text += read_file(definition.file);
+  if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += read_file(mesh->path);
+  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) text += read_file(voxels->path);
   return fmt::format("{}\n", text.size()) + text;
 }
 
@@ -59,8 +57,7 @@ std::optional<Comparison> FinishedCases::find(const cases::Case& definition, con
   const int rank = mpi_rank();
   std::string bytes;
   if (rank == 0 && std::filesystem::is_regular_file(path_of(definition))) {
-    const std::string content = html::read_whole(path_of(definition)),
-                      identity = identity_of(definition, request);
+    const std::string content = read_file(path_of(definition)), identity = identity_of(definition, request);
     if (content.compare(0, identity.size(), identity) == 0) bytes = content.substr(identity.size());
   }
   bytes = from_rank_0(bytes);

@@ -2,13 +2,13 @@
 
 #include "cases/names.hpp"
 #include "cases/read_case.hpp"
-#include "compare/atomic_file.hpp"
 #include "compare/external/external_side.hpp"
 #include "compare/finished.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/gates/write.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/pool/solve_jobs.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write_results.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "compare/gnuplot.hpp"
 
 #include "cases/error.hpp"
-#include "compare/atomic_file.hpp"
+#include "compare/whole_file.hpp"
 
 #include <cstdlib>
 #include <fmt/format.h>

@@ -1,16 +1,14 @@
 #include "cases/error.hpp"
 #include "cases/names.hpp"
-#include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/published.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 namespace compare {
 
@@ -39,10 +37,7 @@ std::vector<std::string> template_names() {
 
 /// The template's text, about a case of another name.
 std::string filled(const fs::path& file, const std::string& name) {
-  std::ifstream stream(file);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  std::string text = content.str();
+  std::string text = read_file(file);
   for (std::size_t at = 0; (at = text.find(placeholder, at)) != std::string::npos; at += name.size())
     text.replace(at, placeholder.size(), name);
   return text;

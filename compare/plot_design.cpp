@@ -1,8 +1,8 @@
 #include "compare/plot_design.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/design.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/whole_file.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <cmath>

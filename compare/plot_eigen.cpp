@@ -1,5 +1,5 @@
-#include "compare/atomic_file.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write.hpp"
 #include "compare/write_eigen.hpp"
 

@@ -1,7 +1,7 @@
-#include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/published.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write_stress.hpp"
 
 #include <algorithm>

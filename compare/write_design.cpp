@@ -1,7 +1,7 @@
 #include "compare/write_design.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/whole_file.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "compare/write_results.hpp"
 
-#include "compare/atomic_file.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "compare/external/displacement_file.hpp"
 
 #include "cases/error.hpp"
-#include "compare/report/html.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -67,7 +67,7 @@ std::vector<GivenDisplacement> read_displacements(const std::string& path) {
   if (ending != ".csv" && ending != ".vtu")
     throw cases::InputError(
         fmt::format("{}: displacements must be in a file .csv ({}) or .vtu", path, header));
-  const std::string text = html::read_whole(path);
+  const std::string text = read_file(path);
   return ending == ".csv" ? read_displacement_csv(text, path) : read_displacement_vtu(text, path);
 }
 

@@ -1,8 +1,7 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/error.hpp"
-#include "compare/atomic_file.hpp"
-#include "compare/report/html.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +115,7 @@ std::string changed_lines(const std::string& path, const std::string& before, co
 std::string bless(const GatedCase& judged) {
   const std::vector<BlessedInterval> blessed = intervals_to_bless(judged);
   if (blessed.empty()) return "";
-  const std::string before = html::read_whole(judged.file);
+  const std::string before = read_file(judged.file);
   const std::string after = with_intervals(before, blessed);
   write_file(std::filesystem::canonical(judged.file), [&](std::ostream& out) { out << after; });
   return changed_lines(judged.file, before, after);

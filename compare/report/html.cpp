@@ -1,6 +1,6 @@
 #include "compare/report/html.hpp"
 
-#include "cases/error.hpp"
+#include "compare/whole_file.hpp"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -60,15 +60,8 @@ std::string number(const std::optional<double>& value, int decimals) {
   return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
-std::string read_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw cases::InputError(path + ": cannot be read");
-  return content;
-}
-
 std::string data_address(const std::string& path, const std::string& type) {
-  return "data:" + type + ";base64," + base64(read_whole(path));
+  return "data:" + type + ";base64," + base64(read_file(path));
 }
 
 std::string fill(const std::string& text, const std::map<std::string, std::string>& values) {

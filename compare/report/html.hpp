@@ -16,9 +16,6 @@ std::string number(const std::optional<double>& value, int decimals = 2);
 /// @throws InputError if the file cannot be read
 std::string data_address(const std::string& path, const std::string& type);
 
-/// @throws InputError if the file cannot be read
-std::string read_whole(const std::string& path);
-
 /// A template's text with every {{name}} replaced.  @throws std::logic_error if a name has no value or is not
 /// in the text
 std::string fill(const std::string& text, const std::map<std::string, std::string>& values);

@@ -1,9 +1,9 @@
 #include "compare/report/write_report.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
 #include "compare/version.hpp"
+#include "compare/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ struct Section {
 };
 
 std::string page_file(const std::string& name) {
-  return html::read_whole(SPRINGPROOF_REPORT_DIR "/" + name);
+  return read_file(SPRINGPROOF_REPORT_DIR "/" + name);
 }
 
 /// The static picture of each view, which stays on the page where scripts are off.
@@ -39,8 +39,8 @@ std::string page(const std::vector<Section>& sections, const std::vector<BodyVie
                      {"sections", body},
                      {"licence", html::escape(page_file("three_licence.txt"))},
                      {"geometry", views_to_json(views).dump()},
-                     {"three", html::read_whole(SPRINGPROOF_THREE_JS)},
-                     {"controls", html::read_whole(SPRINGPROOF_ORBIT_CONTROLS_JS)},
+                     {"three", read_file(SPRINGPROOF_THREE_JS)},
+                     {"controls", read_file(SPRINGPROOF_ORBIT_CONTROLS_JS)},
                      {"script", page_file("view.js") + page_file("page.js")}});
 }
 

@@ -1,6 +1,6 @@
-#include "compare/atomic_file.hpp"
 #include "compare/gnuplot.hpp"
 #include "compare/sweep/write_sweep.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "cases/read_case.hpp"
-#include "compare/atomic_file.hpp"
 #include "compare/commands.hpp"
 #include "compare/mpi_rank.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"
+#include "compare/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

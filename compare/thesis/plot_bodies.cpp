@@ -1,7 +1,7 @@
 #include "compare/thesis/plot_bodies.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/whole_file.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

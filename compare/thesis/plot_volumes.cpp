@@ -1,7 +1,7 @@
 #include "compare/thesis/plot_volumes.hpp"
 
-#include "compare/atomic_file.hpp"
 #include "compare/gnuplot.hpp"
+#include "compare/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

@@ -1,5 +1,5 @@
-#include "compare/atomic_file.hpp"
 #include "compare/thesis/write.hpp"
+#include "compare/whole_file.hpp"
 #include "compare/write.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,9 +1,10 @@
-#include "compare/atomic_file.hpp"
+#include "compare/whole_file.hpp"
 
 #include "cases/error.hpp"
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <unistd.h>
 
 namespace compare {
@@ -22,6 +23,13 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
     fs::remove(temporary, error);
     throw cases::InputError("cannot write '" + path + "'");
   }
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw cases::InputError(path + ": cannot be read");
+  return content;
 }
 
 } // namespace compare

@@ -11,4 +11,8 @@ namespace compare {
 /// @throws InputError if the folder cannot be made or written
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
+/// Content of a file, byte by byte.
+/// @throws InputError if it cannot be read
+std::string read_file(const std::string& path);
+
 } // namespace compare
