@@ -2,6 +2,7 @@
 
 #include "cases/error.hpp"
 #include "msm/model.hpp"
+#include "tests/largest.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <algorithm>
@@ -15,13 +16,6 @@ msm::EquilibriumSettings tight() {
   msm::EquilibriumSettings settings;
   settings.tolerance = 1e-11; // so that what is compared is the answers, not where the solvers stop
   return settings;
-}
-
-double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  double largest = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
-  return largest;
 }
 
 const msm::CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::cell(72.2, 11.1, 66.7, 0.148);

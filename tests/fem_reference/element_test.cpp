@@ -3,6 +3,7 @@
 #include "fem_reference/discretisation.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "scenes.hpp"
+#include "tests/largest.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -120,8 +121,8 @@ TEST_CASE("an element's tangent is the derivative of its internal force, its pre
           Eigen::VectorXd forward = u, backward = u;
           forward(k) += step;
           backward(k) -= step;
-          error = std::max(
-              error, ((cell.force(forward) - cell.force(backward)) / (2 * step) - tangent.col(k)).norm());
+          error = larger(error,
+                         ((cell.force(forward) - cell.force(backward)) / (2 * step) - tangent.col(k)).norm());
         }
         CAPTURE(cases::name_of(formulation), cases::name_of(element), state.gradient);
         CHECK(error <=
@@ -149,7 +150,7 @@ TEST_CASE("a cell that is turned after it was deformed turns its forces with it"
       const Eigen::VectorXd before = cell.force(u), after = cell.force(turned);
       double error = 0;
       for (Eigen::Index a = 0; a < cell.discretisation.nodes_per_cell; ++a)
-        error = std::max(error, (after.segment<3>(3 * a) - turn * before.segment<3>(3 * a)).norm());
+        error = larger(error, (after.segment<3>(3 * a) - turn * before.segment<3>(3 * a)).norm());
       CAPTURE(cases::name_of(formulation), cases::name_of(element));
       CHECK(error <= 1e-12 * before.norm()); // rounding error of a few hundred additions
     }

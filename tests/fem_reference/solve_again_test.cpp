@@ -1,6 +1,7 @@
 #include "fem_reference/model.hpp"
 
 #include "scenes.hpp"
+#include "tests/largest.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -15,13 +16,6 @@ fem_reference::Model model_of(cases::Formulation formulation, Element element) {
       cases::make_scene(
           scenes::cube(Test::shear, LoadSet::large, scenes::thesis_elastic(), formulation, element, 2)),
       MPI_COMM_SELF);
-}
-
-double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  double largest = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
-  return largest;
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "solved.hpp"
+#include "tests/largest.hpp"
 
 using namespace fem_reference;
 using Eigen::Vector3d;
@@ -24,7 +25,7 @@ double Solved::largest_error(const Field& exact) const {
   const auto u = displacement();
   double largest = 0;
   for (std::size_t n = 0; n < u.size(); ++n)
-    largest = std::max(largest, (u[n] - exact(discretisation.node_point[n])).norm());
+    largest = larger(largest, (u[n] - exact(discretisation.node_point[n])).norm());
   return largest;
 }
 

@@ -3,10 +3,9 @@
 #include "cases/scene.hpp"
 #include "cases/solution.hpp"
 #include "msm/lattice.hpp"
+#include "tests/largest.hpp"
 
-#include <algorithm>
 #include <random>
-#include <stdexcept>
 #include <vector>
 
 /// Bodies and loads that several tests use.
@@ -80,15 +79,6 @@ inline msm::Points disturbed(msm::Points points, double size) {
   for (Eigen::Vector3d& point : points)
     point += Eigen::Vector3d(any(generator), any(generator), any(generator));
   return points;
-}
-
-/// Largest difference of two displacements, mm.
-inline double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  if (a.displacement.size() != b.displacement.size()) throw std::invalid_argument("not of one body");
-  double largest = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    largest = std::max(largest, (a.displacement[n] - b.displacement[n]).norm());
-  return largest;
 }
 
 } // namespace bodies

@@ -75,7 +75,7 @@ TEST_CASE("a body pressed by its top takes the shape that the load of the same h
   moved.moved = {shifted("z+", {0, 0, by_load.displacement.back().z()})};
   moved.moved[0].components = {false, false, true};
   const cases::Solution by_hand = Model(cases::make_scene(moved), {bodies::hybrid_cell}).solve(settings);
-  CHECK(bodies::largest_difference(by_load, by_hand) < 1e-10); // mm, as asked; residual 1e-12
+  CHECK(largest_difference(by_load, by_hand) < 1e-10); // mm, as asked; residual 1e-12
 }
 
 TEST_CASE("the multigrid path and the direct path carry a moved top to the same equilibrium",
@@ -90,7 +90,7 @@ TEST_CASE("the multigrid path and the direct path carry a moved top to the same 
       const cases::Scene scene = moved_scene({6, 6, 6}, {motion});
       const cases::Solution direct = Model(scene, {stiffness}, {Path::direct, 1}).solve(tight);
       const cases::Solution multigrid = Model(scene, {stiffness}, {Path::multigrid, 1}).solve(tight);
-      CHECK(bodies::largest_difference(direct, multigrid) < 1e-8); // mm
+      CHECK(largest_difference(direct, multigrid) < 1e-8); // mm
       CHECK(multigrid.lowest_eigenvalue.value() ==
             Approx(direct.lowest_eigenvalue.value()).epsilon(0.01)); // 3 digits
       CHECK(multigrid.residual <= 1e-11);

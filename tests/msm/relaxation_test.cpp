@@ -31,7 +31,7 @@ TEST_CASE("every explicit relaxation ends where Newton's method does") {
       const cases::Solution relaxed = solve(pulled, solver, stiffness);
       CHECK(relaxed.residual <= 1e-9);
       // mm: 1e-9 of a load of 0.2 N over the lowest stiffness met here, above 1e-3 N/mm
-      CHECK(bodies::largest_difference(relaxed, newton) < 2e-7);
+      CHECK(largest_difference(relaxed, newton) < 2e-7);
       CHECK(relaxed.outcome == cases::Outcome::stable_equilibrium);
       CHECK(relaxed.relaxation_iterations > 0);
       CHECK(relaxed.newton_iterations == 0);
@@ -48,8 +48,7 @@ TEST_CASE("an explicit relaxation on a body whose top is moved ends where Newton
   pressed.moved = {down};
   const cases::Solution newton = solve(pressed, cases::Solver::newton, thesis_cell);
   const cases::Solution relaxed = solve(pressed, cases::Solver::lbfgs, thesis_cell);
-  CHECK(bodies::largest_difference(relaxed, newton) <
-        1e-6); // mm; 1e-9 of reactions of some 0.1 N over 1e-3 N/mm
+  CHECK(largest_difference(relaxed, newton) < 1e-6); // mm; 1e-9 of reactions of some 0.1 N over 1e-3 N/mm
   CHECK(relaxed.displacement.back().z() == -0.3);
 }
 

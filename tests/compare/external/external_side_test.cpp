@@ -4,6 +4,7 @@
 #include "cases/read_case.hpp"
 #include "compare/gates/gate.hpp"
 #include "compare/write.hpp"
+#include "tests/largest.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -64,9 +65,9 @@ TEST_CASE("an independent program's springs are measured with our ruler and agre
   const auto& theirs = comparison.msm.solution;
   double largest = 0, largest_volume = 0;
   for (std::size_t n = 0; n < ours.displacement.size(); ++n)
-    largest = std::max(largest, (ours.displacement[n] - theirs.displacement[n]).norm());
+    largest = larger(largest, (ours.displacement[n] - theirs.displacement[n]).norm());
   for (std::size_t c = 0; c < ours.cell_volume.size(); ++c)
-    largest_volume = std::max(largest_volume, std::abs(ours.cell_volume[c] - theirs.cell_volume[c]));
+    largest_volume = larger(largest_volume, std::abs(ours.cell_volume[c] - theirs.cell_volume[c]));
   CHECK(largest <= 1e-8);        // ours ends at 1e-9 of the load; 0.5 mm at the free end
   CHECK(largest_volume <= 1e-8); // of 1 mm³
   CHECK(compare::judge_gates(comparison).met());

@@ -21,7 +21,7 @@ msm::EquilibriumSettings tight() {
 void check_agreement(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
   const cases::Solution direct = Model(scene, stiffness, {Path::direct, 1}).solve(tight());
   const cases::Solution multigrid = Model(scene, stiffness, {Path::multigrid, 1}).solve(tight());
-  CHECK(bodies::largest_difference(direct, multigrid) < 1e-8); // mm, as asked
+  CHECK(largest_difference(direct, multigrid) < 1e-8); // mm, as asked
   CHECK(multigrid.lowest_eigenvalue.value() ==
         Approx(direct.lowest_eigenvalue.value()).epsilon(0.01)); // 3 digits
   CHECK(multigrid.unknowns == direct.unknowns);
@@ -81,7 +81,7 @@ TEST_CASE("an equilibrium does not depend on the number of threads") {
     settings.tolerance = 1e-5; // all that differs is rounding, wherever Newton stops
     return Model(scene, {bodies::cell(31, 47, 33)}, {Path::multigrid, n_threads}).solve(settings);
   };
-  CHECK(bodies::largest_difference(solve(1), solve(2)) < 1e-9); // mm, as asked
+  CHECK(largest_difference(solve(1), solve(2)) < 1e-9); // mm, as asked
 }
 
 TEST_CASE("the multigrid path tells a mechanism and a limit point") {
