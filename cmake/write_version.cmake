@@ -4,10 +4,10 @@ execute_process(COMMAND git describe --always --dirty --abbrev=10
 if(NOT COMMIT)
   set(COMMIT unknown)
 endif()
-file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[#include "compare/version.hpp"
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[#include "compare/provenance/version.hpp"
 
-namespace compare {
+namespace springproof::compare {
 std::string program_version() { return "@VERSION@"; }
 std::string program_commit() { return "@COMMIT@"; }
-} // namespace compare
+} // namespace springproof::compare
 ]] @ONLY)

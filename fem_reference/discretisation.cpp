@@ -1,6 +1,6 @@
 #include "fem_reference/discretisation.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 #include <map>
 #include <set>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -404,4 +404,4 @@ Vector Discretisation::make_vector() const {
   return owned_vector;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/scene.hpp"
+#include "cases/scene/scene.hpp"
 #include "fem_reference/element.hpp"
 #include "fem_reference/petsc.hpp"
 
@@ -13,7 +13,7 @@ namespace dealii::PETScWrappers::MPI {
 class SparseMatrix;
 }
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// What verification needs beyond a case: a body force and displacements that are not zero where the scene is
 /// fixed.
@@ -71,4 +71,4 @@ class Discretisation {
   std::unique_ptr<dealii::PETScWrappers::MPI::SparseMatrix> matrix_;
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

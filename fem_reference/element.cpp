@@ -9,7 +9,7 @@
 
 #include <petscblaslapack.h>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -196,4 +196,4 @@ const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* disp
   return result_;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

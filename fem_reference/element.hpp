@@ -1,10 +1,10 @@
 #pragma once
 
-#include "fem_reference/formulation.hpp"
+#include "fem_reference/laws/formulation.hpp"
 
 #include <vector>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// How an element takes the pressure of a formulation's volumetric law.
 ///
@@ -85,4 +85,4 @@ class CellKernel {
   std::vector<double> right_factor_;    ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

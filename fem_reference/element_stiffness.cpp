@@ -1,13 +1,13 @@
 #include "fem_reference/element_stiffness.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
 #include <string>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -116,4 +116,4 @@ ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertice
   return stiffness;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

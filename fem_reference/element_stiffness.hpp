@@ -1,11 +1,11 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/case/case.hpp"
 
 #include <Eigen/Core>
 #include <array>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 using ElementStiffness = Eigen::Matrix<double, 24, 24>;
 
@@ -17,4 +17,4 @@ using ElementStiffness = Eigen::Matrix<double, 24, 24>;
 ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertices,
                                    const cases::LinearElastic& material, cases::Element element);
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -1,11 +1,11 @@
 #include "fem_reference/equilibrium.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -288,4 +288,4 @@ std::vector<double> Equilibrium::cell_volumes(const State& state) {
   return volumes;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

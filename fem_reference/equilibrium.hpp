@@ -2,7 +2,7 @@
 
 #include "fem_reference/discretisation.hpp"
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// Displacement of every degree of freedom (ghosts current) and the pressures of this rank's cells.
 struct State {
@@ -82,4 +82,4 @@ class Equilibrium {
   bool has_tangent_ = false; ///< one that was assembled at a valid state
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

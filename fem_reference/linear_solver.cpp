@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::optional<int> LinearSolver::negative_eigenvalues() const {
   return negative_pivots(factor);
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

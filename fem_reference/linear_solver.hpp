@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// Most unknowns that MUMPS factorises by default; above it multigrid-preconditioned Krylov methods run.
 /// Cubes of 26,460 and 86,490 unknowns (compressible, one thread) were measured to take 1.0 and 1.5 times as
@@ -44,4 +44,4 @@ class LinearSolver {
   long factorised_number_ = 0; ///< of the tangent last solved with
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

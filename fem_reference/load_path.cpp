@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -152,4 +152,4 @@ NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& s
   return whole;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
 
@@ -35,4 +35,4 @@ NewtonReport newton(Equilibrium& equilibrium, LinearSolver& solver, State& state
 NewtonReport carry_load(Equilibrium& equilibrium, LinearSolver& solver, State& state,
                         const LoadSteps& steps = {});
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -1,12 +1,12 @@
 #include "fem_reference/model.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 #include "fem_reference/load_path.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::vector<NodeDisplacement> Model::node_displacements() const {
   return nodes;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 
 #include <memory>
 #include <mpi.h>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 enum class Stability { report, skip };
 
@@ -48,4 +48,4 @@ class Model {
   std::unique_ptr<Implementation> implementation_;
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 void check(PetscErrorCode code) {
   if (code == 0) return;
@@ -20,4 +20,4 @@ Vector like(const Vector& vector) {
   return owned;
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

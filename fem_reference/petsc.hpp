@@ -5,7 +5,7 @@
 #include <type_traits>
 
 /// Owning handles for the PETSc objects this folder uses, and its error codes as exceptions.
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// @throws std::runtime_error with PETSc's message for a non-zero code: a programming or memory error, never
 /// a solver that failed to converge
@@ -32,4 +32,4 @@ using NullSpace = std::unique_ptr<std::remove_pointer_t<MatNullSpace>, DestroyNu
 /// A vector of the same layout, zero.
 Vector like(const Vector& vector);
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

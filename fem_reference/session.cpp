@@ -6,7 +6,7 @@
 #include <iostream>
 #include <thread>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 namespace {
 
@@ -58,4 +58,4 @@ void Session::give_up(const std::string& message, int status) const {
   }
 }
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

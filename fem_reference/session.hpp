@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-namespace fem_reference {
+namespace springproof::fem_reference {
 
 /// MPI, PETSc and SLEPc, initialised once per process for as long as the session lives. PETSc's options come
 /// from the environment variable PETSC_OPTIONS; the program's own arguments are not PETSc's.
@@ -23,4 +23,4 @@ class Session {
   std::unique_ptr<Implementation> implementation_;
 };
 
-} // namespace fem_reference
+} // namespace springproof::fem_reference

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 using Eigen::Vector3d;
 
@@ -91,4 +91,4 @@ Eigen::Matrix3d trilinear_volume_second_derivative(const CellPositions& x, int a
   return block;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace msm {
+namespace springproof::msm {
 
 using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j + 4k
 using CellGradient = std::array<Eigen::Vector3d, 8>;
@@ -20,4 +20,4 @@ CellGradient trilinear_volume_gradient(const CellPositions& x);
 /// d²V/(dx_a dx_b) as a 3x3 block, mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
 Eigen::Matrix3d trilinear_volume_second_derivative(const CellPositions& x, int a, int b);
 
-} // namespace msm
+} // namespace springproof::msm

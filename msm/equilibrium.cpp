@@ -1,13 +1,13 @@
 #include "msm/equilibrium.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/line_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -214,4 +214,4 @@ Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
   return PathFollower(system, settings).follow(start);
 }
 
-} // namespace msm
+} // namespace springproof::msm

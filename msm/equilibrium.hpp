@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-namespace msm {
+namespace springproof::msm {
 
 using Vector = Eigen::VectorXd;
 
@@ -115,4 +115,4 @@ struct Equilibrium {
 Equilibrium find_equilibrium(EquilibriumSystem& system, const Vector& start,
                              const EquilibriumSettings& settings = {});
 
-} // namespace msm
+} // namespace springproof::msm

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace msm {
+namespace springproof::msm {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,4 +36,4 @@ LargestMode largest_mode(const std::function<VectorXd(const VectorXd&)>& apply, 
   }
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,12 +1,12 @@
 #include "msm/lattice.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 #include "msm/cell_volume.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -90,4 +90,4 @@ Points internal_force(const Lattice& lattice, const Points& positions) {
   return force;
 }
 
-} // namespace msm
+} // namespace springproof::msm

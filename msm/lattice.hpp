@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/hex_mesh.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 #include "msm/cell_volume.hpp"
 #include "msm/spring.hpp"
 
@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -57,4 +57,4 @@ double energy(const Lattice& lattice, const Points& positions);
 /// Internal force on every point, N: minus the gradient of energy().
 Points internal_force(const Lattice& lattice, const Points& positions);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace msm {
+namespace springproof::msm {
 
 bool line_search(EquilibriumSystem& system, Vector& at, const Vector& step, const Vector& before,
                  double load_factor) {
@@ -28,4 +28,4 @@ double relative_imbalance(EquilibriumSystem& system, const Vector& imbalance, co
   return imbalance.norm() / (scale > 0 ? scale : 1.0);
 }
 
-} // namespace msm
+} // namespace springproof::msm

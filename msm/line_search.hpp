@@ -2,7 +2,7 @@
 
 #include "msm/equilibrium.hpp"
 
-namespace msm {
+namespace springproof::msm {
 
 /// Moves `at` along a step as far as the potential falls enough (Armijo), halving the step. Next to the
 /// solution the potential's change drowns in rounding: there a falling imbalance decides.
@@ -14,4 +14,4 @@ bool line_search(EquilibriumSystem& system, Vector& at, const Vector& step, cons
 /// |imbalance| over |applied load|, or over |reaction| when nothing but supports that move is applied.
 double relative_imbalance(EquilibriumSystem& system, const Vector& imbalance, const Vector& at);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,13 +1,13 @@
 #include "msm/model.hpp"
 
-#include "cases/error.hpp"
-#include "msm/direct_system.hpp"
+#include "cases/case/error.hpp"
+#include "msm/direct/direct_system.hpp"
 #include "msm/grid/grid_system.hpp"
-#include "msm/relaxation.hpp"
+#include "msm/relaxation/relaxation.hpp"
 
 #include <algorithm>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -104,4 +104,4 @@ cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& 
   return solution;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/equilibrium.hpp"
 #include "msm/lattice.hpp"
 
 #include <memory>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 enum class Path {
   automatic, ///< multigrid on grids of cells from where it is the faster one, else direct
@@ -45,4 +45,4 @@ class Model {
   std::unique_ptr<Implementation> implementation_;
 };
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,6 +1,6 @@
 #include "msm/problem.hpp"
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -37,4 +37,4 @@ void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
   }
 }
 
-} // namespace msm
+} // namespace springproof::msm

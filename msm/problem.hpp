@@ -1,13 +1,13 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 /// A lattice that is held and loaded.
 struct Problem {
@@ -26,4 +26,4 @@ Problem make_problem(const cases::Scene& scene);
 /// inverted.
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace msm {
+namespace springproof::msm {
 
 struct Spring {
   double stiffness;   ///< N/mm
@@ -41,4 +41,4 @@ inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& 
          ((spring.stiffness - transverse) / length_squared) * d * d.transpose();
 }
 
-} // namespace msm
+} // namespace springproof::msm

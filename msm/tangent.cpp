@@ -1,11 +1,11 @@
 #include "msm/tangent.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -68,4 +68,4 @@ const Tangent::Matrix& Tangent::assemble(const Points& positions, TransverseTerm
   return matrix_;
 }
 
-} // namespace msm
+} // namespace springproof::msm

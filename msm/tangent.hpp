@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 /// Second derivative of energy() as 3x3 blocks: calls sink(row point, column point, block in N/mm) for every
 /// contribution with row point >= column point (the matrix is symmetric). Clamped, no spring has a negative
@@ -63,4 +63,4 @@ class Tangent {
       slots_; ///< place among the matrix's values, 9 per block in the order of visiting; -1: none
 };
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,11 +1,11 @@
 #include "compare/gates/write.hpp"
 
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -45,4 +45,4 @@ void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& ca
   }
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,7 +1,7 @@
 #include "compare/gates/bless.hpp"
 
-#include "cases/error.hpp"
-#include "compare/whole_file.hpp"
+#include "cases/case/error.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <sstream>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -127,4 +127,4 @@ bool has_regression(const cases::Case& definition) {
       [](const auto& expected) { return expected.reference == cases::ReferenceKind::regression; });
 }
 
-} // namespace compare
+} // namespace springproof::compare

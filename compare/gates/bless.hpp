@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// An interval of a case file that is moved to where the value is now.
 struct BlessedInterval {
@@ -32,4 +32,4 @@ std::string bless(const GatedCase& judged);
 /// Whether a case has an interval that may be blessed.
 bool has_regression(const cases::Case& definition);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,13 +1,13 @@
 #include "compare/gates/gate.hpp"
 
-#include "cases/names.hpp"
-#include "compare/measure.hpp"
+#include "cases/case/names.hpp"
+#include "compare/measure/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::string describe_uncertainty(const Gate& gate) {
   return gate.uncertainty ? fmt::format(" (reference +- {:.2g} {})", *gate.uncertainty, gate.unit) : "";
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "compare/comparison.hpp"
+#include "compare/solve/comparison.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 /// Expectations as gates: what a continuous-integration server is told.
-namespace compare {
+namespace springproof::compare {
 
 /// An expectation of a case, judged, and what the reader of the verdict must know besides.
 struct Gate {
@@ -44,4 +44,4 @@ std::string describe(const Gate& gate);
 /// The error bar in words, " (reference +- 0.21 %)", or nothing.
 std::string describe_uncertainty(const Gate& gate);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -6,7 +6,7 @@
 #include <ostream>
 
 /// What the gates said, for people and for machines. Kinds of references are kept apart in each.
-namespace compare {
+namespace springproof::compare {
 
 /// One line per gate (and per failure of a case as a whole), warnings under their gates, and counts per kind.
 void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases);
@@ -33,4 +33,4 @@ struct GateCount {
 /// Of the kinds that occur, in the order of their table.
 std::vector<GateCount> count_by_kind(const std::vector<GatedCase>& cases);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,11 +1,11 @@
 #include "compare/gates/write.hpp"
 
-#include "cases/names.hpp"
-#include "compare/write.hpp"
+#include "cases/case/names.hpp"
+#include "compare/write/write.hpp"
 
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
@@ -51,4 +51,4 @@ Json gates_to_json(const std::vector<GatedCase>& cases) {
   return document;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,12 +1,12 @@
 #include "compare/gates/write.hpp"
 
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
 #include "compare/report/html.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -103,4 +103,4 @@ void write_gates_junit(std::ostream& out, const std::vector<GatedCase>& cases) {
   fmt::print(out, "</testsuites>\n");
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,11 +1,11 @@
 #include "compare/gates/write.hpp"
 
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -48,4 +48,4 @@ void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases) {
              counts.empty() ? "there are none" : counts);
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -91,4 +91,4 @@ loads</th><th colspan='3'>large loads</th></tr>
          "of <code>build/springproof tables --json</code>.</p>\n";
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

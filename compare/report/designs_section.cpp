@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -69,4 +69,4 @@ interquartile range of the box)</caption>
   return html;
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

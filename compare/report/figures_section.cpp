@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -66,4 +66,4 @@ elements</label><label><input type='checkbox' name='springs' checked> springs</l
   return html + "</div>\n";
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

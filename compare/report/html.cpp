@@ -1,6 +1,6 @@
 #include "compare/report/html.hpp"
 
-#include "compare/whole_file.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::string fill(const std::string& text, const std::map<std::string, std::strin
   return result + text.substr(from);
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

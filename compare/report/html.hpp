@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 /// Text as it may stand between tags and inside an attribute, in either kind of quotes.
 std::string escape(const std::string& text);
@@ -20,4 +20,4 @@ std::string data_address(const std::string& path, const std::string& type);
 /// in the text
 std::string fill(const std::string& text, const std::map<std::string, std::string>& values);
 
-} // namespace compare::html
+} // namespace springproof::compare::html

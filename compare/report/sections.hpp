@@ -8,7 +8,7 @@
 #include <vector>
 
 /// The report's parts as HTML, without their heading; empty when the results have nothing for one.
-namespace compare::html {
+namespace springproof::compare::html {
 
 /// How many printed figures are met, and a list of those that are not, with their explanation.
 std::string summary_section(const ThesisResults& results);
@@ -32,4 +32,4 @@ std::string views_section(const ThesisResults& results, const std::vector<BodyVi
 /// Settings and outcome of each case, versions, machine and times.
 std::string settings_section(const ThesisResults& results);
 
-} // namespace compare::html
+} // namespace springproof::compare::html

@@ -1,13 +1,13 @@
-#include "cases/names.hpp"
-#include "compare/machine.hpp"
+#include "cases/case/names.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/version.hpp"
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
 #include "compare/report/traced.hpp"
-#include "compare/version.hpp"
 
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -62,4 +62,4 @@ class='text'>FEM</th><th>unknowns</th><th>residual</th><th>s</th><th>MSM</th><th
   return html + "</tbody></table></div>\n";
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

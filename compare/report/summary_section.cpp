@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -61,4 +61,4 @@ command that counts it again</caption>
   return html;
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

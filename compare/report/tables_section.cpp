@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 namespace {
 
@@ -172,4 +172,4 @@ on it).</p>
   return html;
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

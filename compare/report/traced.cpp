@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace compare::html {
+namespace springproof::compare::html {
 
 std::string provenance(const Trace& trace) {
   std::string text;
@@ -19,4 +19,4 @@ std::string traced(const std::string& text, const Trace& trace) {
                      escape(text), escape(trace.command));
 }
 
-} // namespace compare::html
+} // namespace springproof::compare::html

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
@@ -87,4 +87,4 @@ Json views_to_json(const std::vector<BodyView>& views) {
   return {{"unit_mm", unit_mm}, {"bodies", bodies}, {"views", list}};
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// One three-dimensional view of the report.
 struct BodyView {
@@ -26,4 +26,4 @@ std::vector<BodyView> body_views(const ThesisResults& results);
 /// side without an answer is left out.
 nlohmann::ordered_json views_to_json(const std::vector<BodyView>& views);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,14 +1,14 @@
 #include "compare/report/write_report.hpp"
 
+#include "compare/provenance/version.hpp"
 #include "compare/report/html.hpp"
 #include "compare/report/sections.hpp"
-#include "compare/version.hpp"
-#include "compare/whole_file.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -64,4 +64,4 @@ void write_report(const std::string& folder, const ThesisResults& results,
   write_file(folder + "/report.html", [&](std::ostream& out) { out << text; });
 }
 
-} // namespace compare
+} // namespace springproof::compare

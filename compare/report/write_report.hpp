@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// FOLDER/report.html: tables, figures, three-dimensional views, settings and times on one page that needs no
 /// other file and no network. The views' static pictures go to FOLDER/figures.
@@ -15,4 +15,4 @@ namespace compare {
 void write_report(const std::string& folder, const ThesisResults& results,
                   const std::vector<Figure>& figures);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<
   return level;
 }
 
-} // namespace compare
+} // namespace springproof::compare

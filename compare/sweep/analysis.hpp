@@ -7,7 +7,7 @@
 
 /// What a sweep's numbers say: functions of plain values. Variants that failed or could not be measured are
 /// left out before.
-namespace compare {
+namespace springproof::compare {
 
 /// One variant as a point of the plane of time and error.
 struct Point {
@@ -36,4 +36,4 @@ std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points
 std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors,
                                                 double fraction);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d>& fie
   return result;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// A field on the nodes of a box's grid, trilinear between them, at the nodes of another grid of the same
 /// box.
@@ -13,4 +13,4 @@ namespace compare {
 std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d>& field,
                                          const std::array<int, 3>& from, const std::array<int, 3>& to);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,7 +1,7 @@
 #include "compare/sweep/sentences.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::vector<Conclusions> conclusions(const Sweep& sweep) {
   return all;
 }
 
-} // namespace compare
+} // namespace springproof::compare

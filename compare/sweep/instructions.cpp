@@ -1,6 +1,6 @@
 #include "compare/sweep/instructions.hpp"
 
-#include "compare/write.hpp"
+#include "compare/write/write.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <unistd.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -101,4 +101,4 @@ nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts) {
   return document;
 }
 
-} // namespace compare
+} // namespace springproof::compare

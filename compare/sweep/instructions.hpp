@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// Instructions of one call of a kernel, which are the same on every run of the same binary.
 struct InstructionCount {
@@ -33,4 +33,4 @@ nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts);
 /// @throws std::runtime_error when there is none
 double callgrind_total(std::istream& in);
 
-} // namespace compare
+} // namespace springproof::compare

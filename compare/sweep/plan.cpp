@@ -1,12 +1,12 @@
 #include "compare/sweep/plan.hpp"
 
-#include "cases/error.hpp"
-#include "cases/names.hpp"
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -129,4 +129,4 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
   return plan;
 }
 
-} // namespace compare
+} // namespace springproof::compare

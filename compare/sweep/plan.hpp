@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 enum class Extent { full, quick };
 
@@ -30,4 +30,4 @@ Plan plan_sweep(const cases::Case& definition, Extent extent);
 /// Unknowns of a displacement element on a box, held ones included.
 long n_unknowns(const std::array<int, 3>& cells, cases::Element element);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,13 +1,13 @@
-#include "compare/gnuplot.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/whole_file.hpp"
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <limits>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::vector<std::string> plot_sweep(const std::string& folder, const Sweep& swee
   return drawn;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,12 +1,12 @@
 #include "compare/sweep/reference.hpp"
 
-#include "compare/convergence.hpp"
-#include "compare/measure.hpp"
+#include "compare/error_bars/convergence.hpp"
+#include "compare/measure/measure.hpp"
 #include "compare/sweep/box_interpolation.hpp"
 
 #include <cmath>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
   return errors;
 }
 
-} // namespace compare
+} // namespace springproof::compare

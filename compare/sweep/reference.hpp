@@ -1,13 +1,13 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 
 #include <array>
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// A number that is known up to an error bar.
 struct ReferenceValue {
@@ -51,4 +51,4 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
 /// The case's scene on a box of that many cells, measures and all.  @throws InputError
 cases::Scene scene_on(const cases::Case& definition, const std::array<int, 3>& cells);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string floor_sentence(const std::string& design, const std::vector<std::str
   return sentence + ".";
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -2,7 +2,7 @@
 
 #include "compare/sweep/analysis.hpp"
 
-namespace compare {
+namespace springproof::compare {
 
 /// A time for reading: "0.41 ms", "16 ms", "2.5 s".
 std::string time_text(double seconds);
@@ -24,4 +24,4 @@ std::string floor_sentence(const std::string& design, const std::vector<std::str
 /// An error is at its floor when it is within this fraction of the one with the most cells.
 constexpr double floor_fraction = 0.1;
 
-} // namespace compare
+} // namespace springproof::compare

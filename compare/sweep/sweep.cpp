@@ -1,15 +1,15 @@
 #include "compare/sweep/sweep.hpp"
 
-#include "compare/mesh_study.hpp"
-#include "compare/pool/process_pool.hpp"
-#include "compare/stopwatch.hpp"
-#include "compare/thesis/box_plot.hpp"
+#include "compare/error_bars/mesh_study.hpp"
+#include "compare/measure/box_plot.hpp"
+#include "compare/provenance/stopwatch.hpp"
+#include "compare/solve/process_pool.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <mpi.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -168,4 +168,4 @@ std::vector<std::string> methods_of(const Sweep& sweep) {
   return methods;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace compare {
+namespace springproof::compare {
 
 /// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept.
 struct SweepRow {
@@ -72,4 +72,4 @@ double uncertainty_percent(const Reference& reference, Error error);
 /// Names of the methods in the order of the rows.
 std::vector<std::string> methods_of(const Sweep& sweep);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,12 +1,12 @@
 #include "compare/sweep/time_variant.hpp"
 
-#include "cases/read_case.hpp"
-#include "compare/calculix.hpp"
-#include "compare/design.hpp"
-#include "compare/machine.hpp"
-#include "compare/mpi_rank.hpp"
-#include "compare/pool/bytes.hpp"
-#include "compare/solve_side.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/peers/calculix.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/solve/bytes.hpp"
+#include "compare/solve/design.hpp"
+#include "compare/solve/solve_side.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <functional>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -229,4 +229,4 @@ VariantRun variant_run_from(const std::string& bytes) {
   return run;
 }
 
-} // namespace compare
+} // namespace springproof::compare

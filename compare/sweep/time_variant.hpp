@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
 #include "compare/sweep/variant.hpp"
 
 #include <optional>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// How often a variant is timed.
 struct TimingRules {
@@ -48,4 +48,4 @@ std::string answer_variant(const std::string& line);
 /// @throws std::runtime_error if the bytes are not whole
 VariantRun variant_run_from(const std::string& bytes);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -2,7 +2,7 @@
 
 #include "msm/grid/body.hpp"
 
-namespace compare {
+namespace springproof::compare {
 
 /// A cube of cells of 1 mm with the linear method's springs of E = 0.3 MPa and nu = 0.35, its lowest plane
 /// held: what the kernels are timed on.
@@ -15,4 +15,4 @@ inline msm::grid::Body timed_cube(int cells) {
   return body;
 }
 
-} // namespace compare
+} // namespace springproof::compare

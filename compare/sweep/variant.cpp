@@ -1,12 +1,12 @@
 #include "compare/sweep/variant.hpp"
 
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
 
 #include <fmt/format.h>
 #include <sstream>
 #include <stdexcept>
 
-namespace compare {
+namespace springproof::compare {
 
 Family family_of(const Variant& variant) {
   return variant.program == Program::springs ? Family::springs : Family::finite_elements;
@@ -72,4 +72,4 @@ Variant variant_from_words(const std::string& words) {
   return v;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/case/case.hpp"
 
 #include <array>
 #include <string>
 
-namespace compare {
+namespace springproof::compare {
 
 enum class Program { springs, finite_elements, calculix };
 
@@ -46,4 +46,4 @@ std::string to_words(const Variant& variant);
 /// @throws std::runtime_error for words that are no variant
 Variant variant_from_words(const std::string& words);
 
-} // namespace compare
+} // namespace springproof::compare

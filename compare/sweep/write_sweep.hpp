@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
 
-namespace compare {
+namespace springproof::compare {
 
 /// What a sweep's numbers say, grouped: a heading and its sentences.
 struct Conclusions {
@@ -30,4 +30,4 @@ nlohmann::ordered_json sweep_to_json(const Sweep& sweep);
 /// @throws InputError as draw()
 std::vector<std::string> plot_sweep(const std::string& folder, const Sweep& sweep);
 
-} // namespace compare
+} // namespace springproof::compare

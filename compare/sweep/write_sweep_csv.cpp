@@ -1,12 +1,12 @@
-#include "cases/names.hpp"
-#include "compare/csv_text.hpp"
+#include "cases/case/names.hpp"
+#include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/thesis/box_plot.hpp"
+#include "compare/write/csv_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -58,4 +58,4 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
   }
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,11 +1,11 @@
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
+#include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/thesis/box_plot.hpp"
-#include "compare/write.hpp"
+#include "compare/write/write.hpp"
 
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -100,4 +100,4 @@ Json sweep_to_json(const Sweep& sweep) {
   return document;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,12 +1,12 @@
-#include "cases/names.hpp"
-#include "compare/machine.hpp"
+#include "cases/case/names.hpp"
+#include "compare/measure/box_plot.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/thesis/box_plot.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -102,4 +102,4 @@ void write_sweep_text(std::ostream& out, const Sweep& sweep) {
   fmt::print(out, "the sweep took {:.0f} s\n", sweep.seconds);
 }
 
-} // namespace compare
+} // namespace springproof::compare

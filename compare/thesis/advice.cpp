@@ -1,4 +1,4 @@
-#include "cases/names.hpp"
+#include "cases/case/names.hpp"
 #include "compare/thesis/build_results.hpp"
 #include "compare/thesis/measured_pair.hpp"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::vector<Advice> advise(SolveSet& solves) {
   return advice;
 }
 
-} // namespace compare
+} // namespace springproof::compare

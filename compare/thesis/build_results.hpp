@@ -7,7 +7,7 @@
 
 /// The parts of ThesisResults, a function each. Those that take a SolveSet say what they need when they are
 /// called before its solve(), and give their answer when they are called after it.
-namespace compare {
+namespace springproof::compare {
 
 /// One entry per published figure of tables 4.5 to 5.4 and figure 5.12, against each reference.
 std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figures, SolveSet& solves);
@@ -42,4 +42,4 @@ void recommend(std::vector<Advice>& advice);
 /// What is known of printed figures that no computation meets, into the entries' `finding`.
 void explain(std::vector<TableEntry>& entries);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,11 +1,11 @@
-#include "cases/read_case.hpp"
+#include "cases/case/read_case.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<CellVolumeChange> cell_volume_changes(const std::vector<PublishedFig
   return changes;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,6 +1,6 @@
 // Tables 4.1 to 4.3: one cell of edge 2 mm with E = 1 MPa.
 
-#include "compare/design.hpp"
+#include "compare/solve/design.hpp"
 #include "compare/thesis/build_results.hpp"
 #include "fem_reference/element_stiffness.hpp"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<TableEntry> cell_entries(const std::vector<PublishedFigure>& figures
   return entries;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::vector<DesignRow> design_rows(const std::vector<PublishedFigure>& figures, 
   return rows;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,16 +1,16 @@
 #include "compare/thesis/draw_figures.hpp"
 
-#include "cases/read_case.hpp"
-#include "compare/plot_design.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/cube/plot_design.hpp"
 #include "compare/thesis/plot_bodies.hpp"
 #include "compare/thesis/plot_volumes.hpp"
-#include "compare/write_eigen.hpp"
+#include "compare/write/write_eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -217,4 +217,4 @@ std::vector<Figure> draw_figures(const std::string& folder, const ThesisResults&
   return figures;
 }
 
-} // namespace compare
+} // namespace springproof::compare

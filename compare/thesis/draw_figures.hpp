@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// A drawn figure: NAME.csv (or the data its caption names), NAME.gp, NAME.svg and NAME.png in one folder.
 struct Figure {
@@ -27,4 +27,4 @@ Overlay thesis_overlay(const ThesisResults& results, const Comparison& compariso
 /// @throws InputError if the folder cannot be written or gnuplot fails
 std::vector<Figure> draw_figures(const std::string& folder, const ThesisResults& results);
 
-} // namespace compare
+} // namespace springproof::compare

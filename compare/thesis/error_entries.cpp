@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figure
   return entries;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -84,4 +84,4 @@ void explain(std::vector<TableEntry>& entries) {
   }
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,10 +1,10 @@
 #include "compare/thesis/measured_pair.hpp"
 
-#include "compare/measure.hpp"
+#include "compare/measure/measure.hpp"
 
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::optional<double> error_of(const MeasuredPair& pair) {
   return pair.fem && pair.msm ? error_percent(*pair.fem, *pair.msm) : std::nullopt;
 }
 
-} // namespace compare
+} // namespace springproof::compare

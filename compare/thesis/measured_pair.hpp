@@ -1,8 +1,8 @@
 #pragma once
 
-#include "compare/comparison.hpp"
+#include "compare/solve/comparison.hpp"
 
-namespace compare {
+namespace springproof::compare {
 
 /// A measure on the two sides of a case that were solved apart.
 struct MeasuredPair {
@@ -16,4 +16,4 @@ MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const s
 /// error_percent() of a pair that has both.
 std::optional<double> error_of(const MeasuredPair& pair);
 
-} // namespace compare
+} // namespace springproof::compare

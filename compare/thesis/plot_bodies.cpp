@@ -1,7 +1,7 @@
 #include "compare/thesis/plot_bodies.hpp"
 
-#include "compare/gnuplot.hpp"
-#include "compare/whole_file.hpp"
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <fmt/ostream.h>
 #include <map>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -171,4 +171,4 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
   draw(folder, name, script + "unset multiplot\n", size * columns, height);
 }
 
-} // namespace compare
+} // namespace springproof::compare

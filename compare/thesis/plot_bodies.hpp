@@ -1,11 +1,11 @@
 #pragma once
 
-#include "compare/comparison.hpp"
+#include "compare/solve/comparison.hpp"
 
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// A mesh and where its nodes went; without displacements when that side has none to show.
 struct DeformedBody {
@@ -29,4 +29,4 @@ Overlay overlay_of(const Comparison& comparison, const std::string& title);
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,
                  int columns, int size = 400);
 
-} // namespace compare
+} // namespace springproof::compare

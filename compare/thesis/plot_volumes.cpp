@@ -1,12 +1,12 @@
 #include "compare/thesis/plot_volumes.hpp"
 
-#include "compare/gnuplot.hpp"
-#include "compare/whole_file.hpp"
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 void plot_volumes(const std::string& folder, const std::string& name,
                   const std::vector<const CaseVolumes*>& volumes, const std::vector<std::string>& labels) {
@@ -43,4 +43,4 @@ void plot_volumes(const std::string& folder, const std::string& name,
        900, 600);
 }
 
-} // namespace compare
+} // namespace springproof::compare

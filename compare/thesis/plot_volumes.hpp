@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// Figure 5.10 as NAME.csv, .svg and .png: box plots of the springs' cells' volumes, one for each case, and
 /// the outliers. Cases without box-plot figures are left out.
@@ -13,4 +13,4 @@ namespace compare {
 void plot_volumes(const std::string& folder, const std::string& name,
                   const std::vector<const CaseVolumes*>& volumes, const std::vector<std::string>& labels);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,12 +1,12 @@
 #include "compare/thesis/regenerate.hpp"
 
-#include "compare/stopwatch.hpp"
+#include "compare/provenance/stopwatch.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -80,4 +80,4 @@ ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOpti
   return results;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "compare/pool/solve_jobs.hpp"
+#include "compare/solve/solve_jobs.hpp"
 #include "compare/thesis/results.hpp"
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// Numbers of the tables that can be regenerated, in order. 5.12 is a figure: the bar.
 std::vector<std::string> known_tables();
@@ -20,4 +20,4 @@ std::vector<std::string> known_tables();
 ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOptions& options,
                          const std::function<void(int done, int all)>& progress);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "compare/comparison.hpp"
-#include "compare/eigenspaces.hpp"
-#include "compare/published.hpp"
-#include "compare/thesis/box_plot.hpp"
+#include "compare/measure/box_plot.hpp"
+#include "compare/modes/eigenspaces.hpp"
+#include "compare/solve/comparison.hpp"
+#include "compare/thesis/published.hpp"
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 /// What `springproof tables` knows when everything is solved: plain records, which the writers and the report
 /// read. Nothing here is computed by a writer again.
-namespace compare {
+namespace springproof::compare {
 
 /// How to compute one number again.
 struct Trace {
@@ -152,4 +152,4 @@ struct ThesisResults {
 /// Counts what is reproduced; pointers go into `entries`.
 std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string subject_of(const Sheet& sheet) {
   return "error r = (MSM - FEM)/FEM x 100 %";
 }
 
-} // namespace compare
+} // namespace springproof::compare

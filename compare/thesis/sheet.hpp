@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace compare {
+namespace springproof::compare {
 
 /// One table as a grid of its entries, in the order of print: a row per measure, a column per variant.
 struct Sheet {
@@ -31,4 +31,4 @@ std::string name_of(const PublishedFigure& figure);
 /// What the table's figures are, with their unit.
 std::string subject_of(const Sheet& sheet);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
   return groups;
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,13 +1,13 @@
 #include "compare/thesis/table_jobs.hpp"
 
-#include "cases/names.hpp"
-#include "cases/read_case.hpp"
+#include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -125,4 +125,4 @@ double SolveSet::seconds(Only side) const {
   return sum;
 }
 
-} // namespace compare
+} // namespace springproof::compare

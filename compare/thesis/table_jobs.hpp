@@ -1,7 +1,7 @@
 #pragma once
 
-#include "compare/pool/solve_jobs.hpp"
-#include "compare/published.hpp"
+#include "compare/solve/solve_jobs.hpp"
+#include "compare/thesis/published.hpp"
 #include "compare/thesis/results.hpp"
 
 #include <map>
@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Which solves stand behind a published figure, and the command that repeats them.
-namespace compare {
+namespace springproof::compare {
 
 /// A finite-element side that a figure is held against.
 struct FemChoice {
@@ -57,4 +57,4 @@ class SolveSet {
   bool is_solved_ = false;
 };
 
-} // namespace compare
+} // namespace springproof::compare

@@ -8,7 +8,7 @@
 
 /// ThesisResults on paper. None of these writes a time, a date or a machine's name: the same commit writes
 /// the same bytes.
-namespace compare {
+namespace springproof::compare {
 
 enum class Commands { one_per_table, all };
 
@@ -43,4 +43,4 @@ nlohmann::ordered_json results_to_json(const ThesisResults& results);
 /// @throws InputError if the folder cannot be written
 void write_thesis_files(const std::string& folder, const ThesisResults& results);
 
-} // namespace compare
+} // namespace springproof::compare

@@ -1,10 +1,10 @@
-#include "compare/csv_text.hpp"
 #include "compare/thesis/write.hpp"
+#include "compare/write/csv_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -99,4 +99,4 @@ void write_advice_csv(std::ostream& out, const std::vector<Advice>& advice) {
   }
 }
 
-} // namespace compare
+} // namespace springproof::compare

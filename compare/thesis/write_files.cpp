@@ -1,10 +1,10 @@
 #include "compare/thesis/write.hpp"
-#include "compare/whole_file.hpp"
-#include "compare/write.hpp"
+#include "compare/write/whole_file.hpp"
+#include "compare/write/write.hpp"
 
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 void write_thesis_files(const std::string& folder, const ThesisResults& results) {
   const auto file = [&](const std::string& name, const std::function<void(std::ostream&)>& write) {
@@ -24,4 +24,4 @@ void write_thesis_files(const std::string& folder, const ThesisResults& results)
     file(comparison.scene.definition.name + ".vtu", [&](std::ostream& out) { write_vtu(out, comparison); });
 }
 
-} // namespace compare
+} // namespace springproof::compare

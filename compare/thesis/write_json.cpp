@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace compare {
+namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
@@ -166,4 +166,4 @@ Json results_to_json(const ThesisResults& results) {
           {"summary", summary}};
 }
 
-} // namespace compare
+} // namespace springproof::compare

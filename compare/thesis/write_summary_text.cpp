@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -137,4 +137,4 @@ void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& grou
   }
 }
 
-} // namespace compare
+} // namespace springproof::compare

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-namespace compare {
+namespace springproof::compare {
 
 namespace {
 
@@ -117,4 +117,4 @@ void write_tables_text(std::ostream& out, const ThesisResults& results, Commands
   write_summary_text(out, summarise(results.entries));
 }
 
-} // namespace compare
+} // namespace springproof::compare

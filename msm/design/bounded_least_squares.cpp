@@ -1,11 +1,11 @@
 #include "msm/design/bounded_least_squares.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <Eigen/QR>
 #include <ceres/ceres.h>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -63,4 +63,4 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
   return unit * scaled;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace msm {
+namespace springproof::msm {
 
 /// The x >= 0 that minimises |A x - b|, by Ceres; unique when A has full column rank.
 /// @param matrix   A, any units    @param target  b
@@ -11,4 +11,4 @@ namespace msm {
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target,
                                       double unit);
 
-} // namespace msm
+} // namespace springproof::msm

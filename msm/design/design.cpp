@@ -1,7 +1,7 @@
 #include "msm/design/design.hpp"
 
-#include "cases/error.hpp"
-#include "cases/names.hpp"
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -249,4 +249,4 @@ DesignResult design(const DesignRequest& request) {
   return result;
 }
 
-} // namespace msm
+} // namespace springproof::msm

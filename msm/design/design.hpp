@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/case/case.hpp"
 #include "msm/design/lattice_moduli.hpp"
 #include "msm/design/linear_method.hpp"
 #include "msm/design/uniaxial.hpp"
@@ -13,7 +13,7 @@
 
 /// Design: from a material to the stiffnesses of one cell. A method is one function and one line in the table
 /// of design.cpp.
-namespace msm {
+namespace springproof::msm {
 
 /// What a design method may look at.
 struct DesignRequest {
@@ -57,4 +57,4 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request,
 /// indefinite tangent at rest.  @param vertices  mm
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,6 +1,6 @@
 #include "msm/design/homogeneous.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -206,4 +206,4 @@ StabilityRange stability_range(const CellStiffness& stiffness, double edge) {
           last_stable(0, search_ends.shear, [&](double amount) { return stable(simple_shear(amount)); })};
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -7,7 +7,7 @@
 /// The infinite cubical lattice under a homogeneous deformation gradient F: thirteen springs per node and the
 /// volume term. Every node is a centre of symmetry, so that an affine deformation is in equilibrium and the
 /// energy is a closed form.
-namespace msm {
+namespace springproof::msm {
 
 /// Energy per rest volume, MPa:
 ///   W = (1/h³) sum over the 13 springs of K/2 (|F d| - |d|)² + k_v/2 (det F - 1)²,
@@ -40,4 +40,4 @@ StabilityRange stability_range(const CellStiffness& stiffness, double edge);
 /// @throws SolveError when there is none
 double free_lateral_stretch(const CellStiffness& stiffness, double edge, double axial_stretch);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -2,7 +2,7 @@
 
 #include "msm/design/linear_method.hpp"
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -63,4 +63,4 @@ double cube_edge(const CellVertices& vertices) {
   return edge;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace msm {
+namespace springproof::msm {
 
 using CellVertices = CellPositions; ///< of a cell at rest
 
@@ -47,4 +47,4 @@ double cube_edge(const CellVertices& vertices);
 /// Cube from the origin to (edge, edge, edge), mm.
 CellVertices cube(double edge);
 
-} // namespace msm
+} // namespace springproof::msm

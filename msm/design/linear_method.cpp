@@ -2,7 +2,7 @@
 
 #include "msm/design/bounded_least_squares.hpp"
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -53,4 +53,4 @@ CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_mod
           stiffness.volume / youngs_modulus};
 }
 
-} // namespace msm
+} // namespace springproof::msm

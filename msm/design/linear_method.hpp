@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace msm {
+namespace springproof::msm {
 
 using CellMatrix =
     Eigen::Matrix<double, 24, 24>; ///< degree of freedom 3*vertex + component, vertex v = i + 2j + 4k
@@ -32,4 +32,4 @@ LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertice
 /// @param youngs_modulus  MPa    @param edge  L0, mm
 CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_modulus, double edge);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -62,4 +62,4 @@ CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, do
                     lame_lambda - lame_mu);
 }
 
-} // namespace msm
+} // namespace springproof::msm

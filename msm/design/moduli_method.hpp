@@ -3,7 +3,7 @@
 #include "msm/design/lattice_moduli.hpp"
 #include "msm/lattice.hpp"
 
-namespace msm {
+namespace springproof::msm {
 
 /// Springs of a cubical lattice with the given Young's modulus along its axes and shear modulus between them:
 ///   C12 = C44 = G,  C11 = ((E - G) + sqrt((E + G)² + 8 G²))/2,  which is C11 - 2 C12²/(C11 + C12) = E
@@ -28,4 +28,4 @@ CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double 
                             const CellVertices& vertices);
 CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, const CellVertices& vertices);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,7 +1,7 @@
 #include "msm/design/multi_load.hpp"
 
-#include "cases/error.hpp"
-#include "cases/names.hpp"
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 #include "msm/design/bounded_least_squares.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -187,4 +187,4 @@ MultiLoadFit multi_load_method(const cases::Material& material, double edge,
   return fit;
 }
 
-} // namespace msm
+} // namespace springproof::msm

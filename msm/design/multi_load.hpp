@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/case/case.hpp"
 #include "msm/lattice.hpp"
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 /// The multi-load method: springs, and a volume term if wanted, fitted to a material's stresses along several
 /// homogeneous deformations at once. The lattice's stress is linear in its stiffnesses at a given
 /// deformation, so that the fit is a bounded linear least-squares problem with one minimum.
-namespace msm {
+namespace springproof::msm {
 
 /// A homogeneous state of the reference material.
 struct MaterialState {
@@ -53,4 +53,4 @@ struct MultiLoadFit {
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings);
 
-} // namespace msm
+} // namespace springproof::msm

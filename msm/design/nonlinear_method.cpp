@@ -1,6 +1,6 @@
 #include "msm/design/nonlinear_method.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -170,4 +170,4 @@ Identifiability identifiability(const CellStiffness& stiffness, double edge, con
   return {values, svd.matrixV(), values(0) / values(2)};
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 /// Objective of the nonlinear method, dimensionless:
 ///   phi = sum (s - s_ref)²/sum s_ref² + sum (e_x - e_x,ref)²/sum e_x,ref²  over the reference's strains.
@@ -37,4 +37,4 @@ struct Identifiability {
 };
 Identifiability identifiability(const CellStiffness& stiffness, double edge, const UniaxialCurve& reference);
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,13 +1,13 @@
 #include "msm/design/uniaxial.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <sstream>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -132,4 +132,4 @@ UniaxialCurve uniaxial_response(const CellStiffness& stiffness, double edge,
   return curve;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/case/case.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace msm {
+namespace springproof::msm {
 
 /// Uniaxial test of a material or a cell: logarithmic axial strain, Cauchy stress (MPa), logarithmic lateral
 /// strain.
@@ -82,4 +82,4 @@ Number axial_stress(const Number* k, const Number& x, double z, double edge) {
   return 4.0 * force_per_edge / (edge * x * x);
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,11 +1,11 @@
 #include "msm/grid/body.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace {
 
@@ -98,4 +98,4 @@ Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
   return coarse;
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// The springs of one cell of a grid. A coarser cell need not be a cube: its edges differ, and its face
 /// diagonals.
@@ -61,4 +61,4 @@ void set_layout(Body& body, const IsHeld& is_held) {
             body.still.push_back(c * body.layout.size + body.layout.at(i, j, k));
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

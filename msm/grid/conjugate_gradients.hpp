@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 struct ConjugateGradients {
   Field<double> solution;
@@ -53,4 +53,4 @@ ConjugateGradients conjugate_gradients(const Operator& apply, const Precondition
   return result;
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

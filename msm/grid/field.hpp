@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// Three arrays of a layout: a vector at every node of a grid. Ghosts and still entries are 0.
 template<class Real>
@@ -54,4 +54,4 @@ void clear_still(const Body& body, Field<Real>& field) {
   for (const std::ptrdiff_t entry : body.still) field[entry] = 0;
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

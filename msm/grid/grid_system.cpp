@@ -1,6 +1,6 @@
 #include "msm/grid/grid_system.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/grid/conjugate_gradients.hpp"
 
 #include <Eigen/Cholesky>
@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace {
 
@@ -356,4 +356,4 @@ Field<double> to_field(const Problem& problem, const Body& body, const Points& p
   return field;
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

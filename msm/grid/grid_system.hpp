@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// A problem on a grid of cells: a body, and its loads as a field (N, 0 on still entries).
 struct GridProblem {
@@ -36,4 +36,4 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
 Points to_points(const Problem& problem, const Body& body, const Field<double>& field);
 Field<double> to_field(const Problem& problem, const Body& body, const Points& points);
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace baseline {
 extern const Kernels<double> double_kernels;
@@ -79,4 +79,4 @@ const char* instruction_set() {
   }
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

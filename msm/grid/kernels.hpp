@@ -5,7 +5,7 @@
 /// Force, energy, tangent product and tangent diagonal of a lattice on a grid, straight from displacements.
 /// The kernels see plain arrays only, so that one source can be compiled for several instruction sets; which
 /// one runs is decided when the program starts.
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// Half of a node's 26 neighbours: springs 3g + (dx + 1) of group g lead to the neighbours with dx = -1, 0, 1
 /// in one neighbouring row, and spring 12 to the next node of the same row.
@@ -90,4 +90,4 @@ const Kernels<float>& kernels();
 /// Name of that instruction set: "avx512", "avx2" or "baseline".
 const char* instruction_set();
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

@@ -7,7 +7,7 @@
 
 #define SPRINGPROOF_INLINE inline __attribute__((always_inline))
 
-namespace msm::grid::SPRINGPROOF_ISA {
+namespace springproof::msm::grid::SPRINGPROOF_ISA {
 
 namespace {
 
@@ -178,4 +178,4 @@ extern const Kernels<float> float_kernels;
 const Kernels<double> double_kernels{force<double>, product<double>, diagonal<double>, energy<double>};
 const Kernels<float> float_kernels{force<float>, product<float>, diagonal<float>, energy<float>};
 
-} // namespace msm::grid::SPRINGPROOF_ISA
+} // namespace springproof::msm::grid::SPRINGPROOF_ISA

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace {
 
@@ -194,4 +194,4 @@ void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) 
   });
 }
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

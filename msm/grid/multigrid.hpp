@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <deque>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// A body and ever coarser ones: the last has few enough nodes for a dense factorisation.
 std::deque<Body> coarsenings(const Body& finest);
@@ -48,4 +48,4 @@ class Multigrid {
   void cycle(std::size_t l);
 };
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

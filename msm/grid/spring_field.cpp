@@ -1,10 +1,10 @@
 #include "msm/grid/spring_field.hpp"
 
-#include "cases/index.hpp"
+#include "cases/case/index.hpp"
 
 #include <Eigen/LU>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace {
 
@@ -226,4 +226,4 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
 template class SpringField<double>;
 template class SpringField<float>;
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

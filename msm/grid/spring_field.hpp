@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// A body's springs as the kernels read them, and the kernels run over all of the body on a given number of
 /// threads. The results do not depend on that number.
@@ -44,4 +44,4 @@ class SpringField {
 extern template class SpringField<double>;
 extern template class SpringField<float>;
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

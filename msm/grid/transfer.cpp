@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 namespace {
 
@@ -133,4 +133,4 @@ void Transfer<Real>::sample(const Field<Real>& fine, Field<Real>& coarse) const 
 template class Transfer<double>;
 template class Transfer<float>;
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

@@ -2,7 +2,7 @@
 
 #include "msm/grid/field.hpp"
 
-namespace msm::grid {
+namespace springproof::msm::grid {
 
 /// Trilinear interpolation between a body and the one coarsened along some axes, and its transpose.
 template<class Real>
@@ -29,4 +29,4 @@ class Transfer {
 extern template class Transfer<double>;
 extern template class Transfer<float>;
 
-} // namespace msm::grid
+} // namespace springproof::msm::grid

@@ -1,7 +1,7 @@
 #include "msm/snes/snes.hpp"
 
-#include "cases/error.hpp"
-#include "cases/index.hpp"
+#include "cases/case/error.hpp"
+#include "cases/case/index.hpp"
 #include "msm/problem.hpp"
 #include "msm/tangent.hpp"
 
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace msm {
+namespace springproof::msm {
 
 namespace {
 
@@ -424,4 +424,4 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   return solution;
 }
 
-} // namespace msm
+} // namespace springproof::msm

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/equilibrium.hpp"
 #include "msm/lattice.hpp"
 
 #include <mpi.h>
 
-namespace msm {
+namespace springproof::msm {
 
 /// Static equilibrium of a scene's lattice, on any mesh, by PETSc: SNES' Newton method with a line search on
 /// the imbalance, an assembled matrix of 3x3 blocks, and MUMPS for small lattices; above 30,000 unknowns
@@ -21,4 +21,4 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
                               MPI_Comm communicator, const EquilibriumSettings& settings = {},
                               const Points& start = {});
 
-} // namespace msm
+} // namespace springproof::msm

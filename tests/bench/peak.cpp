@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+using namespace springproof;
+
 namespace {
 
 constexpr int n_steps = 200000;

@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+using namespace springproof;
+
 namespace {
 
 /// The thesis's cube of n cells of 1 mm an edge, its bottom held, its top nodes pulled by 0.05 N each (the

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+using namespace springproof;
+
 using cases::Element;
 using Eigen::Vector3d;
 

@@ -1,11 +1,13 @@
 #include "fem_reference/element_stiffness.hpp"
 
-#include "cases/error.hpp"
-#include "cases/hex_mesh.hpp"
+#include "cases/case/error.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 namespace {
 

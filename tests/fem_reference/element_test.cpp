@@ -3,11 +3,13 @@
 #include "fem_reference/discretisation.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "scenes.hpp"
-#include "tests/largest.hpp"
+#include "tests/support/largest.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+using namespace springproof;
 
 using namespace fem_reference;
 using cases::Element;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+using namespace springproof;
+
 using cases::Element;
 using scenes::LoadSet;
 using scenes::Test;

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+using namespace springproof;
+
 using cases::Element;
 
 using Eigen::Vector3d;

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using scenes::LoadSet;
 using scenes::Test;
 

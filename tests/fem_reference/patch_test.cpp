@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using namespace fem_reference;
 using cases::Element;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+using namespace springproof;
+
 namespace scenes {
 
 using Eigen::Vector3d;

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "cases/names.hpp"
-#include "cases/scene.hpp"
+#include "cases/case/names.hpp"
+#include "cases/scene/scene.hpp"
 
 #include <functional>
+
+using namespace springproof;
 
 /// Scenes that the tests of the finite-element side share.
 namespace scenes {

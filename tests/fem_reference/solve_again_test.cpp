@@ -1,9 +1,11 @@
 #include "fem_reference/model.hpp"
 
 #include "scenes.hpp"
-#include "tests/largest.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using cases::Element;
 using scenes::LoadSet;

@@ -1,5 +1,7 @@
 #include "solved.hpp"
-#include "tests/largest.hpp"
+#include "tests/support/largest.hpp"
+
+using namespace springproof;
 
 using namespace fem_reference;
 using Eigen::Vector3d;

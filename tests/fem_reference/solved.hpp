@@ -2,6 +2,8 @@
 
 #include "fem_reference/load_path.hpp"
 
+using namespace springproof;
+
 /// A scene solved under body forces and prescribed displacements, with its degrees of freedom in view.
 struct Solved {
   fem_reference::Formulation formulation;

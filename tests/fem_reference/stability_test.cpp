@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+using namespace springproof;
+
 using Eigen::Vector3d;
 
 namespace {

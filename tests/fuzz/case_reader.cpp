@@ -1,9 +1,11 @@
 // The reader of case files as a target for libFuzzer: any bytes end in a case or in an InputError.
 
-#include "cases/read_case.hpp"
+#include "cases/case/read_case.hpp"
 
 #include <cstdint>
 #include <string>
+
+using namespace springproof;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   try {

@@ -1,12 +1,14 @@
 #pragma once
 
-#include "cases/scene.hpp"
-#include "cases/solution.hpp"
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/lattice.hpp"
-#include "tests/largest.hpp"
+#include "tests/support/largest.hpp"
 
 #include <random>
 #include <vector>
+
+using namespace springproof;
 
 /// Bodies and loads that several tests use.
 namespace bodies {

@@ -1,9 +1,11 @@
 #include "msm/cell_volume.hpp"
 
-#include "cases/hex_mesh.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using Eigen::Vector3d;
 using msm::CellPositions;

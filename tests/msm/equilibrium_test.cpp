@@ -1,11 +1,13 @@
 #include "msm/equilibrium.hpp"
 
-#include "cases/error.hpp"
-#include "msm/direct_system.hpp"
+#include "cases/case/error.hpp"
+#include "msm/direct/direct_system.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+
+using namespace springproof;
 
 using Eigen::Vector3d;
 using msm::CellStiffness;

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using Eigen::Vector3d;
 using msm::Lattice;
 using msm::Points;

@@ -1,10 +1,12 @@
 #include "msm/model.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+
+using namespace springproof;
 
 using Eigen::Vector3d;
 

@@ -1,12 +1,14 @@
 // Bodies whose supports move with the load factor.
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/model.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+using namespace springproof;
 
 using Eigen::Vector3d;
 using msm::Model;

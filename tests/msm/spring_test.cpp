@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using msm::Spring;

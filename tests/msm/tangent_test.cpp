@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using msm::Lattice;

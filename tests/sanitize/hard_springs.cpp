@@ -1,9 +1,11 @@
 // The springs' side of the hard cases named on the command line, without finite elements and MPI: small
 // enough to be built with sanitizers whenever the tests run.
 
-#include "compare/stress_springs.hpp"
+#include "compare/hard/stress_springs.hpp"
 
 #include <iostream>
+
+using namespace springproof;
 
 int main(int argc, char** argv) {
   constexpr double slower = 30; // sanitizers and -O1 against -O3: limits of time are for the release build

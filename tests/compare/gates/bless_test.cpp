@@ -1,11 +1,13 @@
 #include "compare/gates/bless.hpp"
 
-#include "cases/read_case.hpp"
-#include "tests/cases/case_text.hpp"
+#include "cases/case/read_case.hpp"
+#include "tests/cases/case/case_text.hpp"
 #include "tests/compare/gates/judged.hpp"
 
 #include <catch2/catch.hpp>
 #include <iterator>
+
+using namespace springproof;
 
 using cases::Quantity;
 using cases::ReferenceKind;

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+using namespace springproof;
+
 using cases::Quantity;
 using cases::ReferenceKind;
 using compare::judge_gates;

@@ -4,6 +4,8 @@
 
 #include <string>
 
+using namespace springproof;
+
 /// Comparisons made by hand: a unit cube with one measure "L" and what is expected of it.
 namespace judged {
 

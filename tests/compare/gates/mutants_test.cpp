@@ -3,12 +3,14 @@
 
 #include "compare/gates/gate.hpp"
 
-#include "cases/read_case.hpp"
+#include "cases/case/read_case.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>
 #include <limits>
 #include <stdexcept>
+
+using namespace springproof;
 
 using cases::Case;
 using compare::Comparison;

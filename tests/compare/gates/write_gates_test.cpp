@@ -1,13 +1,15 @@
 #include "compare/gates/write.hpp"
 
 #include "tests/compare/gates/judged.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+using namespace springproof;
 
 using cases::Quantity;
 using cases::ReferenceKind;

@@ -1,12 +1,14 @@
 #include "compare/report/html.hpp"
 
-#include "cases/error.hpp"
-#include "tests/temporary_folder.hpp"
+#include "cases/case/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+
+using namespace springproof;
 
 using namespace compare::html;
 

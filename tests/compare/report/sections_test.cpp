@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 using Catch::Contains;
 namespace html = compare::html;
 

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+using namespace springproof;
+
 using compare::views_to_json;
 using Points = std::vector<Eigen::Vector3d>;
 

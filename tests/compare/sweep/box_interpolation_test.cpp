@@ -1,8 +1,10 @@
 #include "compare/sweep/box_interpolation.hpp"
 
-#include "cases/hex_mesh.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using Eigen::Vector3d;
 

@@ -1,9 +1,11 @@
 #include "compare/sweep/reference.hpp"
 
-#include "cases/read_case.hpp"
+#include "cases/case/read_case.hpp"
 #include "compare/sweep/box_interpolation.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using namespace compare;
 using Eigen::Vector3d;

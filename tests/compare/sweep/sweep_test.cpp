@@ -1,7 +1,7 @@
 #include "compare/sweep/sweep.hpp"
 
-#include "cases/read_case.hpp"
-#include "compare/pool/process_pool.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/solve/process_pool.hpp"
 #include "compare/sweep/box_interpolation.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"
@@ -11,6 +11,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+using namespace springproof;
 
 using namespace compare;
 using Catch::Contains;

@@ -1,10 +1,12 @@
 #include "compare/thesis/plot_bodies.hpp"
 
-#include "tests/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
+
+using namespace springproof;
 
 using Points = std::vector<Eigen::Vector3d>;
 

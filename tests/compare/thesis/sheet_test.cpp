@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 namespace {
 
 compare::TableEntry entry(const std::string& table, double poissons_ratio, const std::string& measure) {

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+using namespace springproof;
+
 using compare::ComputedFigure;
 using compare::SummaryGroup;
 using compare::TableEntry;

@@ -1,6 +1,6 @@
 // `springproof tables` as its users run it.
 
-#include "tests/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
+
+using namespace springproof;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;

@@ -1,8 +1,10 @@
 #include "msm/design/design.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 namespace {
 

@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 namespace {
 
 const msm::CellStiffness springs = {0.031, 0.047, 0.033, 0};

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 namespace {
 
 // Energy of a block of cells under two affine displacements, e_a : C : e_b, from the assembled tangent at

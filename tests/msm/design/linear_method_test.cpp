@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+using namespace springproof;
+
 namespace {
 
 // A hexahedron without any symmetry.

@@ -1,9 +1,11 @@
 #include "msm/design/moduli_method.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/design/design.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 namespace {
 

@@ -1,11 +1,13 @@
 #include "msm/design/multi_load.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/design/lattice_moduli.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 namespace {
 

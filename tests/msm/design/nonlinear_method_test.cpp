@@ -1,10 +1,12 @@
 #include "msm/design/nonlinear_method.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/lattice.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 namespace {
 

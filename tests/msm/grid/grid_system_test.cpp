@@ -1,10 +1,12 @@
 #include "msm/grid/grid_system.hpp"
 
-#include "cases/error.hpp"
+#include "cases/case/error.hpp"
 #include "msm/model.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using msm::Model;
 using msm::Path;

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+using namespace springproof;
+
 using msm::grid::Body;
 using msm::grid::Field;
 

@@ -1,11 +1,13 @@
 #include "msm/grid/spring_field.hpp"
 
-#include "msm/direct_system.hpp"
+#include "msm/direct/direct_system.hpp"
 #include "msm/grid/grid_system.hpp"
 #include "msm/tangent.hpp"
 #include "tests/msm/bodies.hpp"
 
 #include <catch2/catch.hpp>
+
+using namespace springproof;
 
 using msm::CellStiffness;
 using msm::Points;

@@ -1,0 +1,201 @@
+#pragma once
+
+#include "cases/case/error.hpp"
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The shared vocabulary: what a case file says, as plain values. Units: mm, N, MPa, degrees.
+namespace springproof::cases {
+
+struct Box {
+  Eigen::Vector3d size;     ///< mm, > 0; the box reaches from the origin to size
+  std::array<int, 3> cells; ///< > 0
+};
+
+/// An all-hexahedral gmsh mesh (.msh, format 4), or a .geo that gmsh meshes on the fly.
+struct MeshFile {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  Where where;
+};
+
+/// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts at the lower corner
+/// of the surface's bounding box.
+struct Voxels {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  double edge;      ///< mm, > 0
+  Where where;
+};
+
+using Body = std::variant<Box, MeshFile, Voxels>;
+
+struct LinearElastic {
+  double youngs_modulus; ///< MPa, > 0
+  double poissons_ratio; ///< in (-1, 0.5)
+};
+
+/// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) of the isochoric stretches
+/// + kappa/4 (J² - 1 - 2 ln J). Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
+struct Ogden {
+  std::vector<double> mu;             ///< MPa; the sum is the initial shear modulus, > 0
+  std::vector<double> alpha;          ///< as many, none 0
+  std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
+};
+
+using Material = std::variant<LinearElastic, Ogden>;
+
+/// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
+/// those whose centre lies in a box.
+struct RegionMaterial {
+  Material material;            ///< of the same model as the body's own
+  std::string group;            ///< empty: the box
+  Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
+  Where where;
+};
+
+/// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, or
+/// a patch of the surface around a point.
+struct Region {
+  std::string name; ///< as written; of a patch, what it is called in messages; empty for a node
+  std::optional<Eigen::Vector3d> near; ///< mm
+  Where where;
+  std::optional<double> radius =
+      std::nullopt; ///< mm, > 0: the boundary faces whose centre is at most that far from near
+};
+
+struct Fixed {
+  Region region;
+  std::array<bool, 3> components{true, true, true};
+};
+
+/// A region that is moved by hand: at load factor s by s times a displacement, or turned by s times an angle.
+struct Moved {
+  Region region;
+  std::array<bool, 3> components{true, true, true};       ///< all three when it is turned
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero(); ///< mm at full load, on its components
+  double angle = 0;                                       ///< degrees at full load, about axis through centre
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();        ///< unit length
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
+};
+
+enum class LoadKind {
+  nodal_force, ///< value N on every node of the region
+  total_force, ///< value N, shared equally by the region's nodes
+  traction,    ///< value MPa on the rest area, dead, integrated consistently
+  torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
+};
+
+struct Load {
+  Region region;
+  LoadKind kind;
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< N or MPa; unused by torque
+  double moment = 0;                                ///< N mm; torque only
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< torque only, unit length
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< mm; torque only
+};
+
+enum class Formulation { small_strain, saint_venant_kirchhoff, log_strain, hyperelastic };
+enum class Element { q1, q1_bbar, q1_p0, q2, q2_p1 };
+
+struct Fem {
+  Formulation formulation = Formulation::log_strain;
+  Element element = Element::q1_bbar;
+  int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
+  bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
+  bool has_auto_accuracy = false;    ///< refined until the expectations can be judged; refine is 0
+  Where where;
+};
+
+enum class Design { linear_method, nonlinear_method, moduli, hybrid, multi_load, given };
+
+/// Homogeneous deformations that the multi-load design is fitted to.
+enum class LoadPath {
+  uniaxial,     ///< along a lattice axis, free sides
+  equibiaxial,  ///< along two lattice axes, the third free
+  pure_shear,   ///< planar tension: one axis stretched, one held, the third free
+  simple_shear, ///< between two lattice axes
+};
+
+/// How the springs' equilibrium is looked for. All but the first are there to be compared with it.
+enum class Solver {
+  newton,        ///< Newton's method with load steps
+  force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
+  fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
+  lbfgs,         ///< limited-memory quasi-Newton
+  snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
+};
+
+struct Msm {
+  Design design = Design::linear_method;
+  Solver solver = Solver::newton;
+  std::optional<double> poissons_ratio;           ///< design from another nu than the material's
+  std::optional<double> split;                    ///< t of the moduli, hybrid and multi_load designs, 0 to 1
+  std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
+  double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
+  std::vector<LoadPath> paths;                    ///< multi_load; empty: all
+  std::vector<double> weights;                    ///< multi_load; one per path, >= 0; empty: all 1
+  std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
+  bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
+  Where where;
+};
+
+enum class MeasureKind {
+  coordinate,
+  displacement,
+  tilt,
+  twist,
+  volume,
+  displacement_field_l2,
+  displacement_field_max
+};
+enum class Axis { x = 0, y = 1, z = 2 };
+enum class Component { x = 0, y = 1, z = 2, norm = 3 };
+
+struct Measure {
+  std::string name;
+  MeasureKind kind;
+  Region node;         ///< coordinate, displacement, twist: exactly one node
+  Axis axis = Axis::z; ///< coordinate; twist: the axis looked along (thesis: beta is seen along z)
+  Component component = Component::norm; ///< displacement
+  Region top, bottom;                    ///< tilt: one node each
+  Axis toward = Axis::x; ///< tilt: atan2(d_toward, d_up) of top - bottom, up = axis (default z)
+  Region centre;         ///< twist
+  Where where;
+};
+
+/// Where an expectation's interval comes from; kinds are kept apart in reports.
+enum class ReferenceKind { exact, converged, peer, published, regression };
+enum class Quantity { error_percent, msm, fem };
+
+struct Expectation {
+  std::string measure;
+  Quantity quantity;
+  std::array<double, 2> interval; ///< closed, lower <= upper; percent or the measure's unit
+  ReferenceKind reference;
+  std::string reason;
+  Where where;
+  Where interval_where = {}; ///< of the interval's opening bracket
+};
+
+struct Case {
+  std::string name;
+  std::string description;
+  std::string file;
+  Body body;
+  Material material;
+  std::vector<RegionMaterial> region_materials; ///< a cell in several of them is of the last one
+  std::vector<Fixed> fixed;
+  std::vector<Fixed> symmetry; ///< region = a face of a box, components = its normal alone
+  std::vector<Moved> moved;
+  std::vector<Load> loads; ///< may be empty when something is moved
+  Fem fem;
+  Msm msm;
+  std::vector<Measure> measures;
+  std::vector<Expectation> expectations;
+};
+
+} // namespace springproof::cases

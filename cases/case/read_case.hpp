@@ -1,0 +1,21 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace springproof::cases {
+
+/// Reads and checks a case file (TOML 1.0; docs/case-file.md has every key). Whatever does not need the mesh
+/// is checked here; make_scene() does the rest.
+/// @param path       the file; names of files in it are relative to its folder
+/// @param overrides  settings of the command line, "load[0].value=[0, 0, 0.01]"
+/// @throws InputError  "file:line:column: key: is VALUE, must be ..." at the first mistake
+Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same for the text of a case file.  @param path  what messages call it; names of files in it are
+/// relative to its folder
+Case read_case_text(const std::string& text, const std::string& path);
+
+} // namespace springproof::cases

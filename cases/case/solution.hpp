@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cases/case/outcome.hpp"
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace springproof::cases {
+
+enum class Status { converged, failed, skipped };
+
+/// What either model answers. A failed side keeps its message and counters but has no displacement.
+struct Solution {
+  Status status = Status::skipped;
+  std::string message;
+  Outcome outcome = Outcome::unknown;
+  std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
+  std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³
+  std::size_t unknowns = 0;                  ///< free degrees of freedom
+  double residual = 0;                       ///< |imbalance on free degrees of freedom| / |applied load|
+  double load_reached = 0;                   ///< 0 to 1
+  int newton_iterations = 0;
+  long linear_iterations = 0;
+  long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations
+  long force_evaluations = 0;     ///< internal forces of the whole body, with or without their tangent
+  long factorisations = 0;        ///< of a tangent matrix; 0 where none is assembled
+  std::optional<double>
+      lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  std::optional<int>
+      negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
+  int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
+};
+
+} // namespace springproof::cases

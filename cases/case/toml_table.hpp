@@ -1,0 +1,159 @@
+#pragma once
+
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <toml++/toml.h>
+#include <vector>
+
+/// Typed access to a TOML document whose every failure is an InputError that says where, which key, which
+/// value, and what is allowed. Only the readers of case files include this.
+namespace springproof::cases {
+
+/// What stands behind a key, or would: a missing key is an entry without a node, so that "is missing" and "is
+/// wrong" are reported by the same line of the reader.
+struct Entry {
+  const toml::node* node;
+  Where where;
+
+  /// Throws InputError "is VALUE, must be ALLOWED", or "is missing, must be ALLOWED".
+  [[noreturn]] void refuse(const std::string& allowed) const;
+  /// The same for a word out of a list, with the nearest word when one is near.
+  [[noreturn]] void refuse_word(const std::vector<std::string>& allowed) const;
+  /// The elements of an array; refuses anything else.
+  std::vector<Entry> elements(const std::string& allowed) const;
+};
+
+/// Where a node stands; a node from the command line has neither file nor line.
+Where place_of(const toml::node& node, const std::string& key);
+
+// Readers: functions of an entry that answer a checked value.
+
+using Condition = std::function<bool(double)>;
+inline bool is_anything(double) {
+  return true;
+}
+inline bool is_positive(double value) {
+  return value > 0;
+}
+inline bool is_not_negative(double value) {
+  return value >= 0;
+}
+
+/// A text that is not empty.
+std::string read_text(const Entry& entry);
+
+/// One finite number, whole or not. `allowed` completes "must be ...".
+struct Number {
+  std::string allowed;
+  Condition condition = is_anything;
+  double operator()(const Entry& entry) const;
+};
+
+/// true or false.
+bool read_truth(const Entry& entry);
+
+/// An array of finite numbers, `count` of them, or one and more when count is 0.
+struct Numbers {
+  std::string allowed;
+  std::size_t count;
+  Condition condition = is_anything;
+  std::vector<double> operator()(const Entry& entry) const;
+};
+
+/// Three finite numbers.
+struct Vector {
+  std::string allowed;
+  Condition condition = is_anything;
+  Eigen::Vector3d operator()(const Entry& entry) const;
+};
+
+struct WholeNumber {
+  std::string allowed;
+  int lowest, highest;
+  int operator()(const Entry& entry) const;
+};
+
+/// The name of an enumerator.
+template<class Enum>
+Enum read_name(const Entry& entry) {
+  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
+  const auto value = text ? value_of<Enum>(*text) : std::nullopt;
+  if (!value) entry.refuse_word(all_names<Enum>());
+  return *value;
+}
+
+/// A table that remembers which keys were asked for: what is left over at the end is an unknown key.
+class Table {
+ public:
+  Table(const Entry& entry, const std::string& allowed);
+
+  /// Where the table begins.
+  const Where& where() const { return where_; }
+  bool has(const std::string& key) const { return table_->contains(key); }
+  /// What stands behind a key. When nothing does but an unasked key is nearly the same, that one is reported
+  /// as misspelt.
+  Entry entry(const std::string& key);
+
+  template<class Reader>
+  auto required(const std::string& key, const Reader& read) {
+    return read(entry(key));
+  }
+  template<class Reader>
+  auto optional(const std::string& key, const Reader& read) -> std::optional<decltype(read(entry(key)))> {
+    asked_.insert(key);
+    if (!has(key)) return std::nullopt;
+    return read(entry(key));
+  }
+  /// [key]: a table, read by a function of Table&; unknown keys in it are refused.
+  template<class Reader>
+  auto section(const std::string& key, const Reader& read) {
+    Table table(entry(key), "a table [" + key + "]");
+    auto value = read(table);
+    table.refuse_unknown_keys();
+    return value;
+  }
+  /// The same for a table that may be left out: then the reader gets an empty one.
+  template<class Reader>
+  auto optional_section(const std::string& key, const Reader& read) {
+    static const toml::table nothing;
+    if (has(key)) return section(key, read);
+    asked_.insert(key);
+    Where where = where_;
+    where.key = path_to(key);
+    Table empty({&nothing, where}, "a table");
+    return read(empty);
+  }
+  /// [[key]]: any number of tables, read one by one.
+  template<class Reader>
+  auto sections(const std::string& key, const Reader& read) {
+    std::vector<decltype(read(*this))> values;
+    asked_.insert(key);
+    if (!has(key)) return values;
+    const std::string allowed = "one or more tables [[" + key + "]]";
+    for (const Entry& element : entry(key).elements(allowed)) {
+      Table table(element, allowed);
+      values.push_back(read(table));
+      table.refuse_unknown_keys();
+    }
+    return values;
+  }
+  /// Throws InputError at the first key that was not asked for, with the nearest known one.
+  void refuse_unknown_keys() const;
+
+ private:
+  [[noreturn]] void refuse_key(const toml::key& key, const toml::node& value,
+                               const std::string& problem) const;
+  std::string path_to(const std::string& key) const;
+
+  const toml::table* table_;
+  Where where_;
+  std::set<std::string> asked_;
+};
+
+} // namespace springproof::cases

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace springproof::cases {
+
+/// What a region of a mesh selects. Faces and edges are given by their vertices, so that an element with
+/// nodes on them (a quadratic one) can constrain those too. Nodes are sorted and unique.
+struct Selection {
+  std::vector<int> nodes;
+  std::vector<std::array<int, 2>> edges; ///< ascending node numbers
+  std::vector<std::array<int, 4>> faces; ///< around the face, seen from outside anticlockwise
+};
+
+/// The grid of cubes or cuboids that a mesh was made from, when it was: node (i, j, k) lies at
+/// origin + (i, j, k) * spacing, and cells are numbered with x running fastest over the present ones.
+struct Grid {
+  std::array<int, 3> cells{1, 1, 1};                 ///< along x, y, z, > 0
+  Eigen::Vector3d spacing = Eigen::Vector3d::Ones(); ///< mm
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< mm
+  std::vector<bool> present;                         ///< x fastest, nx*ny*nz entries; empty: every cell
+  std::size_t n_lattice_cells() const;
+  bool has(int i, int j, int k) const; ///< false outside the grid
+};
+
+/// The body's mesh, which both models are made from.
+struct HexMesh {
+  std::vector<Eigen::Vector3d> nodes;      ///< rest positions, mm
+  std::vector<std::array<int, 8>> cells;   ///< vertex v = i + 2j + 4k sits at (i, j, k) in the reference cube
+  std::map<std::string, Selection> groups; ///< physical groups of a mesh file
+  std::vector<std::string> group_of_cell; ///< name of the three-dimensional physical group; empty: none named
+  std::optional<Grid> grid;               ///< set when the mesh is a grid of cells
+};
+
+/// The 12 edges, 12 face diagonals and 4 internal diagonals of a cell, and its 6 faces (anticlockwise from
+/// outside).
+extern const std::array<std::array<int, 2>, 12> cell_edges;
+extern const std::array<std::array<int, 2>, 12> cell_face_diagonals;
+extern const std::array<std::array<int, 2>, 4> cell_internal_diagonals;
+extern const std::array<std::array<int, 4>, 6> cell_faces; ///< x-, x+, y-, y+, z-, z+
+
+/// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
+HexMesh make_grid_mesh(const Grid& grid);
+
+/// Box from the origin to size (mm), divided into cells.
+HexMesh make_box_mesh(const Eigen::Vector3d& size, const std::array<int, 3>& cells);
+
+/// Every cell split into eight at its trilinear midpoints, so the body stays the same body. The old nodes
+/// keep their numbers; the children of cell c are cells 8c .. 8c+7; groups are refined with it. The result is
+/// numbered like no grid, so its grid is empty.
+HexMesh refine(const HexMesh& mesh);
+
+/// Volume of the trilinear hexahedron with these vertices (mm³; negative when inside out), exact (2x2x2
+/// Gauss).
+double cell_volume(const std::array<Eigen::Vector3d, 8>& vertices);
+
+/// The smallest of the eight corner Jacobian determinants of the map from the unit cube, mm³: <= 0 for an
+/// inverted or degenerate cell.
+double smallest_corner_jacobian(const std::array<Eigen::Vector3d, 8>& vertices);
+
+/// The vertices of one cell, displaced.  @param displacement  one per node, or empty for the rest shape
+std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
+                                             const std::vector<Eigen::Vector3d>& displacement = {});
+
+/// Faces that belong to one cell only.
+std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh);
+
+} // namespace springproof::cases

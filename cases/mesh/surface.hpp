@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cases/case/error.hpp"
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace springproof::cases {
+
+/// A surface of triangles, seen from outside anticlockwise, mm.
+using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
+
+/// Reads a surface in STL, text or binary.
+/// @param where  the place in a case file that names it, for messages
+/// @throws InputError if it cannot be read, is cut short, has no triangles or a position that is not finite
+Surface read_stl(const std::string& path, const Where& where);
+
+/// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
+/// has an inside. Vertices are the same when their coordinates are.
+/// @return how many edges have no such partner; 0: closed
+std::size_t n_open_edges(const Surface& surface);
+
+} // namespace springproof::cases

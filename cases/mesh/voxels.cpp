@@ -1,0 +1,166 @@
+#include "cases/mesh/voxels.hpp"
+
+#include "cases/case/index.hpp"
+#include "cases/mesh/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace springproof::cases {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double most_cells = 50e6;
+
+struct Bounds {
+  Vector3d lower, upper;
+};
+
+Bounds bounds_of(const Surface& surface) {
+  Bounds bounds{surface[0][0], surface[0][0]};
+  for (const auto& triangle : surface)
+    for (const Vector3d& vertex : triangle) {
+      bounds.lower = bounds.lower.cwiseMin(vertex);
+      bounds.upper = bounds.upper.cwiseMax(vertex);
+    }
+  return bounds;
+}
+
+Grid empty_grid(const Surface& surface, const Voxels& voxels) {
+  const auto [lower, upper] = bounds_of(surface);
+  Grid grid;
+  grid.origin = lower;
+  grid.spacing.setConstant(voxels.edge);
+  double n_cells = 1;
+  for (int a = 0; a < 3; ++a) {
+    // A body of exactly n edges has n cells, whatever the rounding of its size.
+    const double n = std::max(1.0, std::ceil((upper[a] - lower[a]) / voxels.edge - 1e-6));
+    n_cells *= n;
+    if (!(n_cells <= most_cells))
+      throw InputError(voxels.where,
+                       fmt::format("{}: {} mm across needs more than {:.0e} cells of edge {} mm", voxels.path,
+                                   (upper - lower).maxCoeff(), most_cells, voxels.edge));
+    grid.cells[index(a)] = static_cast<int>(n);
+  }
+  grid.present.assign(grid.n_lattice_cells(), false);
+  return grid;
+}
+
+/// Where the vertical through a point meets a triangle, and from which side: +1 leaving the body going up, -1
+/// entering.
+struct Crossing {
+  double z;
+  int side;
+};
+
+/// Twice the signed area of a triangle seen from above.
+double doubled_area(const Vector3d& a, const Vector3d& b, double x, double y) {
+  return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+}
+
+/// The columns of centres below and above a triangle's shadow get their crossings.
+void cast(const std::array<Vector3d, 3>& t, const Grid& grid, const Vector3d& first,
+          std::vector<std::vector<Crossing>>& columns) {
+  const auto range = [&](int axis) {
+    const double low = std::min({t[0][axis], t[1][axis], t[2][axis]}),
+                 high = std::max({t[0][axis], t[1][axis], t[2][axis]});
+    const double edge = grid.spacing[axis];
+    const int from = std::max(0, static_cast<int>(std::ceil((low - first[axis]) / edge)));
+    const int to =
+        std::min(grid.cells[index(axis)] - 1, static_cast<int>(std::floor((high - first[axis]) / edge)));
+    return std::array<int, 2>{from, to};
+  };
+  const auto [i_from, i_to] = range(0);
+  const auto [j_from, j_to] = range(1);
+  for (int j = j_from; j <= j_to; ++j)
+    for (int i = i_from; i <= i_to; ++i) {
+      const double x = first.x() + i * grid.spacing.x(), y = first.y() + j * grid.spacing.y();
+      const double a = doubled_area(t[1], t[2], x, y), b = doubled_area(t[2], t[0], x, y),
+                   c = doubled_area(t[0], t[1], x, y);
+      const bool is_inside = (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+      if (!is_inside) continue;
+      const double z = (a * t[0].z() + b * t[1].z() + c * t[2].z()) / (a + b + c);
+      columns[index(i) + index(grid.cells[0]) * index(j)].push_back({z, a > 0 ? 1 : -1});
+    }
+}
+
+void fill(Grid& grid, const Surface& surface) {
+  const double edge = grid.spacing.x();
+  // A ray along the common edge of two triangles would miss both. Edges of drawn bodies pass through centres
+  // of cells, but hardly through these points beside them.
+  const Vector3d first = grid.origin + edge * Vector3d(0.5 + 1.37e-7, 0.5 + 2.71e-7, 0.5);
+  std::vector<std::vector<Crossing>> columns(index(grid.cells[0]) * index(grid.cells[1]));
+  for (const auto& triangle : surface) cast(triangle, grid, first, columns);
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    std::sort(columns[column].begin(), columns[column].end(),
+              [](const Crossing& a, const Crossing& b) { return a.z < b.z; });
+    int winding = 0;
+    auto next = columns[column].begin();
+    for (int k = 0; k < grid.cells[2]; ++k) {
+      for (; next != columns[column].end() && next->z <= first.z() + k * edge; ++next) winding -= next->side;
+      if (winding != 0) grid.present[column + columns.size() * index(k)] = true;
+    }
+  }
+}
+
+/// Sizes of the pieces that hang together by faces, the largest first.
+std::vector<std::size_t> pieces(const Grid& grid) {
+  std::vector<std::size_t> sizes;
+  std::vector<bool> seen(grid.present.size(), false);
+  const auto number = [&](const std::array<int, 3>& c) {
+    return index(c[0]) + index(grid.cells[0]) * (index(c[1]) + index(grid.cells[1]) * index(c[2]));
+  };
+  std::vector<std::array<int, 3>> to_visit;
+  const auto visit = [&](const std::array<int, 3>& c) {
+    if (!grid.has(c[0], c[1], c[2]) || seen[number(c)]) return;
+    seen[number(c)] = true;
+    to_visit.push_back(c);
+  };
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        visit({i, j, k});
+        if (to_visit.empty()) continue;
+        sizes.push_back(0);
+        while (!to_visit.empty()) {
+          const std::array<int, 3> cell = to_visit.back();
+          to_visit.pop_back();
+          ++sizes.back();
+          for (std::size_t a = 0; a < 3; ++a)
+            for (const int step : {-1, 1}) {
+              std::array<int, 3> neighbour = cell;
+              neighbour[a] += step;
+              visit(neighbour);
+            }
+        }
+      }
+  std::sort(sizes.rbegin(), sizes.rend());
+  return sizes;
+}
+
+} // namespace
+
+HexMesh make_voxel_mesh(const Voxels& voxels) {
+  const Surface surface = read_stl(voxels.path, voxels.where);
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(voxels.where, fmt::format("{}: {}", voxels.path, reason));
+  };
+  if (const std::size_t open = n_open_edges(surface))
+    refuse(fmt::format("is not closed: {} edges of its {} triangles have no neighbour running the other way",
+                       open, surface.size()));
+  Grid grid = empty_grid(surface, voxels);
+  fill(grid, surface);
+  const std::vector<std::size_t> sizes = pieces(grid);
+  if (sizes.empty()) refuse(fmt::format("no cell of edge {} mm has its centre inside", voxels.edge));
+  if (sizes.size() > 1)
+    refuse(fmt::format(
+        "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and the next of "
+        "{}: a smaller edge joins what is thin",
+        voxels.edge, sizes.size(), sizes[0], sizes[1]));
+  return make_grid_mesh(grid);
+}
+
+} // namespace springproof::cases

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/mesh/hex_mesh.hpp"
+
+namespace springproof::cases {
+
+/// A case with its mesh built and its regions resolved: all that a model needs.
+struct Scene {
+  struct FixedNodes {
+    Selection selection;
+    std::array<bool, 3> components;
+  };
+  struct MovedNodes {
+    Selection selection;
+    Moved motion;
+  };
+  struct AppliedLoad {
+    Selection selection;
+    Load load;
+  };
+  Case definition;
+  HexMesh mesh;
+  std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
+  std::vector<FixedNodes> fixed;     ///< [[fixed]], [[symmetry]] and [[moved]] alike: what is no unknown
+  std::vector<MovedNodes> moved;
+  std::vector<AppliedLoad> loads;
+};
+
+/// Nodes, edges and faces of a region. Faces of a box are planes of the mesh's bounding box.
+/// @throws InputError if it names nothing on this mesh or selects no node
+Selection select(const HexMesh& mesh, const Region& region);
+
+/// The region's only node.  @throws InputError if it selects none or several
+int select_node(const HexMesh& mesh, const Region& region);
+
+/// The body's own material, then those of its regions.
+std::vector<Material> materials_of(const Case& definition);
+
+/// Which of them a cell is made of.
+int material_of(const Scene& scene, std::size_t cell);
+
+/// Builds or reads the body's mesh and resolves every region of the case (those of measures too).
+/// @throws InputError with the place in the case file
+Scene make_scene(const Case& definition);
+
+/// The same scene on the mesh refined n times. Nodal forces stay on the nodes of the body's own mesh.
+Scene refine(const Scene& scene, int n);
+
+/// Whether degree of freedom 3*node + component is held, for every node of the mesh.
+std::vector<bool> fixed_degrees_of_freedom(const Scene& scene);
+
+/// Where a motion has brought a point of rest position `rest` (mm) at a load factor: its displacement, mm; 0
+/// on components that the motion leaves alone.
+Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
+
+/// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries
+/// the modelled part alone: half, a quarter, an eighth), tractions and torques integrated with bilinear shape
+/// functions on the rest faces.
+std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
+
+/// The point forces (nodal_force, total_force) alone, N per node.
+std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
+
+/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest. A torque
+/// needs the polar moment of its faces about the axis: see polar_moment().
+Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point,
+                                 double polar_moment);
+
+/// Integral of r² over the load's rest faces (mm⁴), r the distance from the torque's axis, exact for bilinear
+/// planar faces.
+double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied);
+
+} // namespace springproof::cases

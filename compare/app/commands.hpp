@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+/// The program's commands. Each adds its subcommand and options to the command line and, when it is the one
+/// chosen, sets what is to be done after MPI has started. The answer is the exit status: 0 done, 1 an
+/// expectation missed or a solve failed.
+namespace springproof::compare {
+
+using Action = std::function<int()>;
+
+void add_design_command(CLI::App& program, Action& chosen);
+void add_eigen_command(CLI::App& program, Action& chosen);
+void add_gate_command(CLI::App& program, Action& chosen);
+void add_new_command(CLI::App& program, Action& chosen);
+void add_run_command(CLI::App& program, Action& chosen);
+void add_stress_command(CLI::App& program, Action& chosen);
+void add_sweep_command(CLI::App& program, Action& chosen);
+void add_tables_command(CLI::App& program, Action& chosen);
+void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see pool/solve_jobs.hpp
+
+} // namespace springproof::compare

@@ -1,0 +1,113 @@
+#include "cases/case/names.hpp"
+#include "compare/app/commands.hpp"
+#include "compare/app/design_options.hpp"
+#include "compare/cube/plot_design.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/whole_file.hpp"
+#include "compare/write/write_design.hpp"
+#include "msm/design/nonlinear_method.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CommandOptions {
+  DesignOptions design;
+  bool compare = false, pareto = false, measure = false, json = false;
+  std::string out;
+};
+
+std::vector<DesignAttempt> attempts_of(const CommandOptions& options, const msm::DesignRequest& request) {
+  if (options.pareto) return attempt_springs(request);
+  if (options.compare) return attempt_all(request);
+  return {attempt_one(request)};
+}
+
+Json to_json(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+  Json document{{"schema", 1}};
+  if (options.compare || options.pareto) {
+    document["methods"] = Json::array();
+    for (const DesignAttempt& a : attempts) document["methods"].push_back(attempt_to_json(a));
+  } else {
+    document.update(attempt_to_json(attempts.front()));
+  }
+  return document;
+}
+
+void write_text(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+  if (options.compare || options.pareto)
+    write_comparison_text(std::cout, attempts);
+  else
+    write_design_text(std::cout, attempts.front());
+}
+
+/// The stiffnesses that the thesis prints for its Ogden reference (eq. 5.12), of a 1 mm cell.
+constexpr msm::CellStiffness published_ogden = {0.014, 0.017, 0.063, 0};
+
+void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest& request,
+                             const msm::CellStiffness& design) {
+  const double edge = msm::cube_edge(request.cell);
+  const msm::UniaxialCurve reference = msm::uniaxial_reference(request);
+  plot_uniaxial(folder, "uniaxial", design, edge, reference);
+  plot_contributions(folder, "contributions", {{"", design, edge, reference.axial_strain}});
+  plot_incompressible_family(folder);
+  std::vector<msm::CellStiffness> others;
+  if (std::holds_alternative<cases::Ogden>(request.material))
+    others.push_back({edge * published_ogden.edge, edge * published_ogden.face_diagonal,
+                      edge * published_ogden.internal_diagonal, 0});
+  plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
+}
+
+void write_files(const CommandOptions& options, const msm::DesignRequest& request,
+                 const std::vector<DesignAttempt>& attempts) {
+  write_file(options.out + "/design.json",
+             [&](std::ostream& out) { out << to_json(options, attempts).dump(2) << '\n'; });
+  if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
+  if (options.compare || options.pareto) return;
+  if (request.options.design == cases::Design::linear_method)
+    plot_linear_method(options.out, *cases::value_of<cases::Element>(options.design.element));
+  if (request.options.design == cases::Design::nonlinear_method)
+    write_nonlinear_figures(options.out, request, attempts.front().design->stiffness);
+}
+
+int run(const CommandOptions& options) {
+  const msm::DesignRequest request = request_from(options.design);
+  std::vector<DesignAttempt> attempts = attempts_of(options, request);
+  if (options.measure) measure_on_cube(attempts, request);
+  const int rank = mpi_rank();
+  if (rank != 0) return 0;
+  if (options.json)
+    std::cout << to_json(options, attempts).dump(2) << '\n';
+  else
+    write_text(options, attempts);
+  if (!options.out.empty()) write_files(options, request, attempts);
+  return 0;
+}
+
+} // namespace
+
+void add_design_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<CommandOptions>();
+  CLI::App* command =
+      program.add_subcommand("design", "stiffnesses of a cell for a material, and the lattice's moduli");
+  add_design_options(*command, options->design);
+  command->add_flag("--compare", options->compare, "every method side by side");
+  command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
+      ->excludes("--compare");
+  command->add_flag("--measure", options->measure,
+                    "the errors of the thesis's cube with these designs (solves both models)");
+  command->add_option("--out", options->out, "folder for design.json and the method's figures");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace springproof::compare

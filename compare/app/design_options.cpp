@@ -1,0 +1,135 @@
+#include "compare/app/design_options.hpp"
+
+#include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
+#include "cases/scene/scene.hpp"
+#include "compare/solve/design.hpp"
+
+#include <fstream>
+#include <sstream>
+
+namespace springproof::compare {
+
+namespace {
+
+/// Rivlin's constants as Ogden terms: W = C10 (I1 - 3) + C01 (I2 - 3) is mu = 2 C10 at alpha = 2 and mu = 2
+/// C01 at alpha = -2.
+cases::Ogden rivlin(double c10, double c01) {
+  if (c01 == 0) return {{2 * c10}, {2}, std::nullopt};
+  return {{2 * c10, 2 * c01}, {2, -2}, std::nullopt};
+}
+
+cases::Ogden checked(const cases::Ogden& ogden) {
+  double shear_modulus = 0;
+  for (const double mu : ogden.mu) shear_modulus += mu;
+  if (ogden.mu.size() != ogden.alpha.size())
+    throw cases::InputError("command line: --ogden-mu and --ogden-alpha must be equally many numbers");
+  for (const double alpha : ogden.alpha)
+    if (alpha == 0) throw cases::InputError("command line: --ogden-alpha: none may be 0");
+  if (!(shear_modulus > 0))
+    throw cases::InputError("command line: the initial shear modulus must be positive, it is " +
+                            std::to_string(shear_modulus) + " MPa");
+  return ogden;
+}
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw cases::InputError(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+int n_materials(const DesignOptions& o) {
+  return (o.youngs_modulus != 0) + !o.ogden_mu.empty() + !o.mooney_rivlin.empty() + (o.neo_hookean != 0) +
+         !o.yeoh.empty() + !o.curve_file.empty();
+}
+
+cases::Material material_of(const DesignOptions& o, const std::optional<msm::UniaxialCurve>& curve) {
+  if (n_materials(o) != 1)
+    throw cases::InputError(
+        "command line: give one material: --young with --poisson, --ogden-mu with --ogden-alpha, "
+        "--neo-hookean, --mooney-rivlin, --yeoh, --curve, or --case");
+  if (!o.ogden_mu.empty()) return checked({o.ogden_mu, o.ogden_alpha, std::nullopt});
+  if (o.neo_hookean != 0) return checked({{o.neo_hookean}, {2}, std::nullopt});
+  if (!o.mooney_rivlin.empty()) return checked(rivlin(o.mooney_rivlin.at(0), o.mooney_rivlin.at(1)));
+  if (!o.yeoh.empty()) return checked(rivlin(o.yeoh.at(0), 0)); // its small-strain material is neo-Hookean
+  if (curve) { // the secant of the first strain that is not 0
+    const std::size_t first = curve->axial_strain[0] == 0 ? 1 : 0;
+    const double strain = curve->axial_strain[first];
+    return cases::LinearElastic{curve->stress[first] / strain, -curve->lateral_strain[first] / strain};
+  }
+  if (!(o.poissons_ratio > -1))
+    throw cases::InputError("command line: --poisson: must be given with --young, above -1 and below 0.5");
+  return cases::LinearElastic{o.youngs_modulus, o.poissons_ratio};
+}
+
+std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
+  if (!o.curve_file.empty()) return msm::read_curve(content(o.curve_file), o.curve_file);
+  const double strain =
+      o.largest_strain > 0 ? o.largest_strain : 0.4; // the range of the thesis's Ogden reference
+  if (!o.yeoh.empty()) return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, strain});
+  return std::nullopt;
+}
+
+msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element element) {
+  if (!(o.edge > 0)) throw cases::InputError("command line: --edge: must be positive (mm)");
+  const auto curve = curve_of(o);
+  msm::DesignRequest request =
+      design_request(material_of(o, curve), msm::cube(o.edge), cases::Msm{}, element);
+  request.uniaxial_reference = curve;
+  if (!curve && o.largest_strain > 0)
+    request.uniaxial_reference = msm::uniaxial_reference(request, o.largest_strain);
+  return request;
+}
+
+msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
+  if (n_materials(o) > 0)
+    throw cases::InputError("command line: --case brings its own material; leave the others out");
+  const cases::Scene scene = cases::make_scene(cases::read_case(o.case_file));
+  return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
+                        element);
+}
+
+} // namespace
+
+void add_design_options(CLI::App& command, DesignOptions& o) {
+  command.add_option("--case", o.case_file, "material, cell and method of a case file");
+  command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa");
+  command.add_option("--poisson", o.poissons_ratio, "Poisson's ratio");
+  command.add_option("--edge", o.edge, "edge of the cell, mm")->capture_default_str();
+  command.add_option("--method", o.method, "design method")
+      ->check(CLI::IsMember(cases::all_names<cases::Design>()));
+  command.add_option("--split", o.split, "t of the moduli and hybrid designs, 0 to 1");
+  command.add_option("--element", o.element, "element of the linear method's K_FEM")
+      ->check(CLI::IsMember({"q1", "q1_bbar"}))
+      ->capture_default_str();
+  command.add_option("--ogden-mu", o.ogden_mu, "Ogden's mu_i, MPa");
+  command.add_option("--ogden-alpha", o.ogden_alpha, "Ogden's alpha_i");
+  command.add_option("--neo-hookean", o.neo_hookean, "shear modulus mu, MPa");
+  command.add_option("--mooney-rivlin", o.mooney_rivlin, "C10 and C01, MPa")->expected(2);
+  command.add_option("--yeoh", o.yeoh, "C1, C2, ..., MPa");
+  command.add_option("--curve", o.curve_file,
+                     "measured uniaxial curve, CSV: log strain, Cauchy stress (MPa) [, lateral strain]");
+  command.add_option("--largest-strain", o.largest_strain,
+                     "end of the reference curve's logarithmic strains");
+  command.add_option("--paths", o.paths, "deformations that the multi-load method fits; all when left out")
+      ->check(CLI::IsMember(cases::all_names<cases::LoadPath>()));
+  command.add_option("--strain-range", o.strain_range, "logarithmic strains that the fits cover")
+      ->expected(2);
+  command.add_flag("--springs-only", o.springs_only, "the multi-load method without its volume term");
+}
+
+msm::DesignRequest request_from(const DesignOptions& o) {
+  const cases::Element element = *cases::value_of<cases::Element>(o.element);
+  msm::DesignRequest request = o.case_file.empty() ? from_command_line(o, element) : from_case(o, element);
+  if (!o.method.empty()) request.options.design = *cases::value_of<cases::Design>(o.method);
+  if (o.split != -1) request.options.split = o.split;
+  for (const std::string& path : o.paths)
+    request.options.paths.push_back(*cases::value_of<cases::LoadPath>(path));
+  if (!o.strain_range.empty()) request.options.strain_range = {o.strain_range.at(0), o.strain_range.at(1)};
+  if (o.springs_only) request.options.has_volume_term = false;
+  return request;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "msm/design/design.hpp"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace springproof::compare {
+
+/// How the command line names a material, a cell and a method.
+struct DesignOptions {
+  std::string case_file;
+  double youngs_modulus = 0,
+         poissons_ratio = -2; ///< as if left out: both are required without another material
+  double edge = 1;
+  double split = -1; ///< left out
+  std::string method;
+  std::string element = "q1";
+  std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;
+  double neo_hookean = 0;
+  std::string curve_file;
+  double largest_strain = 0;        ///< left out
+  std::vector<std::string> paths;   ///< of the multi-load method; empty: all
+  std::vector<double> strain_range; ///< two, or left out
+  bool springs_only = false;        ///< the multi-load method without its volume term
+};
+
+void add_design_options(CLI::App& command, DesignOptions& options);
+
+/// @throws InputError for a material that is missing, given twice or has no meaning
+msm::DesignRequest request_from(const DesignOptions& options);
+
+} // namespace springproof::compare

@@ -1,0 +1,102 @@
+#include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
+#include "cases/scene/scene.hpp"
+#include "compare/app/commands.hpp"
+#include "compare/app/design_options.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/write/write_eigen.hpp"
+#include "fem_reference/element_stiffness.hpp"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+struct EigenOptions {
+  DesignOptions design;
+  int n_modes = 20;
+  int body_cells = 0;
+  std::string out;
+  bool json = false;
+};
+
+struct Cell {
+  msm::CellVertices vertices;
+  cases::LinearElastic material;
+  msm::CellMatrix fem, msm;
+};
+
+Cell make_cell(const DesignOptions& options) {
+  const msm::DesignRequest request = request_from(options);
+  cases::LinearElastic material = msm::small_strain_material(request.material);
+  if (!(material.poissons_ratio < 0.5))
+    throw cases::InputError("eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5");
+  const cases::Element element = *cases::value_of<cases::Element>(options.element);
+  return {request.cell, material, fem_reference::element_stiffness(request.cell, material, element),
+          msm::cell_stiffness_matrix(request.cell, msm::design(request).stiffness)};
+}
+
+/// The body whose modes are compared: the case's, or a cube of cells.
+std::optional<cases::HexMesh> body_of(const EigenOptions& options, const Cell& cell) {
+  if (!options.design.case_file.empty())
+    return cases::make_scene(cases::read_case(options.design.case_file)).mesh;
+  if (options.body_cells == 0) return std::nullopt;
+  const double edge = msm::cube_edge(cell.vertices);
+  const int n = options.body_cells;
+  return cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {{n, n, n}});
+}
+
+int run(EigenOptions options) {
+  if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
+    options.design.youngs_modulus = 1;
+  const Cell cell = make_cell(options.design);
+  const int rank = mpi_rank();
+  if (rank != 0) return 0;
+  const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(cell.fem), full_spectrum(cell.msm));
+  const std::optional<cases::HexMesh> body = body_of(options, cell);
+  std::optional<FreeBodyModes> modes;
+  if (body) {
+    if (!body->grid)
+      throw cases::InputError(options.design.case_file + ": free modes are for bodies of equal cells");
+    modes = free_body_modes(assemble(*body, {cell.fem}), assemble(*body, {cell.msm}), options.n_modes);
+  }
+  if (options.json) {
+    nlohmann::ordered_json document{{"schema", 1}, {"poissons_ratio", cell.material.poissons_ratio}};
+    document.update(eigenspaces_to_json(analysis));
+    if (modes) document["free_body"] = free_modes_to_json(*modes);
+    std::cout << document.dump(2) << '\n';
+  } else {
+    write_eigenspaces_text(std::cout, analysis);
+    if (modes) write_free_modes_text(std::cout, *modes);
+  }
+  if (options.out.empty()) return 0;
+  write_eigenspaces_files(options.out, analysis, cell.vertices);
+  if (modes) write_free_modes_files(options.out, *modes, *body);
+  return 0;
+}
+
+} // namespace
+
+void add_eigen_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<EigenOptions>();
+  options->design.edge = 2; // with E = 1: the thesis's cell, whose eigenvalues Table 4.2 prints
+  CLI::App* command = program.add_subcommand(
+      "eigen", "eigenspaces of a cell's two stiffness matrices, and the modes of a whole body");
+  add_design_options(*command, options->design);
+  command
+      ->add_option("--body", options->body_cells, "also the lowest modes of a free cube of N x N x N cells")
+      ->check(CLI::Range(1, 40));
+  command->add_option("--modes", options->n_modes, "how many modes of the body")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  command->add_option("--out", options->out,
+                      "folder for the dot diagram, mode shapes, their pictures and tables");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,176 @@
+#include "compare/app/commands.hpp"
+
+#include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/gates/bless.hpp"
+#include "compare/gates/write.hpp"
+#include "compare/peers/external_side.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/solve/finished.hpp"
+#include "compare/solve/solve_jobs.hpp"
+#include "compare/write/whole_file.hpp"
+#include "compare/write/write_results.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+constexpr int meshes_of_a_study = 3; ///< the fewest that show an order
+
+struct GateOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;
+  std::vector<std::string> bless; ///< names of cases
+  std::string displacements;      ///< file of another simulator's, in place of our springs
+  std::string junit, out;
+  int workers = 0; ///< one per core
+  bool json = false, annotate = false, converge = false;
+};
+
+/// Every case is read, and its mesh and regions looked up, before any is solved.
+std::vector<cases::Case> read_all(const GateOptions& options) {
+  std::vector<cases::Case> definitions;
+  for (const std::string& file : options.files) {
+    definitions.push_back(cases::read_case(file, options.settings));
+    cases::make_scene(definitions.back());
+  }
+  return definitions;
+}
+
+/// @throws InputError for a name that is no case's or has nothing to bless
+void check_blessing(const GateOptions& options, const std::vector<cases::Case>& definitions) {
+  if (!options.bless.empty() && !options.settings.empty())
+    throw cases::InputError("--bless: with --set the values are not those of the case as its file has it");
+  std::vector<std::string> known;
+  for (const cases::Case& definition : definitions) known.push_back(definition.name);
+  for (const std::string& name : options.bless) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw cases::InputError("--bless: is \"" + name +
+                              "\", must be the name of a case given: " + cases::alternatives(known));
+    if (!has_regression(definitions[static_cast<std::size_t>(found - known.begin())]))
+      throw cases::InputError(
+          "--bless: " + name +
+          " has no expectation of reference \"regression\", and no other kind is ever blessed");
+  }
+}
+
+/// All cases solved, side by side; what an earlier command left in the folder of results is taken up.
+std::vector<Comparison> solve_all(const std::vector<cases::Case>& definitions, const Request& request,
+                                  const FinishedCases& finished, int n_workers) {
+  const int rank = mpi_rank();
+  std::vector<Comparison> solved(definitions.size());
+  std::vector<SolveJob> jobs;
+  std::vector<std::size_t> missing;
+  for (std::size_t c = 0; c < definitions.size(); ++c) {
+    if (auto earlier = finished.find(definitions[c], request)) {
+      solved[c] = std::move(*earlier);
+      if (rank == 0)
+        std::cerr << definitions[c].name
+                  << ": solved already, taken from the earlier results in the same folder\n";
+      continue;
+    }
+    missing.push_back(c);
+    jobs.push_back({definitions[c].file, request.settings, request.only});
+  }
+  SolveOptions options;
+  options.n_workers = n_workers;
+  options.on_solved = [&](std::size_t, const Comparison& comparison) {
+    if (rank == 0) finished.keep(comparison, request);
+  };
+  std::vector<Comparison> fresh = solve_jobs(jobs, options, [](int, int) {});
+  for (std::size_t j = 0; j < jobs.size(); ++j) solved[missing[j]] = std::move(fresh[j]);
+  return solved;
+}
+
+/// Adds the reference's own error bar where the user or the case asks for it, unless it is there. Collective.
+void study(Comparison& comparison, const GateOptions& options, const FinishedCases& finished,
+           const Request& request) {
+  const bool is_asked = options.converge || asks_for_mesh_study(comparison.scene.definition);
+  if (!is_asked || comparison.mesh_study) return;
+  comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, meshes_of_a_study);
+  const int rank = mpi_rank();
+  if (rank == 0) finished.keep(comparison, request);
+}
+
+/// Blesses the case if it was named, prints what that changes, and judges it by its new intervals.
+GatedCase judge_or_bless(Comparison& comparison, const GateOptions& options, std::ostream& differences) {
+  GatedCase judged = judge_gates(comparison);
+  if (std::find(options.bless.begin(), options.bless.end(), judged.name) == options.bless.end())
+    return judged;
+  differences << bless(judged);
+  comparison.scene.definition.expectations = cases::read_case(judged.file).expectations;
+  measure_sides(comparison);
+  return judge_gates(comparison);
+}
+
+void write(const GateOptions& options, const std::vector<GatedCase>& judged) {
+  if (options.json)
+    std::cout << gates_to_json(judged).dump(2) << '\n';
+  else
+    write_gates_text(std::cout, judged);
+  if (options.annotate) write_gates_annotations(options.json ? std::cerr : std::cout, judged);
+  if (!options.junit.empty())
+    write_file(options.junit, [&](std::ostream& out) { write_gates_junit(out, judged); });
+}
+
+int gate(const GateOptions& options) {
+  const int rank = mpi_rank();
+  const std::vector<cases::Case> definitions = read_all(options);
+  check_blessing(options, definitions);
+  const auto external = read_external(definitions, options.displacements);
+  const Request request{options.settings, external ? Only::fem : Only::both, 0, ""};
+  const FinishedCases finished(options.out);
+  std::vector<Comparison> solved = solve_all(definitions, request, finished, options.workers);
+  for (Comparison& comparison : solved) {
+    study(comparison, options, finished, request);
+    if (external) take_displacements(comparison, *external);
+  }
+  if (rank != 0) return 0; // the springs' side is on rank 0 alone
+  std::vector<Comparison> done;
+  std::vector<GatedCase> judged;
+  for (Comparison& comparison : solved) {
+    judged.push_back(judge_or_bless(comparison, options, options.json ? std::cerr : std::cout));
+    done.push_back(std::move(comparison));
+    if (!options.out.empty()) write_results(options.out, done);
+  }
+  write(options, judged);
+  return all_met(judged) ? 0 : 1;
+}
+
+} // namespace
+
+void add_gate_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<GateOptions>();
+  CLI::App* command = program.add_subcommand("gate", "judge what each case expects: one line per gate");
+  command->add_option("case", options->files, "case files (TOML)")->required();
+  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--msm-displacements", options->displacements,
+      "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs");
+  command->add_flag(
+      "--converge", options->converge,
+      "the reference's own error bar for every case, not only where one is expected \"converged\"");
+  command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->add_flag("--annotate", options->annotate,
+                    "GitHub's annotations too; with --json they go to standard error");
+  command
+      ->add_option("--bless", options->bless,
+                   "names of cases whose missed regression intervals are moved to the values of now")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out,
+                      "folder for results.json, comparison.csv and fields as .vtu; cases "
+                      "that it holds already are not solved again");
+  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
+      ->check(CLI::Range(1, 1024));
+  command->callback([options, &chosen] { chosen = [options] { return gate(*options); }; });
+}
+
+} // namespace springproof::compare

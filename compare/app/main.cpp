@@ -1,0 +1,59 @@
+#include "cases/case/error.hpp"
+#include "compare/app/commands.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/version.hpp"
+#include "fem_reference/session.hpp"
+
+#include <iostream>
+
+using namespace springproof;
+
+namespace {
+
+enum ExitStatus { wrong_input = 2, internal_error = 3 };
+
+enum class BlasWarning { give, withhold };
+
+int run_action(const compare::Action& action, BlasWarning warning) {
+  const fem_reference::Session session;
+  compare::use_one_blas_thread();
+  if (session.rank() == 0 && warning == BlasWarning::give && !compare::blas_is_openblas())
+    std::cerr
+        << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
+           "(install libopenblas0-pthread)\n";
+  try {
+    return action();
+  } catch (const cases::InputError& error) {
+    session.give_up(error.what(), wrong_input);
+    return wrong_input;
+  } catch (const std::exception& error) {
+    session.give_up(std::string("springproof: internal error: ") + error.what(), internal_error);
+    return internal_error;
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{"springproof: mass-spring models of soft tissue against finite elements, measured"};
+  program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
+  program.require_subcommand(1);
+  compare::Action chosen;
+  compare::add_run_command(program, chosen);
+  compare::add_gate_command(program, chosen);
+  compare::add_new_command(program, chosen);
+  compare::add_design_command(program, chosen);
+  compare::add_eigen_command(program, chosen);
+  compare::add_stress_command(program, chosen);
+  compare::add_sweep_command(program, chosen);
+  compare::add_tables_command(program, chosen);
+  compare::add_worker_command(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = program.exit(error);
+    return status == 0 ? 0 : wrong_input;
+  }
+  // A worker's parent has given the warning.
+  return run_action(chosen, program.got_subcommand("worker") ? BlasWarning::withhold : BlasWarning::give);
+}

@@ -1,0 +1,94 @@
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
+#include "compare/app/commands.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/thesis/published.hpp"
+#include "compare/write/whole_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace springproof::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewOptions {
+  std::string name;
+  std::string template_name = "box";
+};
+
+/// A case file of cases/templates is named like the template, and may have one other file beside it.
+fs::path templates() {
+  return fs::path(cases_folder()) / "templates";
+}
+const std::string placeholder = "TEMPLATE";
+
+std::vector<std::string> template_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(templates()))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The template's text, about a case of another name.
+std::string filled(const fs::path& file, const std::string& name) {
+  std::string text = read_file(file);
+  for (std::size_t at = 0; (at = text.find(placeholder, at)) != std::string::npos; at += name.size())
+    text.replace(at, placeholder.size(), name);
+  return text;
+}
+
+void check_name(const std::string& name) {
+  const bool is_clean =
+      !name.empty() && name.front() != '.' && name.front() != '-' &&
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+          std::string::npos;
+  if (!is_clean)
+    throw cases::InputError(
+        "new: \"" + name +
+        "\" is no name: letters, digits, _ - and . make one, and the file is NAME.toml in "
+        "this folder");
+}
+
+int write_new_case(const NewOptions& options) {
+  check_name(options.name);
+  const std::vector<std::string> known = template_names();
+  if (std::find(known.begin(), known.end(), options.template_name) == known.end())
+    throw cases::InputError("new: there is no template \"" + options.template_name + "\", allowed are " +
+                            cases::alternatives(known));
+  std::vector<std::pair<fs::path, fs::path>> copies; // from, to
+  for (const auto& entry : fs::directory_iterator(templates()))
+    if (entry.path().stem() == options.template_name)
+      copies.emplace_back(entry.path(), options.name + entry.path().extension().string());
+  std::sort(copies.begin(), copies.end());
+  for (const auto& [from, to] : copies)
+    if (fs::exists(fs::symlink_status(to)))
+      throw cases::InputError("new: " + to.string() + " exists, and nothing is overwritten");
+  const int rank = mpi_rank();
+  if (rank != 0) return 0;
+  for (const auto& [from, to] : copies) {
+    const std::string text = filled(from, options.name);
+    write_file(to.string(), [&](std::ostream& out) { out << text; });
+    std::cout << "wrote " << to.string() << '\n';
+  }
+  std::cout << "next: springproof run " << options.name << ".toml\n";
+  return 0;
+}
+
+} // namespace
+
+void add_new_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<NewOptions>();
+  CLI::App* command = program.add_subcommand("new", "write a commented case file to start from");
+  command->add_option("name", options->name, "of the case; the file is NAME.toml")->required();
+  command->add_option("--template", options->template_name, "box | layers | mesh | voxels")
+      ->capture_default_str();
+  command->callback([options, &chosen] { chosen = [options] { return write_new_case(*options); }; });
+}
+
+} // namespace springproof::compare

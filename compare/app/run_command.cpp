@@ -1,0 +1,106 @@
+#include "compare/app/commands.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "compare/peers/external_side.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/solve/finished.hpp"
+#include "compare/write/write.hpp"
+#include "compare/write/write_results.hpp"
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;
+  std::string only = "both";
+  std::string out;
+  int meshes = 0;            ///< of the study of the finite elements' own error; 0: none
+  std::string peer;          ///< a program that is asked too; empty: none
+  std::string displacements; ///< file of another simulator's, in place of our springs
+  bool json = false;
+};
+
+Only parse_only(const std::string& word) {
+  if (word == "fem") return Only::fem;
+  if (word == "msm") return Only::msm;
+  return Only::both;
+}
+
+/// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
+Comparison answer(const cases::Case& definition, const Request& request, const FinishedCases& finished) {
+  const int rank = mpi_rank();
+  if (auto earlier = finished.find(definition, request)) {
+    if (rank == 0)
+      std::cerr << definition.name << ": solved already, taken from the earlier results in the same folder\n";
+    return *earlier;
+  }
+  Comparison comparison = compare_case(definition, request.only);
+  if (request.meshes > 0)
+    comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, request.meshes);
+  if (!request.peer.empty() && rank == 0) ask_calculix(comparison);
+  if (rank == 0) finished.keep(comparison, request);
+  return comparison;
+}
+
+int run(const RunOptions& options) {
+  std::vector<cases::Case>
+      definitions; // all are read before any is solved: a mistake in the last costs nothing
+  for (const std::string& file : options.files)
+    definitions.push_back(cases::read_case(file, options.settings));
+  const int rank = mpi_rank();
+  const auto external = read_external(definitions, options.displacements);
+  const Request request{options.settings, external ? Only::fem : parse_only(options.only), options.meshes,
+                        options.peer};
+  const FinishedCases finished(options.out);
+  std::vector<Comparison> done;
+  bool failed = false;
+  for (const cases::Case& definition : definitions) {
+    done.push_back(answer(definition, request, finished));
+    if (external) take_displacements(done.back(), *external);
+    failed = failed || done.back().failed();
+    if (rank != 0) continue;
+    if (!options.json) write_text(std::cout, done.back());
+    if (!options.out.empty()) write_results(options.out, done);
+  }
+  if (rank == 0 && options.json) std::cout << to_json(done).dump(2) << '\n';
+  return failed ? 1 : 0;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "solve both sides of each case and print the comparison");
+  command->add_option("case", options->files, "case files (TOML)")->required();
+  command
+      ->add_option("--set", options->settings,
+                   "override a key: material.poissons_ratio=0.3, load[0].value=[0,0,1]")
+      ->allow_extra_args(false);
+  CLI::Option* only = command->add_option("--only", options->only, "solve one side")
+                          ->check(CLI::IsMember({"both", "fem", "msm"}));
+  command
+      ->add_flag(
+          "--converge{3}", options->meshes,
+          "solve the finite elements on N uniformly refined meshes (--converge=4; 3 by itself): error bars")
+      ->check(CLI::Range(3, 6));
+  command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
+      ->check(CLI::IsMember({"ccx"}));
+  command
+      ->add_option(
+          "--msm-displacements", options->displacements,
+          "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
+      ->excludes(only);
+  command->add_option("--out", options->out,
+                      "folder for results.json, comparison.csv and fields as .vtu; cases "
+                      "that it holds already are not solved again");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,117 @@
+#include "compare/app/commands.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/thesis/published.hpp"
+#include "compare/write/whole_file.hpp"
+#include "compare/write/write_stress.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StressOptions {
+  std::vector<std::string> names;
+  std::string out;
+  int n_threads = 1;
+  bool all = false;
+  bool json = false;
+};
+
+fs::path hard_cases() {
+  return fs::path(cases_folder()) / "hard";
+}
+
+/// Files of all hard cases, in the order of their names.
+std::vector<std::string> all_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(hard_cases()))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// @param name  of a file in cases/hard, without its ending, or a path
+std::string file_of(const std::string& name) {
+  if (fs::path(name).extension() == ".toml") return name;
+  const fs::path file = hard_cases() / (name + ".toml");
+  if (fs::exists(file)) return file.string();
+  std::vector<std::string> known;
+  for (const std::string& path : all_files()) known.push_back(fs::path(path).stem().string());
+  const auto nearest = cases::nearest_name(name, known);
+  throw cases::InputError(
+      "stress: there is no hard case \"" + name + "\"" +
+      (nearest ? "; did you mean \"" + *nearest + "\"?"
+               : ", allowed are " + cases::alternatives(known) + ", or the path of a .toml file"));
+}
+
+/// Every case is read before any is solved. Without names, the heavy ones are left out unless all are asked
+/// for.
+std::vector<cases::HardCase> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
+  std::vector<std::string> files;
+  for (const std::string& name : options.names) files.push_back(file_of(name));
+  if (files.empty()) files = all_files();
+  std::vector<cases::HardCase> hard;
+  for (const std::string& file : files) {
+    cases::HardCase next = cases::read_hard_case(file);
+    if (next.is_heavy && options.names.empty() && !options.all)
+      skipped.push_back(next.definition.name);
+    else
+      hard.push_back(std::move(next));
+  }
+  return hard;
+}
+
+/// Finished results are on disk before the next case starts.
+void write_results(const std::string& folder, const std::vector<StressResult>& results,
+                   const std::vector<std::string>& skipped) {
+  write_file(folder + "/stress.txt", [&](std::ostream& out) {
+    for (const StressResult& result : results) write_stress_text(out, result);
+    write_stress_summary(out, results, skipped);
+  });
+  write_file(folder + "/stress.json",
+             [&](std::ostream& out) { out << stress_to_json(results, skipped).dump(2) << '\n'; });
+}
+
+int run(const StressOptions& options) {
+  const int rank = mpi_rank();
+  std::vector<std::string> skipped;
+  std::vector<StressResult> results;
+  bool met = true;
+  for (const cases::HardCase& hard_case : read_all(options, skipped)) {
+    results.push_back(stress(hard_case, options.n_threads));
+    met = met && results.back().met();
+    if (rank != 0) continue;
+    if (!options.json) write_stress_text(std::cout, results.back());
+    if (!options.out.empty()) write_results(options.out, results, skipped);
+  }
+  if (rank != 0) return 0; // the springs' rows are rank 0's
+  if (options.json)
+    std::cout << stress_to_json(results, skipped).dump(2) << '\n';
+  else
+    write_stress_summary(std::cout, results, skipped);
+  return met ? 0 : 1;
+}
+
+} // namespace
+
+void add_stress_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<StressOptions>();
+  CLI::App* command = program.add_subcommand("stress", "the hard cases: does each end as it must?");
+  command->add_option("case", options->names,
+                      "names of hard cases, or paths of their files; all but the heavy ones when left out");
+  command->add_flag("--all", options->all, "the heavy ones too");
+  command->add_option("--threads", options->n_threads, "of the springs' solver on grids of cells")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out", options->out, "folder for stress.txt and stress.json");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,86 @@
+#include "compare/app/commands.hpp"
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/stopwatch.hpp"
+#include "compare/report/write_report.hpp"
+#include "compare/thesis/regenerate.hpp"
+#include "compare/thesis/write.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace springproof::compare {
+
+namespace {
+
+struct TablesOptions {
+  std::vector<std::string> tables;
+  std::string out;
+  int workers = 0; ///< one per core
+  bool json = false, trace = false;
+};
+
+void show_progress(int done, int all) {
+  constexpr int width = 40;
+  std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}",
+                           std::string(static_cast<std::size_t>(width * done / all), '#'), width, done, all,
+                           done == all ? "\n" : "");
+}
+
+void write_times(const std::vector<PhaseTime>& times) {
+  for (const PhaseTime& time : times)
+    std::cerr << fmt::format("{:<44} {:>8.2f} s\n", time.phase, time.seconds);
+}
+
+int tables(const TablesOptions& options) {
+  const int rank = mpi_rank();
+  const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
+  SolveOptions solving;
+  solving.n_workers = options.workers;
+  ThesisResults results = regenerate(options.tables, solving, [&](int done, int all) {
+    if (is_on_terminal) show_progress(done, all);
+  });
+  if (rank != 0) return 0; // the springs' side is on rank 0 alone
+  const auto lacks_value = [](const ComputedFigure& c) { return !c.value; };
+  const bool failed = std::any_of(results.entries.begin(), results.entries.end(), [&](const TableEntry& e) {
+    return std::any_of(e.computed.begin(), e.computed.end(), lacks_value);
+  });
+  Stopwatch stopwatch;
+  if (options.json)
+    std::cout << results_to_json(results).dump(2) << '\n';
+  else
+    write_tables_text(std::cout, results, options.trace ? Commands::all : Commands::one_per_table);
+  if (!options.out.empty()) write_thesis_files(options.out, results);
+  results.times.push_back({"writing", stopwatch.lap()});
+  if (!options.out.empty()) {
+    const std::vector<Figure> figures = draw_figures(options.out + "/figures", results);
+    results.times.push_back({"figures", stopwatch.lap()});
+    write_report(options.out, results, figures);
+    results.times.push_back({"report", stopwatch.lap()});
+  }
+  write_times(results.times);
+  return failed;
+}
+
+} // namespace
+
+void add_tables_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<TablesOptions>();
+  CLI::App* command =
+      program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
+  command->add_option("table", options->tables,
+                      "numbers of tables; without any: all, designs and advice too");
+  command->add_option(
+      "--out", options->out,
+      "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
+  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--trace", options->trace, "the command that repeats it under every number");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  command->callback([options, &chosen] { chosen = [options] { return tables(*options); }; });
+}
+
+} // namespace springproof::compare

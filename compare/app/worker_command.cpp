@@ -1,0 +1,24 @@
+#include "compare/app/commands.hpp"
+#include "compare/solve/process_pool.hpp"
+#include "compare/solve/solve_jobs.hpp"
+#include "compare/sweep/time_variant.hpp"
+
+#include <memory>
+
+namespace springproof::compare {
+
+void add_worker_command(CLI::App& program, Action& chosen) {
+  CLI::App* command = program.add_subcommand("worker", "solves what its parent process asks for");
+  command->group(""); // not for users: left out of the help
+  auto is_timing = std::make_shared<bool>(false);
+  command->add_flag("--timing", *is_timing, "variants of a sweep in place of cases");
+  command->callback([is_timing, &chosen] {
+    end_with_parent();
+    chosen = [is_timing] {
+      serve_jobs(*is_timing ? answer_variant : answer_job);
+      return 0;
+    };
+  });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,133 @@
+#include "compare/measure/measure.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace springproof::compare {
+
+using cases::MeasureKind;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+struct Configuration {
+  const cases::Scene& scene;
+  const cases::Solution& solution;
+  Vector3d rest(int node) const { return scene.mesh.nodes[static_cast<std::size_t>(node)]; }
+  Vector3d displacement(int node) const { return solution.displacement[static_cast<std::size_t>(node)]; }
+  Vector3d deformed(int node) const { return rest(node) + displacement(node); }
+  int node(const cases::Region& region) const { return cases::select_node(scene.mesh, region); }
+};
+
+double component_of(const Vector3d& vector, cases::Component component) {
+  return component == cases::Component::norm ? vector.norm() : vector[static_cast<int>(component)];
+}
+
+double tilt(const cases::Measure& measure, const Configuration& at) {
+  const Vector3d edge = at.deformed(at.node(measure.top)) - at.deformed(at.node(measure.bottom));
+  return degrees_per_radian *
+         std::atan2(edge[static_cast<int>(measure.toward)], edge[static_cast<int>(measure.axis)]);
+}
+
+double twist(const cases::Measure& measure, const Configuration& at) {
+  const int node = at.node(measure.node), centre = at.node(measure.centre);
+  const Vector3d axis = Vector3d::Unit(static_cast<int>(measure.axis));
+  const auto across = [&](const Vector3d& v) { return Vector3d(v - axis.dot(v) * axis); };
+  const Vector3d before = across(at.rest(node) - at.rest(centre));
+  const Vector3d after = across(at.deformed(node) - at.deformed(centre));
+  return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
+}
+
+/// Root of the mean of |u|² over the cells at rest, by 2x2x2 Gauss.  @param field  one vector per node
+double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
+  double integral = 0, volume = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    // A point of the 2x2x2 rule stands for an eighth of its cell here, which is exact for parallelepipeds.
+    const double weight = cases::cell_volume(cases::cell_vertices(mesh, c)) / 8;
+    for (int q = 0; q < 8; ++q) {
+      Vector3d value = Vector3d::Zero();
+      for (int v = 0; v < 8; ++v) {
+        double shape = 1;
+        for (int a = 0; a < 3; ++a) shape *= 0.5 + (((q ^ v) >> a) & 1 ? -0.5 : 0.5) / std::sqrt(3.0);
+        value += shape * field[static_cast<std::size_t>(mesh.cells[c][static_cast<std::size_t>(v)])];
+      }
+      integral += weight * value.squaredNorm();
+      volume += weight;
+    }
+  }
+  return std::sqrt(integral / volume);
+}
+
+double largest(const std::vector<Vector3d>& field) {
+  double norm = 0;
+  for (const Vector3d& value : field) norm = std::max(norm, value.norm());
+  return norm;
+}
+
+double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
+  return kind == MeasureKind::displacement_field_l2 ? root_mean_square(mesh, field) : largest(field);
+}
+
+} // namespace
+
+bool is_field_norm(MeasureKind kind) {
+  return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
+}
+
+double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
+  const Configuration at{scene, solution};
+  switch (measure.kind) {
+  case MeasureKind::coordinate:
+    return at.deformed(at.node(measure.node))[static_cast<int>(measure.axis)];
+  case MeasureKind::displacement:
+    return component_of(at.displacement(at.node(measure.node)), measure.component);
+  case MeasureKind::tilt:
+    return tilt(measure, at);
+  case MeasureKind::twist:
+    return twist(measure, at);
+  case MeasureKind::volume:
+    return std::accumulate(solution.cell_volume.begin(), solution.cell_volume.end(), 0.0);
+  case MeasureKind::displacement_field_l2:
+  case MeasureKind::displacement_field_max:
+    return field_norm(measure.kind, scene.mesh, solution.displacement);
+  }
+  return std::nan(""); // not reached: every kind is above
+}
+
+std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
+                                            const cases::Solution& fem, const cases::Solution& msm) {
+  if (!is_field_norm(measure.kind))
+    return error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm));
+  std::vector<Vector3d> difference;
+  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n)
+    difference.push_back(msm.displacement[n] - fem.displacement[n]);
+  const double size = evaluate(measure, scene, fem);
+  const double distance = field_norm(measure.kind, scene.mesh, difference);
+  return error_percent(size,
+                       size + distance); // (size + distance - size)/size, with its care for a zero field
+}
+
+std::string unit_of(const cases::Measure& measure) {
+  switch (measure.kind) {
+  case MeasureKind::tilt:
+  case MeasureKind::twist:
+    return "deg";
+  case MeasureKind::volume:
+    return "mm3";
+  default:
+    return "mm";
+  }
+}
+
+std::optional<double> error_percent(double fem, double msm) {
+  const double error = (msm - fem) / fem * 100;
+  // A reference that is zero but for rounding has no relative error.
+  if (!std::isfinite(error) || !(std::abs(fem) > 1e-9 * std::abs(msm))) return std::nullopt;
+  return error;
+}
+
+} // namespace springproof::compare

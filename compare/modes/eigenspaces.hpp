@@ -1,0 +1,50 @@
+#pragma once
+
+#include "compare/modes/spectrum.hpp"
+
+#include <optional>
+#include <vector>
+
+/// The eigenspace analysis of thesis section 4.2.2: which subspaces of displacement two stiffness matrices
+/// treat alike. All answers depend on the spaces alone, not on the basis a solver returns inside a multiple
+/// eigenvalue.
+namespace springproof::compare {
+
+struct Eigenspace {
+  double eigenvalue; ///< mean of the cluster, N/mm
+  int offset;        ///< first of its columns in the ascending spectrum
+  int dimension;
+};
+
+/// Neighbouring eigenvalues less than 1e-6 of the largest apart belong to one eigenspace.
+std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending);
+
+/// An FEM and an MSM eigenspace of the same dimension that span the same subspace.
+struct Equivalence {
+  int fem_space, msm_space; ///< indices from 0
+  int distance;             ///< d_i: difference of the two spaces' offsets
+};
+
+struct EigenspaceAnalysis {
+  Spectrum fem, msm;
+  std::vector<Eigenspace> fem_spaces, msm_spaces;
+  std::vector<Equivalence> equivalent; ///< ascending FEM space
+  /// coupling(i, j) = |V_i^T W_j|_F² / dim V_i: the share of FEM space i that lies in MSM space j. Rows and,
+  /// weighted by the dimensions, columns sum to one.
+  Eigen::MatrixXd coupling;
+  double h; ///< thesis eq. 4.25
+};
+
+/// Spaces are equivalent when the smallest singular value of V^T W exceeds 1 - 1e-6;
+///   h = sum over equivalent FEM spaces i (from 1) of (i/N) / (d_i + 1),  N the number of FEM eigenspaces.
+EigenspaceAnalysis analyse_eigenspaces(Spectrum fem, Spectrum msm);
+
+/// Columns of a spectrum that span one of its eigenspaces.
+Eigen::MatrixXd basis(const Spectrum& spectrum, const Eigenspace& space);
+
+/// An orthonormal basis that depends on the subspace alone: the projector's columns by greatest remaining
+/// length (the first of equals), orthonormalised, each with its largest component positive. For pictures that
+/// do not change with the solver.
+Eigen::MatrixXd canonical_basis(const Eigen::MatrixXd& basis);
+
+} // namespace springproof::compare

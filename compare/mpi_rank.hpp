@@ -1,8 +1,0 @@
-#pragma once
-
-namespace compare {
-
-/// This process's number in MPI's world; 0 for a process alone. MPI must have been started.
-int mpi_rank();
-
-} // namespace compare

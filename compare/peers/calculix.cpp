@@ -1,0 +1,251 @@
+#include "compare/peers/calculix.hpp"
+
+#include "cases/case/names.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <fstream>
+#include <sstream>
+
+namespace springproof::compare {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+namespace {
+
+/// C3D8 goes around the bottom of a cell, then around its top; our vertex v = i + 2j + 4k.
+constexpr std::array<std::size_t, 8> c3d8_vertex{0, 1, 3, 2, 4, 5, 7, 6};
+
+/// CalculiX takes a residual below 1e-6 for zero, in whatever unit. Forces in millionths of a newton (and
+/// moduli likewise) put that far below what its convergence is controlled by; displacements do not change.
+constexpr double force_unit = 1e6;
+
+/// Fields of CalculiX's input are 20 characters wide at most.
+std::string number(double value) {
+  return fmt::format("{:.12e}", value);
+}
+
+/// A folder in the system's place for temporary files, removed with everything in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "springproof-ccx-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw cases::InputError(name + ": the folder cannot be made");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
+  fmt::print(out, "*NODE, NSET=NALL\n");
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const Vector3d& x = mesh.nodes[n];
+    fmt::print(out, "{}, {}, {}, {}\n", n + 1, number(x[0]), number(x[1]), number(x[2]));
+  }
+  fmt::print(out, "*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    fmt::print(out, "{}", c + 1);
+    for (const std::size_t v : c3d8_vertex) fmt::print(out, ", {}", mesh.cells[c][v] + 1);
+    fmt::print(out, "\n");
+  }
+}
+
+void write_supports(std::ostream& out, const cases::Scene& scene) {
+  const std::vector<bool> fixed = cases::fixed_degrees_of_freedom(scene);
+  fmt::print(out, "*BOUNDARY\n");
+  for (std::size_t d = 0; d < fixed.size(); ++d)
+    if (fixed[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
+}
+
+void write_loads(std::ostream& out, const cases::Scene& scene) {
+  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
+  fmt::print(out, "*CLOAD\n");
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    for (int a = 0; a < 3; ++a)
+      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
+}
+
+} // namespace
+
+std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
+  if (!definition.moved.empty()) return "its input has no moved regions";
+  if (!definition.region_materials.empty()) return "its input has one material";
+  const cases::Fem& fem = definition.fem;
+  const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
+                               fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  if (has_formulation && fem.element == cases::Element::q1) return std::nullopt;
+  return fmt::format("CalculiX has small_strain and saint_venant_kirchhoff with element q1, not {} with {}",
+                     cases::name_of(fem.formulation), cases::name_of(fem.element));
+}
+
+void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
+  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
+  const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  fmt::print(out, "*HEADING\n{}\n", scene.definition.name);
+  write_mesh(out, scene.mesh);
+  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
+             number(material.poissons_ratio));
+  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
+  write_supports(out, scene);
+  // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
+  // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
+  // digits it prints.
+  if (is_nonlinear)
+    fmt::print(out, "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n"
+                    "*STATIC\n1., 1.\n");
+  else
+    fmt::print(out, "*STEP\n*STATIC\n");
+  write_loads(out, scene);
+  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
+}
+
+namespace {
+
+/// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
+/// displacement but a zero.
+double fortran_number(const std::string& field) {
+  return field.find('E') == std::string::npos ? 0 : std::strtod(field.c_str(), nullptr);
+}
+
+/// A line of ten columns for the node and fourteen for each component; nothing if it is another line.
+std::optional<std::pair<std::size_t, Vector3d>> read_node_line(const std::string& line) {
+  if (line.size() < 52) return std::nullopt;
+  const std::string node = line.substr(0, 10);
+  if (node.find_first_not_of(" 0123456789") != std::string::npos) return std::nullopt;
+  Vector3d u;
+  for (int a = 0; a < 3; ++a) u[a] = fortran_number(line.substr(10 + 14 * static_cast<std::size_t>(a), 14));
+  return std::pair(static_cast<std::size_t>(std::strtoul(node.c_str(), nullptr, 10)), u);
+}
+
+} // namespace
+
+CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
+  CalculixOutput output;
+  std::vector<bool> seen(n_nodes);
+  bool is_displacement = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("displacements") != std::string::npos) {
+      is_displacement = true;
+      output.displacement.assign(n_nodes, Vector3d::Zero());
+      seen.assign(n_nodes, false);
+      const std::size_t time = line.find("time");
+      if (time != std::string::npos) output.load_reached = std::strtod(line.c_str() + time + 4, nullptr);
+      continue;
+    }
+    const auto entry = is_displacement ? read_node_line(line) : std::nullopt;
+    if (!entry || entry->first < 1 || entry->first > n_nodes) continue;
+    output.displacement[entry->first - 1] = entry->second;
+    seen[entry->first - 1] = true;
+  }
+  if (seen.empty() || std::find(seen.begin(), seen.end(), false) != seen.end())
+    throw cases::SolveError("CalculiX printed no displacement for some node", 0, 0);
+  return output;
+}
+
+namespace {
+
+/// Newton iterations of all increments, from the .sta file: step, increment, attempt, iterations, ...
+int count_iterations(std::istream& in) {
+  int total = 0;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    int step, increment, attempt, iterations;
+    if (words >> step >> increment >> attempt >> iterations) total += iterations;
+  }
+  return total;
+}
+
+std::string last_error(std::istream& in) {
+  std::string error;
+  for (std::string line; std::getline(in, line);)
+    if (line.find("*ERROR") != std::string::npos) error = line.substr(line.find("*ERROR"));
+  return error.empty() ? "it gave no reason" : error;
+}
+
+/// Volume of a cell whose strains are small: rest volume times one plus the trace. The volume is cubic in the
+/// displacement, so that central differences of two steps give its linear part exactly.
+double linear_volume(const cases::HexMesh& mesh, std::size_t cell,
+                     const std::vector<Vector3d>& displacement) {
+  const auto rest = cases::cell_vertices(mesh, cell),
+             deformed = cases::cell_vertices(mesh, cell, displacement);
+  const auto volume_at = [&](double factor) {
+    std::array<Vector3d, 8> vertices;
+    for (std::size_t v = 0; v < 8; ++v) vertices[v] = rest[v] + factor * (deformed[v] - rest[v]);
+    return cases::cell_volume(vertices);
+  };
+  return volume_at(0) + (8 * (volume_at(1) - volume_at(-1)) - (volume_at(2) - volume_at(-2))) / 12;
+}
+
+/// Volumes of the body's cells, each the sum of its descendants, which refinement numbers one after another.
+std::vector<double> body_cell_volumes(const cases::Scene& scene, const cases::Scene& refined,
+                                      const std::vector<Vector3d>& displacement) {
+  const bool is_linear = scene.definition.fem.formulation == cases::Formulation::small_strain;
+  const std::size_t n_children = refined.mesh.cells.size() / scene.mesh.cells.size();
+  std::vector<double> volumes(scene.mesh.cells.size(), 0.0);
+  for (std::size_t c = 0; c < refined.mesh.cells.size(); ++c)
+    volumes[c / n_children] += is_linear
+                                   ? linear_volume(refined.mesh, c, displacement)
+                                   : cases::cell_volume(cases::cell_vertices(refined.mesh, c, displacement));
+  return volumes;
+}
+
+cases::Solution skipped(const std::string& message) {
+  cases::Solution solution;
+  solution.message = message;
+  return solution;
+}
+
+} // namespace
+
+cases::Solution solve_with_calculix(const cases::Scene& scene) {
+  if (const auto reason = reason_without_calculix(scene.definition)) return skipped(*reason);
+  if (std::system("command -v ccx >/dev/null 2>&1") != 0) return skipped("CalculiX (ccx) is not installed");
+  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
+  const TemporaryFolder folder;
+  {
+    std::ofstream input(folder.path() / "case.inp");
+    write_calculix_input(input, refined);
+  }
+  const std::string command = "cd '" + folder.path().string() +
+                              "' && OMP_NUM_THREADS=1 CCX_NPROC_EQUATION_SOLVER=1 ccx -i case >ccx.log 2>&1";
+  const int status = std::system(command.c_str());
+  std::ifstream log(folder.path() / "ccx.log"), data(folder.path() / "case.dat"),
+      progress(folder.path() / "case.sta");
+  const std::string error = last_error(log);
+  if (status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error, 0, 0);
+  const CalculixOutput output = read_calculix_output(data, refined.mesh.nodes.size());
+  if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
+    throw cases::SolveError("CalculiX stopped: " + error, output.load_reached, 0);
+
+  cases::Solution solution;
+  solution.status = cases::Status::converged;
+  solution.load_reached = 1;
+  solution.newton_iterations = count_iterations(progress);
+  const std::vector<bool> fixed = cases::fixed_degrees_of_freedom(refined);
+  solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
+  // Refinement keeps the numbers of the body's own nodes.
+  solution.displacement.assign(output.displacement.begin(),
+                               output.displacement.begin() +
+                                   static_cast<std::ptrdiff_t>(scene.mesh.nodes.size()));
+  solution.cell_volume = body_cell_volumes(scene, refined, output.displacement);
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, c, solution.displacement)) > 0))
+      ++solution.inverted_cells;
+  return solution;
+}
+
+} // namespace springproof::compare

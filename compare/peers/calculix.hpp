@@ -1,0 +1,40 @@
+#pragma once
+
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
+
+#include <optional>
+#include <ostream>
+#include <string>
+
+/// CalculiX, an independent finite-element program, as a third opinion on a case. Its element C3D8 is the
+/// fully integrated trilinear hexahedron: linear in a static step it is our small_strain q1, with NLGEOM our
+/// saint_venant_kirchhoff q1.
+namespace springproof::compare {
+
+/// Why CalculiX cannot be asked about this case; nothing if it can.
+std::optional<std::string> reason_without_calculix(const cases::Case& definition);
+
+/// CalculiX's input: the mesh refined as the case's finite elements are, supports by degree of freedom, and
+/// all loads as the nodal forces that ours are equivalent to. Node n and cell c of the mesh are n + 1 and c +
+/// 1 there; mm, N, MPa.
+/// @param scene  already refined
+void write_calculix_input(std::ostream& out, const cases::Scene& scene);
+
+/// The last displacements of a CalculiX .dat file (mm), and the part of the load they belong to.
+struct CalculixOutput {
+  std::vector<Eigen::Vector3d> displacement;
+  double load_reached = 0;
+};
+
+/// Reads what *NODE PRINT leaves in a .dat file: seven digits a component.
+/// @throws SolveError if a node has no displacement in the last block, or there is no block
+CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes);
+
+/// Runs `ccx` in a temporary folder, one thread. Skipped, with the reason as its message, when there is no
+/// such program or it cannot express the case; residual and linear iterations stay 0, for CalculiX does not
+/// tell them.
+/// @throws SolveError when it stops before the full load
+cases::Solution solve_with_calculix(const cases::Scene& scene);
+
+} // namespace springproof::compare

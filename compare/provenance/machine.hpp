@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace springproof::compare {
+
+/// What a timing depends on.
+struct Machine {
+  std::string processor;
+  int cores;
+  std::string system;   ///< "Linux 6.1 x86_64"
+  std::string compiler; ///< that built this program
+  std::string blas;     ///< OpenBLAS' own description, or "not OpenBLAS"
+};
+
+Machine describe_machine();
+
+/// The most memory that this process has had resident, in units of 10^6 bytes; nothing where the system does
+/// not tell.
+std::optional<double> peak_resident_megabytes();
+
+/// Whether the BLAS that this process loaded is OpenBLAS.
+bool blas_is_openblas();
+
+/// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
+void use_one_blas_thread();
+
+} // namespace springproof::compare

@@ -1,0 +1,220 @@
+#include "compare/solve/process_pool.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace springproof::compare {
+
+namespace {
+
+std::system_error system_error(int code, const std::string& what) {
+  return {code, std::generic_category(), what};
+}
+
+/// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
+/// take itself for this process, and may have done so before main(): the system keeps the first state.
+const std::vector<std::string>& initial_environment() {
+  static const std::vector<std::string> variables = [] {
+    std::ifstream kept("/proc/self/environ", std::ios::binary);
+    std::vector<std::string> copies;
+    for (std::string variable; std::getline(kept, variable, '\0');) copies.push_back(variable);
+    return copies;
+  }();
+  return variables;
+}
+
+/// Pointers into the words, with a null at the end, as the system wants them.
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> result;
+  for (std::string& word : words) result.push_back(word.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// Answers are framed as "ok N\n" or "failed N\n" and N bytes.
+std::string frame(const JobAnswer& answer) {
+  const std::string& content = answer.bytes ? *answer.bytes : answer.reason;
+  return fmt::format("{} {}\n", answer.bytes ? "ok" : "failed", content.size()) + content;
+}
+
+std::optional<JobAnswer> unframe(const std::string& received) {
+  const std::size_t end_of_line = received.find('\n');
+  if (end_of_line == std::string::npos) return std::nullopt;
+  const std::size_t blank = received.find(' ');
+  const std::size_t size = std::stoul(received.substr(blank + 1));
+  if (received.size() < end_of_line + 1 + size) return std::nullopt;
+  const std::string content = received.substr(end_of_line + 1, size);
+  if (received.substr(0, blank) == "ok") return JobAnswer{content, ""};
+  return JobAnswer{std::nullopt, content};
+}
+
+std::string describe_end(int status) {
+  if (WIFSIGNALED(status))
+    return fmt::format("its process was ended by signal {} ({})", WTERMSIG(status),
+                       strsignal(WTERMSIG(status)));
+  return fmt::format("its process ended with status {} and no answer", WEXITSTATUS(status));
+}
+
+/// One worker process; it ends with this object, at once if it is at work.
+class Worker {
+ public:
+  explicit Worker(const std::vector<std::string>& command) {
+    // A socket and not two pipes, so that writing to a worker that has died is an error and no signal.
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw system_error(errno, "no socket for a worker");
+    socket_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    std::vector<std::string> words = command, variables = initial_environment();
+    const int error = posix_spawnp(&process_, words.front().c_str(), &actions, nullptr,
+                                   pointers(words).data(), pointers(variables).data());
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (error == 0) return;
+    close(socket_);
+    throw system_error(error, "the worker '" + command.front() + "' cannot be started");
+  }
+  ~Worker() {
+    if (process_ > 0 && job_) kill(process_, SIGKILL);
+    close(socket_);
+    if (process_ > 0) waitpid(process_, nullptr, 0);
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  int socket() const { return socket_; }
+  std::optional<std::size_t> job() const { return job_; }
+
+  /// A worker that has died by now does not read the job: read() will say so.
+  void give(std::size_t index, const std::string& job) {
+    job_ = index;
+    const std::string line = job + "\n";
+    for (std::size_t sent = 0; sent < line.size();) {
+      const ssize_t n = send(socket_, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      sent += static_cast<std::size_t>(n);
+    }
+  }
+
+  struct News {
+    std::optional<JobAnswer> answer; ///< of the job it had
+    bool has_ended;
+  };
+  /// Waits for the next bytes of the answer.
+  News read() {
+    char block[1 << 16];
+    const ssize_t n = ::read(socket_, block, sizeof block);
+    if (n < 0 && errno == EINTR) return {std::nullopt, false};
+    if (n <= 0) {
+      int status = 0;
+      waitpid(process_, &status, 0);
+      process_ = 0;
+      return {JobAnswer{std::nullopt, describe_end(status)}, true};
+    }
+    received_.append(block, static_cast<std::size_t>(n));
+    std::optional<JobAnswer> answer = unframe(received_);
+    if (answer) {
+      received_.clear();
+      job_.reset();
+    }
+    return {answer, false};
+  }
+
+ private:
+  pid_t process_ = 0;
+  int socket_ = -1;
+  std::string received_;
+  std::optional<std::size_t> job_;
+};
+
+} // namespace
+
+std::vector<JobAnswer>
+run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+                 const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
+  std::vector<JobAnswer> answers(jobs.size());
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::size_t next = 0;
+  const auto employ = [&](std::unique_ptr<Worker>& worker) {
+    worker.reset();
+    if (next == jobs.size()) return;
+    worker = std::make_unique<Worker>(pool.worker);
+    worker->give(next, jobs[next]);
+    ++next;
+  };
+  workers.resize(std::min(jobs.size(), static_cast<std::size_t>(std::max(1, pool.n_workers))));
+  for (auto& worker : workers) employ(worker);
+
+  for (std::size_t n_answered = 0; n_answered < jobs.size();) {
+    std::vector<pollfd> sockets; // poll() passes over a negative one
+    for (const auto& worker : workers) sockets.push_back({worker ? worker->socket() : -1, POLLIN, 0});
+    if (poll(sockets.data(), sockets.size(), -1) < 0 && errno != EINTR)
+      throw system_error(errno, "waiting for the workers");
+    for (std::size_t w = 0; w < workers.size(); ++w) {
+      if (!workers[w] || sockets[w].revents == 0) continue;
+      const std::size_t job = *workers[w]->job();
+      Worker::News news = workers[w]->read();
+      if (!news.answer) continue;
+      answers[job] = std::move(*news.answer);
+      ++n_answered;
+      on_done(job, answers[job]);
+      if (news.has_ended || next == jobs.size())
+        employ(workers[w]);
+      else {
+        workers[w]->give(next, jobs[next]);
+        ++next;
+      }
+    }
+  }
+  return answers;
+}
+
+bool is_under_mpi_launcher() {
+  for (const std::string& variable : initial_environment())
+    for (const char* mark : {"OMPI_COMM_WORLD_SIZE=", "PMI_SIZE=", "PMI_RANK=", "PMIX_RANK="})
+      if (variable.rfind(mark, 0) == 0) return true;
+  return false;
+}
+
+void end_with_parent() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+void serve_jobs(const std::function<std::string(const std::string& job)>& work) {
+  // Libraries that print must not print into an answer.
+  const int answers = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  for (std::string job; std::getline(std::cin, job);) {
+    JobAnswer answer;
+    try {
+      answer.bytes = work(job);
+    } catch (const std::exception& error) {
+      answer.reason = error.what();
+    }
+    const std::string bytes = frame(answer);
+    for (std::size_t written = 0; written < bytes.size();) {
+      const ssize_t n = write(answers, bytes.data() + written, bytes.size() - written);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return;
+      written += static_cast<std::size_t>(n);
+    }
+  }
+}
+
+} // namespace springproof::compare

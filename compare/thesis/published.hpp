@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The thesis's printed figures, read from cases/published/.
+namespace springproof::compare {
+
+/// One printed figure: an error of tables 4.5 to 5.4 or of figure 5.12, a volume of table 5.2, or a figure of
+/// one cell in tables 4.1 to 4.3 (test "cell").
+struct PublishedFigure {
+  std::string table;     ///< "4.5"
+  std::string material;  ///< "linear_elastic" or "ogden"
+  double poissons_ratio; ///< of the finite-element reference
+  std::string design;    ///< "linear_method" or "nonlinear_method"
+  double design_poissons_ratio;
+  std::string load_set; ///< "small" or "large"; empty for the bar and the cell
+  std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ..., "cell"
+  /// "L_1" ... "beta_2", "volume", "deflection"; of a cell "edge", "face_diagonal", "internal_diagonal" (k'
+  /// of eq. 4.21), "fem_eigenvalue_2", "msm_multiplicity_1" (numbered from 1), "h"
+  std::string measure;
+  std::string unit; ///< "%" for an error, "mm3" for the volume of the springs' body, "N/mm", or "1"
+  double value;
+};
+
+/// Folder of the case files and data that come with the program; the environment variable SPRINGPROOF_CASES
+/// moves it.
+std::string cases_folder();
+
+/// All figures of cases/published, table by table.
+/// @throws InputError naming the file when a row is broken
+std::vector<PublishedFigure> read_published_figures();
+
+/// Largest change of a cell's volume without outliers, percent, for a load set; section 5.3.1.3.
+double published_cell_volume_change(const std::string& load_set);
+
+/// k_e, k_f, k_d in whole N/m where the thesis prints them for this design of the 1 mm cell, else nothing.
+std::optional<std::array<double, 3>>
+published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio);
+
+/// Rows of a comma-separated file without its header, every row as wide as the header.  @throws InputError
+std::vector<std::vector<std::string>> read_csv(const std::string& path);
+
+} // namespace springproof::compare

@@ -1,0 +1,37 @@
+#include "compare/write/write.hpp"
+
+#include "cases/case/names.hpp"
+#include "compare/write/csv_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+namespace springproof::compare {
+
+namespace {
+
+std::string field(const std::optional<double>& value) {
+  return value ? fmt::format("{:.10g}", *value) : "";
+}
+
+std::optional<double> discretisation_error(const Comparison& comparison, std::size_t measure) {
+  return comparison.mesh_study ? comparison.mesh_study->measures[measure].discretisation_error_percent
+                               : std::nullopt;
+}
+
+} // namespace
+
+void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
+  fmt::print(out, "case,measure,unit,fem,msm,error_percent,fem_status,msm_status,fem_discretisation_error_"
+                  "percent,peer\n");
+  for (const Comparison& c : comparisons)
+    for (std::size_t i = 0; i < c.measures.size(); ++i) {
+      const MeasuredValue& m = c.measures[i];
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", csv_text(c.scene.definition.name), csv_text(m.name),
+                 m.unit, field(m.fem), field(m.msm), field(m.error_percent),
+                 cases::name_of(c.fem.solution.status), cases::name_of(c.msm.solution.status),
+                 field(discretisation_error(c, i)), field(m.peer));
+    }
+}
+
+} // namespace springproof::compare

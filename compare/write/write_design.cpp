@@ -1,0 +1,164 @@
+#include "compare/write/write_design.hpp"
+
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/whole_file.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// An end of the search is a bound, not a limit that was found.
+std::string limit(double found, double end) {
+  return found == end ? fmt::format("beyond {:.2f}", end) : fmt::format("{:.3f}", found);
+}
+
+std::string percent(const std::optional<double>& error) {
+  return error ? fmt::format("{:+.2f}", *error) : "failed";
+}
+
+void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
+  const CubeErrors* any = nullptr;
+  for (const DesignAttempt& a : attempts)
+    if (a.cube) any = &*a.cube;
+  if (!any) return;
+  fmt::print(out, "\nerrors on the cube, %\n{:<17}", "");
+  for (const CubeError& m : any->measures) {
+    const std::string load_set = m.test.find("large") == std::string::npos ? "" : "L ";
+    fmt::print(out, "{:>10}", load_set + m.measure);
+  }
+  fmt::print(out, "{:>8}{:>8}\n", "worst", "stable");
+  for (const DesignAttempt& a : attempts) {
+    if (!a.cube) continue;
+    fmt::print(out, "{:<17}", a.name);
+    for (const CubeError& m : a.cube->measures) fmt::print(out, "{:>10}", percent(m.error_percent));
+    const auto worst = a.cube->worst();
+    fmt::print(out, "{:>8}{:>8}\n", worst ? fmt::format("{:.2f}", *worst) : "-",
+               a.cube->is_stable ? "yes" : "NO");
+  }
+}
+
+Json cube_to_json(const CubeErrors& cube) {
+  Json measures = Json::array();
+  for (const CubeError& m : cube.measures) {
+    measures.push_back({{"case", m.test}, {"measure", m.measure}});
+    measures.back()["error_percent"] = m.error_percent ? Json(*m.error_percent) : Json(nullptr);
+    if (!m.error_percent) measures.back()["message"] = m.message;
+  }
+  const auto worst = cube.worst(), volume = cube.worst_volume();
+  return {{"worst_error_percent", worst ? Json(*worst) : Json(nullptr)},
+          {"worst_volume_error_percent", volume ? Json(*volume) : Json(nullptr)},
+          {"stable", cube.is_stable},
+          {"measures", measures}};
+}
+
+} // namespace
+
+void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
+  const msm::DesignResult& design = *attempt.design;
+  const msm::CellStiffness& k = design.stiffness;
+  const msm::LatticeModuli& m = design.moduli;
+  fmt::print(out, "{}\n  k_e, k_f, k_d    {:.6g}, {:.6g}, {:.6g} N/m\n", attempt.name, 1e3 * k.edge,
+             1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
+  if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
+  fmt::print(out, "  lattice          C11 {:.6g}, C12 {:.6g}, C44 {:.6g} MPa, Zener ratio {:.4f}\n", m.c11,
+             m.c12, m.c44, m.zener);
+  fmt::print(out, "  along its axes   E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus,
+             m.poissons_ratio, m.shear_modulus);
+  if (attempt.stability)
+    fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n",
+               limit(attempt.stability->stretch, msm::search_ends.stretch),
+               limit(attempt.stability->compression, msm::search_ends.compression),
+               limit(attempt.stability->shear, msm::search_ends.shear));
+  for (const std::string& warning : design.warnings) fmt::print(out, "  WARNING: {}\n", warning);
+  write_cube_errors(out, {attempt});
+}
+
+void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
+  fmt::print(out, "{:<17}{:>9}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>12}{:>13}{:>13}\n", "method", "k_e N/m",
+             "k_f", "k_d", "k_v MPa", "E MPa", "nu", "G MPa", "Zener", "residual", "stretch", "compression");
+  for (const DesignAttempt& a : attempts) {
+    if (!a.design) {
+      fmt::print(out, "{:<17}refused: {}\n", a.name, a.refusal);
+      continue;
+    }
+    const msm::CellStiffness& k = a.design->stiffness;
+    const msm::LatticeModuli& m = a.design->moduli;
+    fmt::print(out,
+               "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
+               a.name, 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal, k.volume,
+               m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
+               a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-",
+               a.stability ? limit(a.stability->stretch, msm::search_ends.stretch) : "-",
+               a.stability ? limit(a.stability->compression, msm::search_ends.compression) : "-");
+    for (const std::string& warning : a.design->warnings) fmt::print(out, "  WARNING: {}\n", warning);
+  }
+  write_cube_errors(out, attempts);
+}
+
+Json moduli_to_json(const msm::LatticeModuli& moduli) {
+  return {{"C11", finite_or_null(moduli.c11)},
+          {"C12", finite_or_null(moduli.c12)},
+          {"C44", finite_or_null(moduli.c44)},
+          {"zener", finite_or_null(moduli.zener)},
+          {"youngs_modulus", finite_or_null(moduli.youngs_modulus)},
+          {"poissons_ratio", finite_or_null(moduli.poissons_ratio)},
+          {"shear_modulus", finite_or_null(moduli.shear_modulus)}};
+}
+
+Json attempt_to_json(const DesignAttempt& attempt) {
+  if (!attempt.design) return {{"method", attempt.name}, {"refused", attempt.refusal}};
+  const msm::DesignResult& design = *attempt.design;
+  const msm::CellStiffness& k = design.stiffness;
+  Json document{{"method", attempt.name},
+                {"stiffness_N_per_m", {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal}},
+                {"volume_stiffness_MPa", k.volume},
+                {"residual", design.residual ? finite_or_null(*design.residual) : Json(nullptr)},
+                {"moduli", moduli_to_json(design.moduli)},
+                {"warnings", design.warnings},
+                {"stability", nullptr}};
+  if (attempt.stability)
+    document["stability"] = {{"stretch", attempt.stability->stretch},
+                             {"compression", attempt.stability->compression},
+                             {"simple_shear", attempt.stability->shear},
+                             {"searched",
+                              {{"stretch", msm::search_ends.stretch},
+                               {"compression", msm::search_ends.compression},
+                               {"simple_shear", msm::search_ends.shear}}}};
+  if (attempt.cube) document["cube"] = cube_to_json(*attempt.cube);
+  return document;
+}
+
+void plot_pareto_front(const std::string& folder, const std::vector<DesignAttempt>& attempts) {
+  const std::vector<bool> front = on_pareto_front(attempts);
+  write_file(folder + "/pareto.csv", [&](std::ostream& out) {
+    fmt::print(out, "# design,worst_error_percent,stable_strain,on_front\n");
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+      const DesignAttempt& a = attempts[i];
+      if (a.cube && a.cube->worst() && a.stability)
+        fmt::print(out, "{},{:.6g},{:.6g},{}\n", a.name, *a.cube->worst(), stable_strain(*a.stability),
+                   front[i] ? 1 : 0);
+    }
+  });
+  draw(folder, "pareto",
+       "set key top left\nset logscale x\nset xlabel 'worst error on the cube, %'\nset ylabel 'logarithmic "
+       "strain to which the "
+       "lattice is stable'\nset offsets graph 0.1, graph 0.3, graph 0.1, graph 0.1\n"
+       "plot 'pareto.csv' using 2:($4 == 0 ? $3 : 1/0) with points pt 6 lc rgb '#777777' title 'dominated', "
+       "'' using 2:($4 == 1 ? $3 : 1/0) with points pt 7 ps 1.3 lc rgb '#D55E00' title 'Pareto front', "
+       "'' using 2:3:(stringcolumn(1)) with labels left offset 1,0 font ',9' notitle\n",
+       900, 600);
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "compare/modes/eigenspaces.hpp"
+#include "compare/modes/free_modes.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <string>
+
+namespace springproof::compare {
+
+void write_eigenspaces_text(std::ostream& out, const EigenspaceAnalysis& analysis);
+void write_free_modes_text(std::ostream& out, const FreeBodyModes& modes);
+
+/// h, fem, msm, equivalent (spaces numbered from 1, as in the thesis) and coupling.
+nlohmann::ordered_json eigenspaces_to_json(const EigenspaceAnalysis& analysis);
+nlohmann::ordered_json free_modes_to_json(const FreeBodyModes& modes);
+
+/// One panel of a dot diagram.
+struct DotDiagram {
+  std::string title;
+  const EigenspaceAnalysis* analysis;
+};
+
+/// Dot diagrams side by side as NAME.csv, .svg and .png (thesis figure 4.11 and appendix A).
+void plot_dot_diagrams(const std::string& folder, const std::string& name,
+                       const std::vector<DotDiagram>& panels);
+
+/// Into a folder: the dot diagram of thesis appendix A (dot_diagram.csv, .svg, .png), coupling.csv, the
+/// shapes of all eigenspaces of both cells (fem_modes.vtu, msm_modes.vtu) and as picture sheets
+/// (fem_modes.svg, ... ; thesis figures 4.9 and 4.10).
+/// @param vertices  of the cell, mm
+void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
+                             const msm::CellVertices& vertices);
+
+/// Into a folder: the body's modes side by side, body_modes.csv and body_modes.vtu, and their plot.
+void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
+                            const cases::HexMesh& mesh);
+
+} // namespace springproof::compare

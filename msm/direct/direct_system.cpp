@@ -1,0 +1,239 @@
+#include "msm/direct/direct_system.hpp"
+
+#include "msm/lanczos.hpp"
+#include "msm/tangent.hpp"
+
+#include <Eigen/CholmodSupport>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <omp.h>
+
+namespace springproof::msm {
+
+namespace {
+
+/// While it lives, OpenMP's parallel regions have one thread. CHOLMOD asks for four of its own accord,
+/// whatever OMP_NUM_THREADS says; on two cores that took three to five times as long as one.
+class OneThread {
+ public:
+  OneThread() { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_ = omp_get_max_active_levels();
+};
+
+/// CHOLMOD with METIS' nested dissection, which on lattices of cells fills in a third of what minimum degree
+/// does.
+class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
+ public:
+  using CholmodSupernodalLLT::info;
+  Factorisation() {
+    cholmod().nmethods = 1;
+    cholmod().method[0].ordering = CHOLMOD_METIS;
+    cholmod().print = 0;
+  }
+
+  void analyse(const Tangent::Matrix& matrix) {
+    const OneThread one;
+    analyzePattern(matrix);
+  }
+  void factorise(const Tangent::Matrix& matrix, double shift) {
+    const OneThread one;
+    setShift(shift);
+    factorize(matrix);
+  }
+  Vector solution(const Vector& right_side) const {
+    const OneThread one;
+    return solve(right_side);
+  }
+
+  /// The smallest of pivot over diagonal entry: how much of a diagonal entry elimination leaves. Rounding
+  /// leaves about 1e-16 where nothing should be left.
+  double smallest_pivot_ratio(const Vector& diagonal) const {
+    const cholmod_factor& factor = *m_cholmodFactor;
+    const auto *super = static_cast<const int*>(factor.super), *pi = static_cast<const int*>(factor.pi),
+               *px = static_cast<const int*>(factor.px), *permutation = static_cast<const int*>(factor.Perm);
+    const auto* values = static_cast<const double*>(factor.x);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < factor.nsuper; ++s) {
+      const int n_rows = pi[s + 1] - pi[s];
+      for (int column = super[s]; column < super[s + 1]; ++column) {
+        const double root = values[px[s] + (column - super[s]) * (n_rows + 1)];
+        smallest = std::min(smallest, root * root / diagonal[permutation[column]]);
+      }
+    }
+    return smallest;
+  }
+};
+
+class DirectSystem : public EquilibriumSystem {
+ public:
+  explicit DirectSystem(const Problem& problem)
+      : problem_(problem), tangent_(problem.lattice, problem.is_fixed),
+        load_(on_free(to_vector(problem, problem.force))) {
+    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
+  }
+
+  const Vector& load() const override { return load_; }
+
+  Vector imbalance(const Vector& displacement, double load_factor) override {
+    ++work_.force_evaluations;
+    return load_factor * load_ +
+           on_free(to_vector(problem_, internal_force(problem_.lattice, positions(displacement))));
+  }
+
+  double potential(const Vector& displacement, double load_factor) override {
+    return energy(problem_.lattice, positions(displacement)) - load_factor * load_.dot(displacement);
+  }
+
+  std::optional<Vector> direction(const Vector& displacement, const Vector& imbalance, double,
+                                  Convexity convexity) override {
+    const TransverseTerm term =
+        convexity == Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
+    const double shift =
+        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
+    if (!factorise(displacement, term, shift)) return std::nullopt;
+    const Vector step = with_supports(factorisation_.solution(imbalance.head(tangent_.n_free())));
+    if (!step.allFinite() || !(step.dot(imbalance) > 0)) return std::nullopt;
+    return step;
+  }
+
+  bool is_stable(const Vector& displacement) override {
+    return factorise(displacement, TransverseTerm::exact, 0);
+  }
+
+  /// Lanczos on the inverse, shifted until the tangent is positive definite.
+  Mode lowest_mode(const Vector& displacement) override {
+    double shift = 0;
+    while (!factorise(displacement, TransverseTerm::exact, shift))
+      shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
+    const auto apply = [&](const Vector& v) { return factorisation_.solution(v); };
+    LargestMode mode = largest_mode(apply, tangent_.n_free());
+    return {1 / mode.eigenvalue - shift, with_supports(mode.shape)};
+  }
+
+  bool is_mechanism() override {
+    const Vector rest = Vector::Zero(load_.size());
+    if (factorise(rest, TransverseTerm::exact, 0))
+      return !(factorisation_.smallest_pivot_ratio(diagonal_) > rounding);
+    // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
+    return factorise(rest, TransverseTerm::exact, rounding * diagonal_.cwiseAbs().maxCoeff());
+  }
+
+  int n_inverted(const Vector& displacement) override {
+    const Points moved = to_points(problem_, displacement);
+    int n = 0;
+    for (std::size_t c = 0; c < problem_.mesh.cells.size(); ++c)
+      if (!(cases::smallest_corner_jacobian(cases::cell_vertices(problem_.mesh, c, moved)) > 0)) ++n;
+    return n;
+  }
+
+  bool moves_supports() const override { return bool(problem_.supports); }
+
+  void move_supports(Vector& displacement, double load_factor) const override {
+    if (!problem_.supports) return;
+    const Vector there = to_vector(problem_, problem_.supports(load_factor));
+    displacement.tail(there.size() - tangent_.n_free()) = there.tail(there.size() - tangent_.n_free());
+  }
+
+  double reaction(const Vector& displacement) override {
+    const Points force = internal_force(problem_.lattice, positions(displacement));
+    double squared = 0;
+    for (std::size_t d = 0; d < problem_.is_fixed.size(); ++d)
+      if (problem_.is_fixed[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
+    return std::sqrt(squared);
+  }
+
+  Work work() const override { return work_; }
+
+ private:
+  static constexpr double rounding = 1e-12; ///< far above 1e-16, far below 1e-8, the least honest pivot seen
+
+  const Problem& problem_;
+  Tangent tangent_;
+  Vector load_, diagonal_;
+  Factorisation factorisation_;
+  Vector factorised_at_; ///< empty: nothing is factorised
+  TransverseTerm factorised_term_{};
+  double factorised_shift_ = 0;
+  bool is_definite_ = false;
+  Work work_;
+
+  /// A vector of forces: 0 on supports.
+  Vector on_free(Vector all) const {
+    all.tail(all.size() - tangent_.n_free()).setZero();
+    return all;
+  }
+  /// A vector of the free degrees of freedom, and 0 on supports.
+  Vector with_supports(const Vector& free) const {
+    Vector all = Vector::Zero(load_.size());
+    all.head(free.size()) = free;
+    return all;
+  }
+
+  Points positions(const Vector& displacement) const {
+    Points moved = to_points(problem_, displacement);
+    for (std::size_t p = 0; p < moved.size(); ++p) moved[p] += problem_.lattice.rest[p];
+    return moved;
+  }
+
+  /// Factorises tangent + shift unless that is what is there. @return whether it is positive definite
+  bool factorise(const Vector& displacement, TransverseTerm term, double shift) {
+    if (factorised_at_.size() > 0 && factorised_at_ == displacement && factorised_term_ == term &&
+        factorised_shift_ == shift)
+      return is_definite_;
+    const Tangent::Matrix& matrix = tangent_.assemble(positions(displacement), term);
+    diagonal_ = matrix.diagonal();
+    factorisation_.factorise(matrix, shift);
+    ++work_.factorisations;
+    factorised_at_ = displacement;
+    factorised_term_ = term;
+    factorised_shift_ = shift;
+    is_definite_ = factorisation_.info() == Eigen::Success;
+    return is_definite_;
+  }
+};
+
+} // namespace
+
+std::unique_ptr<EquilibriumSystem> make_direct_system(const Problem& problem) {
+  return std::make_unique<DirectSystem>(problem);
+}
+
+namespace {
+
+/// Calls action(degree of freedom 3*point + component, its place in a vector).
+template<class Action>
+void for_each_entry(const Problem& problem, const Action& action) {
+  Eigen::Index next = 0;
+  for (const bool held : {false, true}) {
+    if (held && !problem.supports) return;
+    for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
+      if (problem.is_fixed[d] == held) action(d, next++);
+  }
+}
+
+} // namespace
+
+Points to_points(const Problem& problem, const Vector& vector) {
+  Points points(problem.is_fixed.size() / 3, Eigen::Vector3d::Zero());
+  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
+    points[d / 3][static_cast<int>(d % 3)] = vector[place];
+  });
+  return points;
+}
+
+Vector to_vector(const Problem& problem, const Points& points) {
+  const auto n_free = std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false);
+  Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_fixed.size()) : n_free);
+  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
+    vector[place] = points[d / 3][static_cast<int>(d % 3)];
+  });
+  return vector;
+}
+
+} // namespace springproof::msm

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "msm/equilibrium.hpp"
+#include "msm/problem.hpp"
+
+#include <memory>
+
+namespace springproof::msm {
+
+/// Any lattice as Newton's method sees it: assembled sparse tangent, factorised by CHOLMOD. Vectors have one
+/// entry per free degree of freedom, points in order and components together.
+/// @param problem  must outlive the system
+std::unique_ptr<EquilibriumSystem> make_direct_system(const Problem& problem);
+
+/// Between vectors of a direct system and one displacement (mm) per point.
+Points to_points(const Problem& problem, const Vector& free);
+Vector to_vector(const Problem& problem, const Points& points);
+
+} // namespace springproof::msm

@@ -1,0 +1,84 @@
+#include "cases/mesh/find_grid.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace springproof;
+
+using namespace cases;
+
+namespace {
+
+/// The same body with nodes and cells in another order and every cell turned about the z axis by a quarter:
+/// i' = j, j' = 1 - i.
+HexMesh shuffled(const HexMesh& mesh) {
+  std::mt19937 random(1);
+  std::vector<int> place(mesh.nodes.size());
+  for (std::size_t n = 0; n < place.size(); ++n) place[n] = static_cast<int>(n);
+  std::shuffle(place.begin(), place.end(), random);
+  HexMesh other;
+  other.nodes.resize(mesh.nodes.size());
+  for (std::size_t n = 0; n < place.size(); ++n)
+    other.nodes[static_cast<std::size_t>(place[n])] = mesh.nodes[n];
+  for (const auto& cell : mesh.cells) {
+    std::array<int, 8> turned{};
+    for (std::size_t v = 0; v < 8; ++v) {
+      const std::size_t i = v & 1, j = (v >> 1) & 1, k = v >> 2;
+      turned[j + 2 * (1 - i) + 4 * k] = place[static_cast<std::size_t>(cell[v])];
+    }
+    other.cells.push_back(turned);
+  }
+  std::shuffle(other.cells.begin(), other.cells.end(), random);
+  return other;
+}
+
+Grid l_shape_at_a_distance() {
+  Grid grid;
+  grid.cells = {3, 2, 2};
+  grid.spacing = {1, 0.5, 0.3};
+  grid.origin = {-1, 2, 0.1};
+  grid.present = {true, false, true, true, true, true, true, false, false, true, false, false};
+  return grid;
+}
+
+} // namespace
+
+TEST_CASE("a grid is found again however its cells are numbered and turned") {
+  for (const Grid& grid : {l_shape_at_a_distance(), Grid{{2, 3, 4}, {0.1, 0.1, 0.1}, {0, 0, 0}, {}}}) {
+    const HexMesh original = make_grid_mesh(grid);
+    HexMesh mesh = shuffled(original);
+    REQUIRE(find_grid(mesh));
+    CHECK(mesh.grid->cells == grid.cells);
+    CHECK(mesh.grid->spacing.isApprox(grid.spacing, 1e-14)); // a few rounding errors of the coordinates
+    CHECK(mesh.grid->origin.isApprox(grid.origin, 1e-14));
+    CHECK(mesh.grid->present == grid.present);
+    REQUIRE(mesh.cells.size() == original.cells.size());
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (std::size_t v = 0; v < 8; ++v) CHECK(cell_vertices(mesh, c)[v] == cell_vertices(original, c)[v]);
+  }
+}
+
+TEST_CASE("groups follow their cells into the grid's order") {
+  HexMesh mesh = make_box_mesh({3, 1, 1}, {3, 1, 1});
+  mesh.grid.reset();
+  std::swap(mesh.cells[0], mesh.cells[2]);
+  mesh.group_of_cell = {"right", "middle", "left"};
+  REQUIRE(find_grid(mesh));
+  CHECK(mesh.group_of_cell == std::vector<std::string>{"left", "middle", "right"});
+}
+
+TEST_CASE("cells that are unequal, distorted or off the axes are no grid") {
+  const HexMesh box = make_box_mesh({2, 2, 2}, {2, 2, 2});
+  HexMesh unequal = box, distorted = box, turned = box;
+  for (auto& node : unequal.nodes)
+    if (node.x() == 1) node.x() = 0.9;
+  distorted.nodes[13].z() += 1e-6;
+  for (auto& node : turned.nodes)
+    node = {0.8 * node.x() - 0.6 * node.y(), 0.6 * node.x() + 0.8 * node.y(), node.z()};
+  for (HexMesh mesh : {unequal, distorted, turned}) {
+    mesh.grid.reset();
+    CHECK_FALSE(find_grid(mesh));
+    CHECK_FALSE(mesh.grid.has_value());
+  }
+}

@@ -1,0 +1,233 @@
+#include "cases/mesh/read_mesh.hpp"
+
+#include "cases/scene/scene.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <unistd.h>
+
+using namespace springproof;
+
+using namespace cases;
+namespace fs = std::filesystem;
+
+namespace {
+
+HexMesh read_text_as_mesh(const std::string& name, const std::string& text) {
+  const TemporaryFolder folder;
+  return read_mesh({folder.write(name, text), {"case.toml", 6, 8, "body.file"}});
+}
+
+HexMesh read_thesis_mesh(const std::string& name) {
+  return read_mesh({std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/geo/" + name, {}});
+}
+
+using Points = std::vector<std::array<double, 3>>;
+
+const Points gmsh_cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+/// A .msh of one volume whose cells are of one gmsh type; node tags 1, 2, ... and cell tags 101, 102, ...
+std::string msh(const Points& points, int type, const std::vector<std::vector<int>>& cells) {
+  std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 9 9 9 0 0\n$EndEntities\n";
+  text += fmt::format("$Nodes\n1 {0} 1 {0}\n3 1 0 {0}\n", points.size());
+  for (std::size_t n = 1; n <= points.size(); ++n) text += fmt::format("{}\n", n);
+  for (const auto& p : points) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
+  text += fmt::format("$EndNodes\n$Elements\n1 {0} 101 {1}\n3 1 {2} {0}\n", cells.size(), 100 + cells.size(),
+                      type);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    text += std::to_string(101 + c);
+    for (const int node : cells[c]) text += " " + std::to_string(node);
+    text += "\n";
+  }
+  return text + "$EndElements\n";
+}
+
+Points shifted(Points points, double by) {
+  for (auto& p : points) p[0] += by;
+  return points;
+}
+
+template<class T>
+std::vector<T> operator+(std::vector<T> a, const std::vector<T>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// The nodes of one mesh as numbers of the other's, found by where they lie; every node has its own partner.
+std::vector<int> matching_nodes(const HexMesh& mesh, const HexMesh& other) {
+  std::vector<int> partner;
+  for (const auto& node : mesh.nodes) {
+    int found = -1;
+    for (std::size_t n = 0; n < other.nodes.size(); ++n)
+      // gmsh finds the points that divide a line by numerical integration: 2e-11 off on 16 mm
+      if ((other.nodes[n] - node).norm() < 1e-10) found = static_cast<int>(n);
+    partner.push_back(found);
+  }
+  return partner;
+}
+
+/// Same nodes, same cells, whatever their order.
+void check_same_mesh(const HexMesh& mesh, const HexMesh& box) {
+  REQUIRE(mesh.nodes.size() == box.nodes.size());
+  REQUIRE(mesh.cells.size() == box.cells.size());
+  const std::vector<int> partner = matching_nodes(mesh, box);
+  CHECK(std::set<int>(partner.begin(), partner.end()).size() == box.nodes.size());
+  CHECK(std::count(partner.begin(), partner.end(), -1) == 0);
+  std::set<std::set<int>> cells, box_cells;
+  for (const auto& cell : box.cells) box_cells.insert({cell.begin(), cell.end()});
+  for (const auto& cell : mesh.cells) {
+    std::set<int> nodes;
+    for (const int node : cell) nodes.insert(partner[static_cast<std::size_t>(node)]);
+    cells.insert(nodes);
+  }
+  CHECK(cells == box_cells);
+}
+
+void check_same_selection(const HexMesh& mesh, const std::string& group, const HexMesh& box,
+                          const std::string& faces) {
+  INFO(group);
+  const std::vector<int> partner = matching_nodes(mesh, box);
+  const auto to_box = [&](int node) { return partner[static_cast<std::size_t>(node)]; };
+  const Selection selected = select(mesh, {group, std::nullopt, {}});
+  const Selection expected = select(box, {faces, std::nullopt, {}});
+  std::set<int> nodes;
+  for (const int node : selected.nodes) nodes.insert(to_box(node));
+  CHECK(nodes == std::set<int>(expected.nodes.begin(), expected.nodes.end()));
+  std::set<std::set<int>> edges, expected_edges;
+  for (const auto& e : selected.edges) edges.insert({to_box(e[0]), to_box(e[1])});
+  for (const auto& e : expected.edges) expected_edges.insert({e[0], e[1]});
+  CHECK(edges == expected_edges);
+  CHECK(edges.size() == selected.edges.size());
+  // A face may begin at any of its vertices, but goes around them in the same sense.
+  const auto canonical = [](std::array<int, 4> face) {
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    return face;
+  };
+  std::set<std::array<int, 4>> around, expected_around;
+  for (const auto& f : selected.faces)
+    around.insert(canonical({to_box(f[0]), to_box(f[1]), to_box(f[2]), to_box(f[3])}));
+  for (const auto& f : expected.faces) expected_around.insert(canonical(f));
+  CHECK(around == expected_around);
+}
+
+void check_refused(const std::string& name, const std::string& text, const std::string& reason) {
+  INFO(reason);
+  CHECK_THROWS_AS(read_text_as_mesh(name, text), InputError);
+  CHECK_THROWS_WITH(read_text_as_mesh(name, text),
+                    Catch::StartsWith("case.toml:6:8: body.file: ") && Catch::Contains(reason));
+}
+
+} // namespace
+
+TEST_CASE("the vertices of a hexahedron of gmsh are put where ours belong") {
+  const HexMesh mesh = read_text_as_mesh("one.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
+  REQUIRE(mesh.cells.size() == 1);
+  for (int v = 0; v < 8; ++v) {
+    const int node = mesh.cells[0][static_cast<std::size_t>(v)];
+    CHECK(mesh.nodes[static_cast<std::size_t>(node)] == Eigen::Vector3d(v & 1, (v >> 1) & 1, v >> 2));
+  }
+  CHECK(mesh.groups.empty());
+  CHECK(mesh.group_of_cell.empty());
+}
+
+TEST_CASE("the thesis's cube, drawn and extruded, is the box of the same cells", "[verification]") {
+  const HexMesh mesh = read_thesis_mesh("cube.geo");
+  const HexMesh box = make_box_mesh({10, 10, 10}, {10, 10, 10});
+  check_same_mesh(mesh, box);
+  check_same_selection(mesh, "bottom", box, "z-");
+  check_same_selection(mesh, "top", box, "z+");
+  check_same_selection(mesh, "top edge y = 0", box, "z+ y-");
+  check_same_selection(mesh, "top edge x = 10", box, "z+ x+");
+  check_same_selection(mesh, "top vertex", box, "z+ x- y-");
+  check_same_selection(mesh, "x- y+", box, "x- y+"); // faces of the bounding box are regions of a mesh too
+  CHECK(mesh.group_of_cell == std::vector<std::string>(1000, "tissue"));
+  CHECK(mesh.groups.at("tissue").nodes.size() == 1331);
+}
+
+TEST_CASE("the thesis's bar, drawn and divided by transfinite interpolation, is the box of the same cells",
+          "[verification]") {
+  const HexMesh mesh = read_thesis_mesh("bar.geo");
+  const HexMesh box = make_box_mesh({4, 4, 16}, {4, 4, 16});
+  check_same_mesh(mesh, box);
+  REQUIRE(mesh.grid.has_value());
+  CHECK(mesh.grid->cells == std::array<int, 3>{4, 4, 16});
+  check_same_selection(mesh, "clamped end", box, "z-");
+  check_same_selection(mesh, "free end", box, "z+");
+  check_same_selection(mesh, "bottom edge", box, "z+ x-");
+  check_same_selection(mesh, "bottom vertex", box, "x- y- z+");
+}
+
+TEST_CASE("a case on a drawn mesh has the loads of the case on the box", "[verification]") {
+  Case definition;
+  definition.body = MeshFile{std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/geo/bar.geo", {}};
+  definition.fixed.push_back({{"clamped end", std::nullopt, {}}, {true, true, true}});
+  definition.loads.push_back({{"free end", std::nullopt, {}}, LoadKind::traction, {0, 0.1, 0.3}});
+  const Scene drawn = make_scene(definition);
+  definition.body = Box{{4, 4, 16}, {4, 4, 16}};
+  definition.fixed[0].region.name = "z-";
+  definition.loads[0].region.name = "z+";
+  const Scene box = make_scene(definition);
+  const std::vector<int> partner = matching_nodes(drawn.mesh, box.mesh);
+  const auto forces = nodal_forces(drawn), box_forces = nodal_forces(box);
+  for (std::size_t n = 0; n < partner.size(); ++n)
+    // the mesh is that near (see above), and no force is above 0.4 N
+    CHECK((forces[n] - box_forces[static_cast<std::size_t>(partner[n])]).norm() <= 1e-10);
+  definition.body = MeshFile{std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/geo/bar.geo", {}};
+  CHECK_THROWS_WITH(make_scene((definition.fixed[0].region.name = "fixed end", definition)),
+                    Catch::Contains("'fixed end' names no region") && Catch::Contains("'clamped end'"));
+}
+
+TEST_CASE(
+    "groups of one name in several dimensions are one region, and a group without a name has its number") {
+  const HexMesh mesh = read_text_as_mesh("a.geo", R"(
+Point(1) = {0, 0, 0};
+x[] = Extrude {1, 0, 0} { Point{1}; Layers{2}; };
+y[] = Extrude {0, 1, 0} { Line{x[1]}; Layers{1}; Recombine; };
+z[] = Extrude {0, 0, 1} { Surface{y[1]}; Layers{1}; Recombine; };
+Point(99) = {5, 5, 5};
+Physical Surface("held") = {y[1]};
+Physical Point("held") = {1};
+Physical Volume(7) = {z[1]};
+Physical Point("elsewhere") = {99};
+)");
+  CHECK(mesh.nodes.size() == 12); // the lone point is no part of the body
+  CHECK(mesh.groups.at("held").nodes.size() == 6);
+  CHECK(mesh.groups.at("held").faces.size() == 2);
+  CHECK(mesh.groups.at("7").nodes.size() == 12);
+  CHECK(mesh.group_of_cell == std::vector<std::string>{"7", "7"});
+  CHECK_THROWS_WITH(select(mesh, {"elsewhere", std::nullopt, {}}),
+                    Catch::Contains("'elsewhere' selects no node"));
+}
+
+TEST_CASE("a mesh that the models cannot use is refused with the reason") {
+  const std::vector<int> one{1, 2, 3, 4, 5, 6, 7, 8}, two{9, 10, 11, 12, 13, 14, 15, 16};
+  check_refused("a.msh", msh(gmsh_cube, 4, {{1, 2, 4, 5}, {2, 3, 4, 7}}),
+                "other than eight-node hexahedra: 2 of type Tetrahedron 4");
+  check_refused("a.msh", msh(gmsh_cube, 6, {{1, 2, 4, 5, 6, 8}}), "1 of type Prism 6");
+  check_refused("a.msh", msh(gmsh_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}),
+                "1 of 1 hexahedra are inverted or degenerate");
+  check_refused("a.msh", msh(gmsh_cube, 5, {{5, 6, 7, 8, 1, 2, 3, 4}}), "elements 101");
+  check_refused("a.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 6, 8}}),
+                "1 of 1 hexahedra are inverted or degenerate");
+  check_refused("a.msh", msh(gmsh_cube + shifted(gmsh_cube, 1), 5, {one, two}),
+                "falls into 2 pieces that share no node");
+  check_refused("a.msh", msh(gmsh_cube, 3, {{1, 2, 3, 4}}), "");
+  check_refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "has format 2.2, must be 4");
+  check_refused("a.msh", "solid cube\n", "is no gmsh mesh");
+  check_refused("a.msh", "", "is no gmsh mesh");
+  check_refused("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\nnonsense\n", "gmsh: ");
+  check_refused("a.geo", "Point(1) = {0, 0, 0};\n", "has no hexahedra");
+  check_refused("a.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n", "Tetrahedron 4");
+  CHECK_THROWS_WITH(read_mesh({"/no/such.msh", {"case.toml", 6, 8, "body.file"}}),
+                    "case.toml:6:8: body.file: /no/such.msh: there is no such file");
+  // The last: gmsh's parser does not recover from a syntax error within a process.
+  check_refused("a.geo", "Pont(1) = {0, 0, 0};\n", "syntax error");
+}

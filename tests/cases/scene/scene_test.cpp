@@ -1,0 +1,196 @@
+#include "cases/scene/scene.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace springproof;
+
+using namespace cases;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double force_rounding = 1e-13;
+
+Region region(const std::string& name) {
+  Region result;
+  result.name = name;
+  return result;
+}
+
+Case box(const Vector3d& size, const std::array<int, 3>& cells) {
+  Case definition;
+  definition.body = Box{size, cells};
+  definition.fixed.push_back({region("z-"), {true, true, true}});
+  return definition;
+}
+
+Load load(LoadKind kind, const std::string& where, const Vector3d& value) {
+  Load result;
+  result.region = region(where);
+  result.kind = kind;
+  result.value = value;
+  return result;
+}
+
+Vector3d sum(const std::vector<Vector3d>& forces) {
+  Vector3d total = Vector3d::Zero();
+  for (const Vector3d& force : forces) total += force;
+  return total;
+}
+
+Vector3d moment(const Scene& scene, const std::vector<Vector3d>& forces, const Vector3d& about) {
+  Vector3d total = Vector3d::Zero();
+  for (std::size_t n = 0; n < forces.size(); ++n) total += (scene.mesh.nodes[n] - about).cross(forces[n]);
+  return total;
+}
+
+} // namespace
+
+TEST_CASE("faces, edges and vertices of a box are selected with their nodes, edges and faces") {
+  const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
+  const Selection face = select(mesh, region("z+"));
+  CHECK(face.nodes.size() == 12);
+  CHECK(face.faces.size() == 6);
+  CHECK(face.edges.size() == 17);
+  const Selection edge = select(mesh, region("z+ y-"));
+  CHECK(edge.nodes.size() == 3);
+  CHECK(edge.edges.size() == 2);
+  CHECK(edge.faces.empty());
+  CHECK(mesh.nodes[static_cast<std::size_t>(select_node(mesh, region("z+ x- y+")))] == Vector3d(0, 3, 4));
+  CHECK_THROWS_AS(select_node(mesh, region("z+ y-")), InputError);
+  CHECK_THROWS_AS(select(mesh, region("top")), InputError);
+}
+
+TEST_CASE("near names a node, and does not search for one") {
+  const HexMesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
+  Region point;
+  point.near = Vector3d(1, 1, 2 + 0.9e-6);
+  CHECK(mesh.nodes[static_cast<std::size_t>(select_node(mesh, point))] == Vector3d(1, 1, 2));
+  point.near = Vector3d(1, 1, 2 + 1.1e-6);
+  CHECK_THROWS_WITH(select(mesh, point), Catch::Contains("(1, 1, 2)"));
+}
+
+TEST_CASE("each kind of load adds up to what it says") {
+  Case definition = box({2, 3, 4}, {2, 3, 4});
+  const Vector3d value(0.1, -0.2, 0.3);
+  SECTION("nodal_force: on every node") {
+    definition.loads = {load(LoadKind::nodal_force, "z+", value)};
+    CHECK((sum(nodal_forces(make_scene(definition))) - 12 * value).norm() < force_rounding);
+  }
+  SECTION("total_force: in all") {
+    definition.loads = {load(LoadKind::total_force, "z+ x-", value)};
+    CHECK((sum(nodal_forces(make_scene(definition))) - value).norm() < force_rounding);
+  }
+  SECTION("traction: times the area, a vertex carrying a quarter of an inner node's part") {
+    definition.loads = {load(LoadKind::traction, "z+", value)};
+    const Scene scene = make_scene(definition);
+    const auto forces = nodal_forces(scene);
+    CHECK((sum(forces) - 6 * value).norm() < force_rounding);
+    CHECK((forces[static_cast<std::size_t>(select_node(scene.mesh, region("z+ x- y-")))] - value / 4).norm() <
+          force_rounding);
+    CHECK(moment(scene, forces, {1, 1.5, 4}).norm() < force_rounding); // no moment about the face's centre
+  }
+}
+
+TEST_CASE("a torque gives its moment about its axis and no net force, on any mesh of the face") {
+  for (int n : {1, 2, 5}) {
+    Case definition = box({2, 3, 4}, {n, n, 1});
+    Load torque = load(LoadKind::torque, "z+", Vector3d::Zero());
+    torque.moment = 0.7;
+    torque.centre = {1, 1.5, 4};
+    definition.loads = {torque};
+    const Scene scene = make_scene(definition);
+    const auto forces = nodal_forces(scene);
+    CHECK(sum(forces).norm() < force_rounding);
+    CHECK((moment(scene, forces, {1, 1.5, 0}) - Vector3d(0, 0, 0.7)).norm() < force_rounding);
+    CHECK(polar_moment(scene.mesh, scene.loads[0]) ==
+          Approx(2.0 * 3.0 * (4 + 9) / 12).epsilon(force_rounding));
+  }
+}
+
+TEST_CASE("a traction needs faces") {
+  Case definition = box({1, 1, 1}, {1, 1, 1});
+  definition.loads = {load(LoadKind::traction, "z+ x-", {1, 0, 0})};
+  CHECK_THROWS_AS(make_scene(definition), InputError);
+}
+
+TEST_CASE("the quarters of a symmetric scene carry a quarter of its nodal forces") {
+  Case whole = box({2, 2, 1}, {2, 2, 1});
+  whole.loads = {load(LoadKind::nodal_force, "z+", {0, 0, 1})};
+  Case quarter = box({1, 1, 1}, {1, 1, 1});
+  quarter.loads = whole.loads;
+  quarter.symmetry = {{region("x+"), {true, false, false}}, {region("y+"), {false, true, false}}};
+  const Scene scene = make_scene(quarter);
+  CHECK(4 * sum(nodal_forces(scene)).z() ==
+        Approx(sum(nodal_forces(make_scene(whole))).z()).epsilon(force_rounding));
+  const auto is_fixed = fixed_degrees_of_freedom(scene);
+  const auto corner = static_cast<std::size_t>(select_node(scene.mesh, region("x+ y+ z+")));
+  CHECK(is_fixed[3 * corner]);
+  CHECK(is_fixed[3 * corner + 1]);
+  CHECK_FALSE(is_fixed[3 * corner + 2]);
+}
+
+TEST_CASE(
+    "refinement leaves nodal forces on the body's own nodes and shares a total force among the new ones") {
+  Case definition = box({1, 1, 4}, {1, 1, 4});
+  definition.loads = {load(LoadKind::nodal_force, "z+", {0, 0, 1}),
+                      load(LoadKind::total_force, "z+ x-", {1, 0, 0})};
+  const Scene fine = refine(make_scene(definition), 2);
+  const auto forces = point_forces(fine);
+  int n_pulled = 0, n_pushed = 0;
+  for (const Vector3d& force : forces) {
+    n_pulled += force.z() != 0;
+    n_pushed += force.x() != 0;
+  }
+  CHECK(n_pulled == 4);
+  CHECK(n_pushed == 5);
+  CHECK((sum(forces) - Vector3d(1, 0, 4)).norm() < force_rounding);
+}
+
+TEST_CASE("a patch has the faces of the surface around its point, and a finer mesh has the same patch") {
+  Case definition = box({10, 10, 10}, {10, 10, 10});
+  Load press = load(LoadKind::traction, "patch", {0, 0, -1});
+  press.region.near = Vector3d(5, 5, 10);
+  press.region.radius = 2;
+  definition.loads.push_back(press);
+  const Scene scene = make_scene(definition);
+  // Centres at (0.5, 0.5), (0.5, 1.5) and (1.5, 0.5) from the point in each quarter; (1.5, 1.5) is 2.12 away.
+  REQUIRE(scene.loads.size() == 1);
+  CHECK(scene.loads[0].selection.faces.size() == 12);
+  CHECK(scene.loads[0].selection.nodes.size() == 21);
+  CHECK((sum(nodal_forces(scene)) - Vector3d(0, 0, -12)).norm() <= force_rounding);
+  const Scene fine = refine(scene, 1);
+  CHECK(fine.loads[0].selection.faces.size() == 48);
+  CHECK((sum(nodal_forces(fine)) - Vector3d(0, 0, -12)).norm() <= force_rounding);
+
+  definition.loads[0].region.near = Vector3d(5, 5, 5);
+  CHECK_THROWS_AS(make_scene(definition), InputError); // nothing of the surface there
+  definition.loads[0].region.near = Vector3d(0, 0, 10);
+  definition.loads[0].region.radius = 0.8;
+  CHECK(make_scene(definition).loads[0].selection.faces.size() == 3); // round the corner
+}
+
+TEST_CASE("a cell is of the last material whose region has its centre, and its children are too") {
+  Case definition = box({2, 1, 4}, {2, 1, 4});
+  definition.material = LinearElastic{1, 0.3};
+  const double infinity = std::numeric_limits<double>::infinity();
+  RegionMaterial layer{
+      LinearElastic{2, 0.3}, "", {-infinity, -infinity, 2}, {infinity, infinity, infinity}, {}};
+  RegionMaterial corner{LinearElastic{3, 0.3}, "", {0, 0, 3}, {1, 1, 4}, {}};
+  definition.region_materials = {layer, corner};
+  const Scene scene = make_scene(definition);
+  CHECK(scene.material_of_cell == std::vector<int>{0, 0, 0, 0, 1, 1, 2, 1});
+  const Scene fine = refine(scene, 1);
+  REQUIRE(fine.material_of_cell.size() == 64);
+  for (std::size_t c = 0; c < 64; ++c) CHECK(material_of(fine, c) == material_of(scene, c / 8));
+  CHECK(std::get<LinearElastic>(materials_of(definition)[2]).youngs_modulus == 3);
+
+  corner.lower.z() = 3.6; // above every centre
+  definition.region_materials = {corner};
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("no cell has its centre in the box"));
+  corner.group = "skin";
+  definition.region_materials = {corner};
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("'skin' is no group of cells"));
+}

@@ -1,0 +1,311 @@
+// The program as its users run it: exit status, standard output, standard error, files.
+
+#include "tests/support/temporary_folder.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace springproof;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string cases_folder = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases";
+const std::string shear = cases_folder + "/thesis/linear_elastic/cube_shear_small.toml";
+
+struct Outcome {
+  int status;
+  std::string out, error;
+};
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// @param words  as typed in a shell, after the program's name
+/// @param before  shell commands in front
+Outcome run_program(const std::string& words, const std::string& before = "") {
+  const TemporaryFolder folder;
+  const std::string errors = (folder.path / "stderr").string();
+  FILE* pipe = popen((before + SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
+  REQUIRE(pipe);
+  std::string out;
+  std::array<char, 4096> block{};
+  while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
+  const int status = pclose(pipe);
+  return {WEXITSTATUS(status), out, content(errors)};
+}
+
+} // namespace
+
+TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else",
+          "[unit][long]") {
+  for (const auto& entry : fs::recursive_directory_iterator(cases_folder + "/thesis")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    const Outcome outcome = run_program("run --json " + entry.path().string());
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.error.empty());
+    const auto document = nlohmann::json::parse(outcome.out);
+    for (const char* side : {"fem", "msm"}) {
+      const auto& solution = document["cases"][0][side];
+      CHECK(solution["status"] == "converged");
+      CHECK(solution["residual"].get<double>() <= 1e-9); // the bound that both solvers promise
+      CHECK(solution["load_reached"] == 1.0);
+      CHECK(solution["inverted_cells"] == 0);
+    }
+    for (const auto& measure : document["cases"][0]["measures"]) CHECK(measure["error_percent"].is_number());
+  }
+}
+
+TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
+  const Outcome outcome = run_program("run --json --only msm " + shear);
+  REQUIRE(outcome.status == 0);
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["cases"][0]["fem"]["status"] == "skipped");
+  CHECK(document["cases"][0]["measures"][0]["fem"].is_null());
+  CHECK(document["cases"][0]["measures"][0]["msm"].is_number());
+}
+
+TEST_CASE("a broken case ends in exit status 2, one message and no files, even behind a good case") {
+  const TemporaryFolder folder;
+  const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";
+  std::ofstream(broken) << "schema = 1\nname = \"b\"\nbdoy = 3\n";
+  const Outcome outcome = run_program("run " + shear + " " + broken.string() + " --out " + out.string());
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.error.find("broken.toml:3:1: bdoy") != std::string::npos);
+  CHECK(outcome.error.find("body") != std::string::npos);
+  CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("a region that selects nothing is refused before any solve, with its place in the file") {
+  const Outcome outcome = run_program("run " + shear + " --set 'measure[0].top=\"near 1 2 3.5\"'");
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.error.find("no node within") != std::string::npos);
+}
+
+TEST_CASE(
+    "run --out leaves results, a comparison, both models' fields and what is solved, and nothing temporary") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path / "out";
+  REQUIRE(run_program("run " + shear + " --out " + out.string()).status == 0);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(out)) names.push_back(entry.path().filename());
+  CHECK_THAT(names, Catch::UnorderedEquals<std::string>(
+                        {"results.json", "comparison.csv", "cube-shear-small.vtu", "solved"}));
+  CHECK(nlohmann::json::parse(content(out / "results.json"))["cases"].size() == 1);
+  const std::string vtu = content(out / "cube-shear-small.vtu");
+  for (const char* field : {"fem_displacement", "msm_displacement", "difference", "msm_cell_volume"})
+    CHECK(vtu.find(field) != std::string::npos);
+}
+
+TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none") {
+  const Outcome study =
+      run_program("run --json --only fem --converge " + cases_folder + "/studies/clamped_block_shear.toml");
+  REQUIRE(study.status == 0);
+  const auto side = nlohmann::json::parse(study.out)["cases"][0]["fem"];
+  for (const char* measure : {"u_x", "u_z", "alpha"}) {
+    CHECK(side["discretisation_error_percent"][measure].get<double>() > 0);
+    CHECK(side["discretisation_error_percent"][measure].get<double>() < 20); // four cells across, first order
+  }
+  CHECK(side["mesh_study"]["refine"] == std::vector<int>{0, 1, 2});
+  const Outcome point_forces = run_program("run --json --only fem --converge " + shear);
+  REQUIRE(point_forces.status == 0);
+  const auto none = nlohmann::json::parse(point_forces.out)["cases"][0]["fem"];
+  CHECK(none["discretisation_error_percent"]["alpha_1"].is_null());
+  CHECK_THAT(none["mesh_study"]["measures"][0]["reason"].get<std::string>(),
+             Catch::Contains("no continuum limit"));
+}
+
+TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") {
+  const Outcome outcome =
+      run_program("run --json --only fem --peer ccx " + shear + " --set fem.element=q1_bbar");
+  REQUIRE(outcome.status == 0);
+  const auto result = nlohmann::json::parse(outcome.out)["cases"][0];
+  CHECK(result["peer"]["status"] == "skipped");
+  CHECK_THAT(result["peer"]["message"].get<std::string>(), Catch::Contains("q1_bbar"));
+  CHECK(result["measures"][0]["peer"].is_null());
+}
+
+TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unknown table") {
+  for (const char* words : {"", "run", "run --no-such-option x", "tables 9.9", "run /no/such/file.toml"}) {
+    INFO(words);
+    const Outcome outcome = run_program(words);
+    CHECK(outcome.status == 2);
+    CHECK_FALSE(outcome.error.empty());
+  }
+  CHECK(run_program("--help").status == 0);
+}
+
+TEST_CASE("design --json is one document with the keys that were promised") {
+  const Outcome outcome = run_program("design --young 0.3 --poisson 0.35 --edge 1 --method hybrid --json");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["schema"] == 1);
+  CHECK(document["method"] == "hybrid");
+  CHECK(document["stiffness_N_per_m"].size() == 3);
+  CHECK(document["volume_stiffness_MPa"].get<double>() > 0);
+  CHECK(document["residual"].is_null()); // a closed form minimises nothing
+  CHECK(document["moduli"]["poissons_ratio"].get<double>() ==
+        Approx(0.35).epsilon(1e-12)); // isotropic exactly
+  CHECK(document["warnings"].empty());
+  CHECK(document["stability"]["compression"].get<double>() < 1);
+}
+
+TEST_CASE("design --compare shows every method, and why one refuses") {
+  const Outcome outcome = run_program("design --young 0.3 --poisson 0.2 --compare --json");
+  REQUIRE(outcome.status == 0);
+  const auto methods = nlohmann::json::parse(outcome.out)["methods"];
+  REQUIRE(methods.size() == 5);
+  CHECK(methods[3]["method"] == "hybrid");
+  CHECK(methods[3]["refused"].get<std::string>().find("0.25") != std::string::npos);
+}
+
+TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
+  const auto [words, reason] = GENERATE(table<std::string, std::string>({
+      {"--poisson 0.3", "one material"},
+      {"--young 0.3", "--poisson"},
+      {"--young 0.3 --poisson 0.5", "nu < 0.5"},
+      {"--young 0.3 --poisson -0.1", "nu < 0.5"},
+      {"--young -1 --poisson 0.3", "Young's modulus"},
+      {"--young 0.3 --poisson 0.2 --method hybrid", "0.25"},
+      {"--young 0.3 --poisson 0.3 --edge 0", "--edge"},
+      {"--young 0.3 --poisson 0.3 --neo-hookean 0.1", "one material"},
+      {"--ogden-mu 0.1 0.2 --ogden-alpha 2", "equally many"},
+      {"--neo-hookean -0.1 --method moduli", "must be positive"},
+      {"--curve /nonexistent.csv --method nonlinear_method", "cannot be read"},
+  }));
+  CAPTURE(words);
+  const Outcome outcome = run_program("design " + words);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK_THAT(outcome.error, Catch::Contains(reason));
+}
+
+TEST_CASE("a negative Poisson's ratio is allowed for the moduli") {
+  CHECK(run_program("design --young 0.3 --poisson -0.1 --method moduli").status == 0);
+}
+
+TEST_CASE("eigen --json numbers the spaces from 1 as the thesis does") {
+  const Outcome outcome = run_program("eigen --poisson 0 --json --body 2 --modes 6");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  CHECK(document["poissons_ratio"] == 0);
+  CHECK(document["fem"].size() == 6);
+  CHECK(document["msm"].size() == 9);
+  CHECK(document["equivalent"][2]["fem_space"] == 5);
+  CHECK(document["equivalent"][2]["msm_space"] == 8);
+  CHECK(document["equivalent"][2]["distance"] == 5);
+  CHECK(document["free_body"].size() > 0);
+}
+
+TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "eigen").string();
+  REQUIRE(run_program("eigen --poisson 0.35 --out " + out).status == 0);
+  for (const char* name : {"dot_diagram.csv", "dot_diagram.svg", "dot_diagram.png", "coupling.csv",
+                           "fem_modes.vtu", "fem_modes.png", "msm_modes.vtu", "msm_modes.svg"}) {
+    CAPTURE(name);
+    CHECK(fs::file_size(fs::path(out) / name) > 100);
+  }
+}
+
+TEST_CASE("design --out draws the figures of its method") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "design").string();
+  REQUIRE(run_program("design --neo-hookean 0.04 --method nonlinear_method --out " + out).status == 0);
+  for (const char* name : {"design.json", "uniaxial.csv", "uniaxial.svg", "contributions.svg",
+                           "figure_5_5.svg", "valley.csv", "valley.png"}) {
+    CAPTURE(name);
+    CHECK(fs::file_size(fs::path(out) / name) > 100);
+  }
+}
+
+TEST_CASE("stress puts a hard case to its models, and says in one document what became of each") {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program("stress --json mechanism disconnected_piece --out " + folder.path.string());
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.error.empty());
+  const auto document = nlohmann::json::parse(outcome.out);
+  REQUIRE(document["cases"].size() == 2);
+  const auto& side = document["cases"][0]["sides"][0];
+  CHECK(document["cases"][0]["name"] == "mechanism");
+  CHECK(side["side"] == "msm");
+  CHECK(side["outcome"] == "mechanism");
+  CHECK(side["met"] == true);
+  CHECK(side["load_reached"] == 0.0);
+  for (const auto& refused : document["cases"][1]["sides"]) {
+    CHECK(refused["outcome"] == "refused");
+    CHECK_THAT(refused["message"].get<std::string>(), Catch::Contains("falls into 2 pieces"));
+  }
+  CHECK(nlohmann::json::parse(content(folder.path / "stress.json"))["cases"] == document["cases"]);
+  CHECK_THAT(content(folder.path / "stress.txt"), Catch::Contains("2 of 2 hard cases ended as expected"));
+}
+
+TEST_CASE("a hard case that ends otherwise than expected makes stress answer 1, and the others go on") {
+  const TemporaryFolder folder;
+  std::string text = content(cases_folder + "/hard/mechanism.toml");
+  const std::string expected = "outcome = \"mechanism\"";
+  text.replace(text.find(expected), expected.size(), "outcome = \"limit point\"");
+  const fs::path wrong = folder.path / "wrong.toml";
+  std::ofstream(wrong) << text;
+  const Outcome outcome = run_program("stress " + wrong.string() + " negative_face_diagonal");
+  CHECK(outcome.status == 1);
+  CHECK_THAT(outcome.out, Catch::Contains("outcome mechanism, expected limit point"));
+  CHECK_THAT(outcome.out, Catch::Contains("1 of 2 hard cases ended as expected"));
+}
+
+TEST_CASE("a hard case that does not exist is refused with the nearest name, and run refuses hard cases") {
+  const Outcome unknown = run_program("stress mechansim");
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.error, Catch::Contains("did you mean \"mechanism\"?"));
+  const Outcome ordinary = run_program("run " + cases_folder + "/hard/mechanism.toml");
+  CHECK(ordinary.status == 2);
+  CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
+}
+
+TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[unit][long]") {
+  const TemporaryFolder folder;
+  const auto in_folder = [&](const std::string& words) {
+    return run_program(words, "cd " + folder.path.string() + " && ");
+  };
+  for (const char* name : {"box", "layers", "mesh", "voxels"}) {
+    CAPTURE(name);
+    const std::string new_case = std::string("new my-") + name + " --template " + name;
+    REQUIRE(in_folder(new_case).status == 0);
+    CHECK(content(folder.path / ("my-" + std::string(name) + ".toml")).find("TEMPLATE") == std::string::npos);
+    const Outcome run = in_folder("run --json my-" + std::string(name) + ".toml");
+    REQUIRE(run.status == 0);
+    const auto document = nlohmann::json::parse(run.out);
+    CHECK(document["cases"][0]["name"] == "my-" + std::string(name));
+    for (const auto& measure : document["cases"][0]["measures"]) CHECK(measure["error_percent"].is_number());
+    const Outcome again = in_folder(new_case);
+    CHECK(again.status == 2);
+    CHECK(again.error.find("nothing is overwritten") != std::string::npos);
+  }
+  // The mesh's drawing alone is in the way.
+  fs::remove(folder.path / "my-mesh.toml");
+  CHECK(in_folder("new my-mesh --template mesh").status == 2);
+  CHECK_FALSE(fs::exists(folder.path / "my-mesh.toml"));
+  for (const char* wrong : {"new ../up", "new .hidden", "new 'a b'", "new x --template bax"}) {
+    CAPTURE(wrong);
+    const Outcome outcome = in_folder(wrong);
+    CHECK(outcome.status == 2);
+    CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
+  }
+}

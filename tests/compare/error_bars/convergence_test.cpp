@@ -1,0 +1,70 @@
+#include "compare/error_bars/convergence.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace springproof;
+
+using namespace compare;
+
+namespace {
+
+MeshLimit limit_of(const std::vector<double>& coarse_to_fine, double ratio = 2) {
+  const MeshVerdict verdict = judge_refinement(coarse_to_fine, ratio);
+  REQUIRE(std::holds_alternative<MeshLimit>(verdict));
+  return std::get<MeshLimit>(verdict);
+}
+
+void check_no_limit(const std::vector<double>& coarse_to_fine, const std::string& reason) {
+  const MeshVerdict verdict = judge_refinement(coarse_to_fine, 2);
+  REQUIRE(std::holds_alternative<std::string>(verdict));
+  CHECK_THAT(std::get<std::string>(verdict), Catch::Contains(reason));
+}
+
+} // namespace
+
+TEST_CASE("the order, the extrapolated value and the index of a published sequence", "[verification]") {
+  const MeshLimit limit = limit_of({0.96178, 0.96854, 0.97050});
+  CHECK(limit.order == Approx(1.78618).margin(5e-6));         // the digits given
+  CHECK(limit.extrapolated == Approx(0.971300).margin(5e-7)); // the digits given
+  CHECK(limit.index_percent == Approx(0.10308).margin(5e-6)); // the digits given
+}
+
+TEST_CASE("an error of one power of the mesh width is found exactly", "[verification]") {
+  for (const double ratio : {1.5, 2.0, 3.0})
+    for (const double p : {0.5, 1.0, 2.0, 4.0})
+      for (const double sign : {-1.0, 1.0}) {
+        std::vector<double> values;
+        for (int mesh = 0; mesh < 4; ++mesh) values.push_back(-7 + sign * 0.3 * std::pow(ratio, -p * mesh));
+        const MeshLimit limit = limit_of(values, ratio);
+        // differences of values of 7 carry rounding of 1e-15, and the smallest difference here is 3e-6
+        CHECK(limit.order == Approx(p).epsilon(1e-8));
+        CHECK(limit.extrapolated == Approx(-7).epsilon(1e-10));
+        for (const double value : values)
+          CHECK(discretisation_error_percent(value, limit) ==
+                Approx(125 * std::abs((value + 7) / value)).epsilon(1e-5));
+        CHECK(limit.index_percent == discretisation_error_percent(values.back(), limit));
+      }
+}
+
+TEST_CASE("only the three finest meshes count") {
+  CHECK(limit_of({5, 0.96178, 0.96854, 0.97050}).order == limit_of({0.96178, 0.96854, 0.97050}).order);
+}
+
+TEST_CASE("a sequence without a visible limit is answered with the reason") {
+  check_no_limit({1, 2, 1.5}, "oscillate");
+  check_no_limit({-1, -2, -1.5}, "oscillate");
+  check_no_limit({1, 2, 4}, "do not draw nearer");
+  check_no_limit({1, 2, 3}, "do not draw nearer");
+  check_no_limit({1, 1, 2}, "do not draw nearer");
+  check_no_limit({1, 2, 2}, "agree");
+  check_no_limit({3, 3, 3}, "agree");
+  check_no_limit({-4, -2, 0}, "zero");
+  check_no_limit({0, 0, 0}, "zero");
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  check_no_limit({1, 2, nan}, "not finite");
+  check_no_limit({nan, 2, 3}, "not finite");
+  check_no_limit({1, infinity, 3}, "not finite");
+}

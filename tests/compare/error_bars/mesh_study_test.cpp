@@ -1,0 +1,110 @@
+#include "compare/error_bars/mesh_study.hpp"
+
+#include "fem_reference/model.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace springproof;
+
+using namespace compare;
+using cases::LoadKind;
+
+namespace {
+
+/// A block on rollers that keep it from moving, pulled at its top by a load.
+cases::Case block(const cases::Load& load) {
+  cases::Case definition;
+  definition.name = "block";
+  definition.body = cases::Box{{2, 2, 2}, {2, 2, 2}};
+  definition.material = cases::LinearElastic{1, 0.3};
+  definition.fixed.push_back({{"x-", std::nullopt, {}}, {true, false, false}});
+  definition.fixed.push_back({{"y-", std::nullopt, {}}, {false, true, false}});
+  definition.fixed.push_back({{"z-", std::nullopt, {}}, {false, false, true}});
+  definition.loads.push_back(load);
+  definition.fem.formulation = cases::Formulation::small_strain;
+  definition.fem.element = cases::Element::q1;
+  cases::Measure height;
+  height.name = "height";
+  height.kind = cases::MeasureKind::coordinate;
+  height.node.name = "z+ x+ y+";
+  definition.measures.push_back(height);
+  return definition;
+}
+
+cases::Load load(const std::string& region, LoadKind kind) {
+  cases::Load result;
+  result.region.name = region;
+  result.kind = kind;
+  result.value = {0, 0, 0.1};
+  return result;
+}
+
+std::optional<std::string> reason_for(const cases::Load& applied) {
+  return reason_without_continuum_limit(cases::make_scene(block(applied)));
+}
+
+} // namespace
+
+TEST_CASE("forces on nodes and edges have no continuum limit, forces over an area have one") {
+  CHECK(reason_for(load("z+", LoadKind::nodal_force)).has_value());
+  CHECK(reason_for(load("z+ x+ y+", LoadKind::total_force)).has_value());
+  CHECK(reason_for(load("z+ x+", LoadKind::total_force)).has_value());
+  CHECK_FALSE(reason_for(load("z+", LoadKind::total_force)).has_value());
+  CHECK_FALSE(reason_for(load("z+", LoadKind::traction)).has_value());
+  cases::Load none = load("z+", LoadKind::nodal_force);
+  none.value.setZero();
+  CHECK_FALSE(reason_for(none).has_value());
+}
+
+TEST_CASE("a study of concentrated forces solves nothing and says why") {
+  const MeshStudy study = study_meshes(cases::make_scene(block(load("z+ x+", LoadKind::total_force))), {}, 3);
+  REQUIRE(study.measures.size() == 1);
+  CHECK(study.refine.empty());
+  CHECK(study.measures[0].values.empty());
+  CHECK_FALSE(study.measures[0].discretisation_error_percent.has_value());
+  CHECK_THAT(study.measures[0].reason, Catch::Contains("no continuum limit"));
+}
+
+TEST_CASE("the error bar of a clamped block covers what the next finer mesh answers", "[verification]") {
+  cases::Load shear = load("z+", LoadKind::traction);
+  shear.value = {0.1, 0, 0};
+  cases::Case definition = block(shear);
+  definition.fixed = {{{"z-", std::nullopt, {}}, {true, true, true}}};
+  definition.measures[0].kind = cases::MeasureKind::displacement;
+  definition.measures[0].component = cases::Component::x;
+  definition.measures[0].node = {"", Eigen::Vector3d(1, 1, 2), {}};
+  definition.fem.refine = 1;
+  const cases::Scene scene = cases::make_scene(definition);
+  const cases::Solution own = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
+
+  const MeshStudy study = study_meshes(scene, own, 3);
+  CHECK(study.refine == std::vector<int>{0, 1, 2});
+  const StudiedMeasure& measure = study.measures.at(0);
+  REQUIRE(measure.limit.has_value());
+  const int node = cases::select_node(scene.mesh, definition.measures[0].node);
+  const auto x_at = [&](const cases::Solution& solution) {
+    return solution.displacement[static_cast<std::size_t>(node)].x();
+  };
+  CHECK(measure.values[1] == x_at(own)); // it was not solved again
+  CHECK(*measure.discretisation_error_percent ==
+        discretisation_error_percent(x_at(own), *measure.limit)); // the case's mesh is the middle one
+  // Between second order, where the solution is smooth, and the weakness of the clamped edge's singularity.
+  CHECK(measure.limit->order > 1);
+  CHECK(measure.limit->order < 2.5);
+
+  definition.fem.refine = 3;
+  const double finer = x_at(fem_reference::Model(cases::make_scene(definition), MPI_COMM_WORLD).solve());
+  CHECK(100 * std::abs(finer - measure.values[2]) <=
+        measure.limit->index_percent * std::abs(measure.values[2]));
+  CHECK(std::abs(finer - measure.limit->extrapolated) < std::abs(finer - measure.values[2]));
+}
+
+TEST_CASE("a stretch that every mesh has exactly leaves nothing to extrapolate", "[verification]") {
+  const cases::Scene scene = cases::make_scene(block(load("z+", LoadKind::traction)));
+  const cases::Solution own = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
+  const MeshStudy study = study_meshes(scene, own, 3);
+  CHECK(study.measures.at(0).values.size() == 3);
+  CHECK(study.measures.at(0).values[0] == Approx(2.2)); // 2 mm at 0.1 MPa and E = 1 MPa
+  CHECK_FALSE(study.measures.at(0).limit.has_value());
+  CHECK_THAT(study.measures.at(0).reason, Catch::Contains("agree"));
+}

@@ -1,0 +1,146 @@
+#include "compare/measure/measure.hpp"
+#include "compare/solve/comparison.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace springproof;
+
+using cases::MeasureKind;
+using Eigen::Vector3d;
+
+namespace {
+
+cases::Region region(const std::string& name) {
+  cases::Region result;
+  result.name = name;
+  return result;
+}
+
+cases::Region near(const Vector3d& point) {
+  cases::Region result;
+  result.near = point;
+  return result;
+}
+
+cases::Scene cube() {
+  cases::Case definition;
+  definition.body = cases::Box{{2, 2, 2}, {2, 2, 2}};
+  return cases::make_scene(definition);
+}
+
+template<class Motion>
+cases::Solution moved(const cases::Scene& scene, const Motion& motion) {
+  cases::Solution solution;
+  solution.status = cases::Status::converged;
+  for (const Vector3d& x : scene.mesh.nodes) solution.displacement.push_back(motion(x) - x);
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    solution.cell_volume.push_back(
+        cases::cell_volume(cases::cell_vertices(scene.mesh, c, solution.displacement)));
+  return solution;
+}
+
+cases::Measure measure(MeasureKind kind) {
+  cases::Measure result;
+  result.name = "m";
+  result.kind = kind;
+  return result;
+}
+
+constexpr double rounding = 1e-12; ///< relative to numbers of order 1 to 100
+
+} // namespace
+
+TEST_CASE("a twist about z is measured as the angle turned, beyond a right angle and in both senses") {
+  const cases::Scene scene = cube();
+  cases::Measure twist = measure(MeasureKind::twist);
+  twist.node = region("z+ x- y-");
+  twist.centre = near({1, 1, 2});
+  for (double degrees : {-170.0, -30.0, 0.0, 5.0, 120.0, 179.0}) {
+    const Eigen::AngleAxisd turn(degrees * M_PI / 180, Vector3d::UnitZ());
+    const auto solution =
+        moved(scene, [&](const Vector3d& x) { return Vector3d(turn * x + Vector3d(3, -1, 7)); });
+    CHECK(compare::evaluate(twist, scene, solution) == Approx(degrees).margin(100 * rounding));
+  }
+}
+
+TEST_CASE("a simple shear tilts the vertical edge by the arc tangent of its amount") {
+  const cases::Scene scene = cube();
+  cases::Measure tilt = measure(MeasureKind::tilt);
+  tilt.top = region("z+ x- y-");
+  tilt.bottom = region("z- x- y-");
+  const auto sheared =
+      moved(scene, [](const Vector3d& x) { return Vector3d(x.x() + 0.4 * x.z(), x.y(), x.z()); });
+  CHECK(compare::evaluate(tilt, scene, sheared) == Approx(std::atan(0.4) * 180 / M_PI).epsilon(rounding));
+  tilt.toward = cases::Axis::y;
+  CHECK(compare::evaluate(tilt, scene, sheared) == Approx(0).margin(rounding));
+}
+
+TEST_CASE("a coordinate is a place, a displacement a change, and the volume follows the stretch") {
+  const cases::Scene scene = cube();
+  const auto stretched =
+      moved(scene, [](const Vector3d& x) { return Vector3d(0.5 * x.x(), x.y(), 3 * x.z()); });
+  cases::Measure coordinate = measure(MeasureKind::coordinate);
+  coordinate.node = region("z+ x+ y+");
+  CHECK(compare::evaluate(coordinate, scene, stretched) == Approx(6).epsilon(rounding));
+  cases::Measure displacement = measure(MeasureKind::displacement);
+  displacement.node = region("z+ x+ y+");
+  CHECK(compare::evaluate(displacement, scene, stretched) == Approx(std::hypot(1.0, 4.0)).epsilon(rounding));
+  displacement.component = cases::Component::x;
+  CHECK(compare::evaluate(displacement, scene, stretched) == Approx(-1).epsilon(rounding));
+  CHECK(compare::evaluate(measure(MeasureKind::volume), scene, stretched) == Approx(12).epsilon(rounding));
+}
+
+TEST_CASE("field norms: a stretch along z has the root mean square of a linear field, and errors are of the "
+          "difference") {
+  const cases::Scene scene = cube(); // 2 mm
+  const auto along_z = [&](double strain) {
+    return moved(scene, [=](const Vector3d& x) { return Vector3d(x.x(), x.y(), (1 + strain) * x.z()); });
+  };
+  const auto fem = along_z(0.3), msm = along_z(0.2);
+  const cases::Measure l2 = measure(MeasureKind::displacement_field_l2);
+  const cases::Measure largest = measure(MeasureKind::displacement_field_max);
+  CHECK(compare::evaluate(l2, scene, fem) ==
+        Approx(0.3 * 2 / std::sqrt(3.0)).epsilon(rounding)); // mean of z² is 4/3
+  CHECK(compare::evaluate(largest, scene, fem) == Approx(0.6).epsilon(rounding));
+  for (const cases::Measure& norm : {l2, largest})
+    CHECK(*compare::measure_error_percent(norm, scene, fem, msm) == Approx(100 / 3.0).epsilon(rounding));
+  const auto rest = along_z(0);
+  CHECK_FALSE(compare::measure_error_percent(l2, scene, rest, msm));
+}
+
+TEST_CASE("the relative error has no value where the reference is zero or a side is not a number") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(*compare::error_percent(2, 3) == Approx(50));
+  CHECK(*compare::error_percent(-2, -3) == Approx(50));
+  CHECK(*compare::error_percent(2, 0) == Approx(-100));
+  CHECK_FALSE(compare::error_percent(0, 3));
+  CHECK_FALSE(compare::error_percent(0, 0));
+  CHECK_FALSE(compare::error_percent(1e-17, 1));
+  CHECK_FALSE(compare::error_percent(nan, 1));
+  CHECK_FALSE(compare::error_percent(1, nan));
+  CHECK_FALSE(compare::error_percent(1, infinity));
+}
+
+TEST_CASE("an expectation is met on its closed interval alone, and never by a value that is missing or not a "
+          "number") {
+  cases::Expectation expectation{
+      "m", cases::Quantity::error_percent, {-8, 0}, cases::ReferenceKind::published, "", {}};
+  const auto verdict = [&](std::optional<double> error) {
+    return compare::judge(expectation, {{"m", "mm", 1.0, 1.0, error}}).verdict;
+  };
+  CHECK(verdict(-8) == compare::Verdict::met);
+  CHECK(verdict(0) == compare::Verdict::met);
+  CHECK(verdict(0.001) == compare::Verdict::missed);
+  CHECK(verdict(-8.001) == compare::Verdict::missed);
+  CHECK(verdict(std::nullopt) == compare::Verdict::missed);
+  CHECK(verdict(std::numeric_limits<double>::quiet_NaN()) == compare::Verdict::missed);
+  CHECK(compare::judge(expectation, {}).verdict == compare::Verdict::missed);
+  CHECK(compare::judge(expectation, {{"other", "mm", 1.0, 1.0, -1.0}}).reason == "there is no such measure");
+  expectation.quantity = cases::Quantity::fem;
+  expectation.interval = {1, 1};
+  CHECK(verdict(std::nullopt) == compare::Verdict::met); // fem = 1 is judged, not the error
+}

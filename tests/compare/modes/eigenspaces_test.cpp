@@ -1,0 +1,142 @@
+#include "compare/modes/eigenspaces.hpp"
+
+#include "compare/solve/design.hpp"
+#include "fem_reference/element_stiffness.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+using namespace springproof;
+
+namespace {
+
+// Rows of a published table, the header left out.
+std::vector<std::vector<std::string>> published(const std::string& file_name) {
+  std::ifstream file(SPRINGPROOF_SOURCE_DIR "/cases/published/" + file_name);
+  std::vector<std::vector<std::string>> rows;
+  std::string line, cell;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+struct Matrices {
+  msm::CellMatrix fem, msm;
+};
+
+// The thesis's cell: E = 1, edge 2, designed by the linear method.
+Matrices cell_matrices(double poissons_ratio) {
+  const cases::LinearElastic material{1, poissons_ratio};
+  const msm::CellVertices cell = msm::cube(2);
+  const msm::DesignResult design = msm::design(compare::design_request(material, cell, cases::Msm{}));
+  return {fem_reference::element_stiffness(cell, material, cases::Element::q1),
+          msm::cell_stiffness_matrix(cell, design.stiffness)};
+}
+
+compare::EigenspaceAnalysis analyse(double poissons_ratio) {
+  const Matrices matrices = cell_matrices(poissons_ratio);
+  return compare::analyse_eigenspaces(compare::full_spectrum(matrices.fem),
+                                      compare::full_spectrum(matrices.msm));
+}
+
+Eigen::MatrixXd random_rotation(Eigen::Index n, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd entries = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(entries).householderQ();
+}
+
+void rotate_inside_spaces(compare::Spectrum& spectrum, std::mt19937& random) {
+  for (const compare::Eigenspace& space : compare::cluster(spectrum.values))
+    spectrum.vectors.middleCols(space.offset, space.dimension) *= random_rotation(space.dimension, random);
+}
+
+} // namespace
+
+TEST_CASE("Table 4.2: eigenvalues and multiplicities of both cells at nu = 0", "[verification]") {
+  const compare::EigenspaceAnalysis analysis = analyse(0);
+  std::size_t n_fem = 0, n_msm = 0;
+  for (const auto& row : published("eigenvalues.csv")) { // table, nu, model, index, eigenvalue, multiplicity
+    const bool fem = row[2] == "fem";
+    const std::size_t index = fem ? n_fem++ : n_msm++;
+    const auto& spaces = fem ? analysis.fem_spaces : analysis.msm_spaces;
+    REQUIRE(index < spaces.size());
+    CAPTURE(row[2], index);
+    // Two printed digits, and the thesis computed from stiffnesses rounded to three: half a unit of each.
+    CHECK(spaces[index].eigenvalue == Approx(std::stod(row[4])).margin(0.0075));
+    CHECK(spaces[index].dimension == std::stoi(row[5]));
+  }
+  CHECK(n_fem == analysis.fem_spaces.size());
+  CHECK(n_msm == analysis.msm_spaces.size());
+}
+
+TEST_CASE("Table 4.3: all eleven h to the printed digit", "[verification]") {
+  const auto rows = published("h_metric.csv"); // table, nu, h
+  REQUIRE(rows.size() == 11);
+  for (const auto& row : rows) {
+    CAPTURE(row[1]);
+    CHECK(analyse(std::stod(row[1])).h ==
+          Approx(std::stod(row[2])).margin(0.005 + 1e-12)); // half of the last digit
+  }
+}
+
+TEST_CASE("rotating the basis inside degenerate spaces changes nothing", "[verification]") {
+  std::mt19937 random(7);
+  for (const double nu : {0.0, 0.2, 0.35, 0.49}) {
+    const compare::EigenspaceAnalysis before = analyse(nu);
+    compare::Spectrum fem = before.fem, msm = before.msm;
+    rotate_inside_spaces(fem, random);
+    rotate_inside_spaces(msm, random);
+    const compare::EigenspaceAnalysis after = compare::analyse_eigenspaces(fem, msm);
+    CAPTURE(nu);
+    CHECK((fem.vectors - before.fem.vectors).norm() > 1); // the rotation did turn the bases
+    CHECK(after.h == before.h);
+    CHECK((after.coupling - before.coupling).cwiseAbs().maxCoeff() <=
+          1e-13); // round-off of orthogonal products
+    REQUIRE(after.equivalent.size() == before.equivalent.size());
+    for (std::size_t e = 0; e < after.equivalent.size(); ++e) {
+      CHECK(after.equivalent[e].fem_space == before.equivalent[e].fem_space);
+      CHECK(after.equivalent[e].msm_space == before.equivalent[e].msm_space);
+    }
+    for (const compare::Eigenspace& space : before.msm_spaces) {
+      const Eigen::MatrixXd difference = compare::canonical_basis(compare::basis(before.msm, space)) -
+                                         compare::canonical_basis(compare::basis(after.msm, space));
+      CHECK(difference.norm() <= 1e-12); // round-off
+    }
+  }
+}
+
+TEST_CASE("SLEPc's spectrum is that of Eigen's self-adjoint solver", "[verification]") {
+  const Matrices matrices = cell_matrices(0.35);
+  for (const msm::CellMatrix& matrix : {matrices.fem, matrices.msm}) {
+    const compare::Spectrum spectrum = compare::full_spectrum(matrix);
+    const Eigen::VectorXd expected = Eigen::SelfAdjointEigenSolver<msm::CellMatrix>(matrix).eigenvalues();
+    const double round_off = 1e-13 * expected(23);
+    CHECK((spectrum.values - expected).cwiseAbs().maxCoeff() <= round_off);
+    CHECK((matrix * spectrum.vectors - spectrum.vectors * spectrum.values.asDiagonal()).norm() <=
+          10 * round_off);
+    CHECK((spectrum.vectors.transpose() * spectrum.vectors - Eigen::MatrixXd::Identity(24, 24)).norm() <=
+          1e-12);
+  }
+}
+
+TEST_CASE("a matrix compared with itself has every space equivalent in place", "[verification]") {
+  const compare::Spectrum spectrum = compare::full_spectrum(cell_matrices(0.3).fem);
+  const compare::EigenspaceAnalysis analysis = compare::analyse_eigenspaces(spectrum, spectrum);
+  const double n = static_cast<double>(analysis.fem_spaces.size());
+  CHECK(analysis.h == Approx((n + 1) / 2).epsilon(1e-14)); // sum of i/N
+  CHECK((analysis.coupling - Eigen::MatrixXd::Identity(analysis.coupling.rows(), analysis.coupling.cols()))
+            .norm() <= 1e-12); // orthonormality of the solver's vectors
+}
+
+TEST_CASE("the share of a space in all spaces of the other matrix is one", "[verification]") {
+  const compare::EigenspaceAnalysis analysis = analyse(0.1);
+  CHECK((analysis.coupling.rowwise().sum().array() - 1).abs().maxCoeff() <= 1e-12); // completeness, round-off
+}

@@ -1,0 +1,131 @@
+// CalculiX's files, and (label peer, which needs ccx) its answers against our finite elements.
+
+#include "compare/peers/calculix.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "fem_reference/model.hpp"
+#include "tests/support/largest.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <numeric>
+#include <sstream>
+
+using namespace springproof;
+
+using namespace compare;
+using Eigen::Vector3d;
+
+namespace {
+
+cases::Case cube(const std::string& test, const std::vector<std::string>& settings) {
+  std::vector<std::string> all{"fem.element=q1"};
+  all.insert(all.end(), settings.begin(), settings.end());
+  return cases::read_case(
+      std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/linear_elastic/cube_" + test + ".toml", all);
+}
+
+std::string input_of(const cases::Case& definition) {
+  std::ostringstream out;
+  write_calculix_input(out, cases::make_scene(definition));
+  return out.str();
+}
+
+/// Largest difference of a node's displacement from the peer's, relative to that node's own. Nodes that
+/// symmetry keeps where they are (on the axis of the torsion) move by rounding errors alone, and differ by
+/// those.
+double largest_relative_difference(const cases::Solution& ours, const cases::Solution& peer) {
+  double largest = 0, size_of_all = 0;
+  for (const Vector3d& u : ours.displacement) size_of_all = larger(size_of_all, u.norm());
+  for (std::size_t n = 0; n < ours.displacement.size(); ++n) {
+    const double size = ours.displacement[n].norm();
+    const double difference = (ours.displacement[n] - peer.displacement[n]).norm();
+    if (!(difference <= 1e-12 * size_of_all)) largest = larger(largest, difference / size);
+  }
+  return largest;
+}
+
+void check_agrees(const cases::Case& definition) {
+  if (std::system("command -v ccx >/dev/null 2>&1") != 0) {
+    WARN("CalculiX (ccx) is not installed: nothing was compared");
+    return;
+  }
+  const cases::Scene scene = cases::make_scene(definition);
+  const cases::Solution peer = solve_with_calculix(scene);
+  REQUIRE(peer.status == cases::Status::converged);
+  const cases::Solution ours = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
+  INFO(definition.name);
+  // the bound asked for; CalculiX prints seven digits of each component
+  CHECK(largest_relative_difference(ours, peer) <= 1e-5);
+  const auto total = [](const std::vector<double>& volumes) {
+    return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  };
+  CHECK(total(peer.cell_volume) ==
+        Approx(total(ours.cell_volume)).epsilon(1e-6)); // the digits of the displacements
+}
+
+} // namespace
+
+TEST_CASE("a cell of CalculiX's input goes around its bottom, then around its top") {
+  cases::Case definition =
+      cube("tensile_small", {"body.cells=[1, 1, 1]", "body.size=[1, 2, 3]", "fem.formulation=small_strain"});
+  definition.measures.clear(); // they are of the cube of 10 mm
+  const std::string input = input_of(definition);
+  CHECK_THAT(input, Catch::Contains("*ELEMENT, TYPE=C3D8, ELSET=EALL\n1, 1, 2, 4, 3, 5, 6, 8, 7\n"));
+  CHECK_THAT(input, Catch::Contains("\n8, 1.000000000000e+00, 2.000000000000e+00, 3.000000000000e+00\n"));
+  // forces in millionths of a newton, moduli to match
+  CHECK_THAT(input, Catch::Contains("*ELASTIC\n3.000000000000e+05, 3.500000000000e-01\n"));
+  CHECK_THAT(input, Catch::Contains("*BOUNDARY\n1, 1, 1\n1, 2, 2\n1, 3, 3\n2, 1, 1\n"));
+  CHECK_THAT(input, Catch::Contains("*CLOAD\n5, 3, 1.000000000000e+04\n6, 3,"));
+  CHECK_THAT(input, !Catch::Contains("NLGEOM"));
+  definition.fem.formulation = cases::Formulation::saint_venant_kirchhoff;
+  CHECK_THAT(input_of(definition), Catch::Contains("*STEP, NLGEOM"));
+}
+
+TEST_CASE(
+    "what CalculiX has no equal element for is skipped with the reason, before any search for the program") {
+  const cases::Case bbar = cube("tensile_small", {"fem.formulation=small_strain", "fem.element=q1_bbar"});
+  const cases::Solution solution = solve_with_calculix(cases::make_scene(bbar));
+  CHECK(solution.status == cases::Status::skipped);
+  CHECK_THAT(solution.message, Catch::Contains("small_strain with q1_bbar"));
+  CHECK(reason_without_calculix(cube("tensile_small", {"fem.formulation=log_strain"})).has_value());
+  CHECK_FALSE(
+      reason_without_calculix(cube("tensile_small", {"fem.formulation=saint_venant_kirchhoff"})).has_value());
+}
+
+TEST_CASE("the last displacements of a .dat file are read, and zeros with exponents of three digits") {
+  std::istringstream dat(R"(
+ displacements (vx,vy,vz) for set NALL and time  0.2500000E+00
+
+         1  9.000000E+00  9.000000E+00  9.000000E+00
+         2  9.000000E+00  9.000000E+00  9.000000E+00
+
+ displacements (vx,vy,vz) for set NALL and time  0.1000000E+01
+
+         2 -1.250000E-01  1.234567-101  3.000000E+02
+         1  0.000000E+00  0.000000E+00 -4.500000E-10
+)");
+  const CalculixOutput output = read_calculix_output(dat, 2);
+  CHECK(output.load_reached == 1);
+  CHECK(output.displacement[0] == Vector3d(0, 0, -4.5e-10));
+  CHECK(output.displacement[1] == Vector3d(-0.125, 0, 300));
+}
+
+TEST_CASE("a .dat file with a node missing is refused") {
+  const std::string heading = " displacements (vx,vy,vz) for set NALL and time  0.1000000E+01\n\n";
+  std::istringstream one(heading + "         1  0.000000E+00  0.000000E+00 -4.500000E-10\n"), none("");
+  CHECK_THROWS_AS(read_calculix_output(one, 2), cases::SolveError);
+  CHECK_THROWS_AS(read_calculix_output(none, 2), cases::SolveError);
+}
+
+TEST_CASE("small strain on the cube agrees with CalculiX on every node", "[peer]") {
+  for (const char* test : {"tensile", "shear", "torsion"})
+    for (const char* set : {"small", "large"})
+      check_agrees(cube(std::string(test) + "_" + set, {"fem.formulation=small_strain"}));
+}
+
+TEST_CASE("Saint Venant-Kirchhoff on the cube agrees with CalculiX's NLGEOM on every node", "[peer]") {
+  for (const char* test : {"tensile", "shear", "torsion"})
+    for (const char* set : {"small", "large"})
+      check_agrees(cube(std::string(test) + "_" + set, {"fem.formulation=saint_venant_kirchhoff"}));
+}

@@ -1,0 +1,100 @@
+#include "compare/peers/external_side.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/gates/gate.hpp"
+#include "compare/write/write.hpp"
+#include "tests/support/largest.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using namespace springproof;
+
+using compare::GivenDisplacement;
+using compare::match_nodes;
+
+namespace {
+
+const std::string folder = SPRINGPROOF_SOURCE_DIR "/cases/external/";
+
+/// A node per vertex of the mesh, in another order, moved by its own position.
+std::vector<GivenDisplacement> given_for(const cases::HexMesh& mesh) {
+  std::vector<GivenDisplacement> given;
+  for (const Eigen::Vector3d& x : mesh.nodes)
+    given.push_back({x, x, "a.csv:" + std::to_string(given.size() + 2)});
+  std::reverse(given.begin(), given.end());
+  return given;
+}
+
+} // namespace
+
+TEST_CASE("given nodes are found by their place, within a millionth of a millimetre and no further") {
+  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
+  auto given = given_for(mesh);
+  CHECK(match_nodes(mesh, given, "a.csv") == mesh.nodes);
+  for (GivenDisplacement& node : given) node.position += Eigen::Vector3d(-5e-7, 5e-7, -5e-7);
+  CHECK(match_nodes(mesh, given, "a.csv") == mesh.nodes);
+  given[3].position.x() += 2e-6;
+  CHECK_THROWS_WITH(match_nodes(mesh, given, "a.csv"), Catch::StartsWith(given[3].where + ": ") &&
+                                                           Catch::Contains("no node") &&
+                                                           Catch::Contains("nearest"));
+}
+
+TEST_CASE("every node is given once: one twice, one missing and one too many are refused") {
+  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {1, 1, 1});
+  auto twice = given_for(mesh);
+  twice.push_back(twice.front());
+  CHECK_THROWS_WITH(match_nodes(mesh, twice, "a.csv"),
+                    Catch::Contains("given twice, first in " + twice[0].where));
+  auto missing = given_for(mesh);
+  missing.pop_back();
+  CHECK_THROWS_WITH(match_nodes(mesh, missing, "a.csv"),
+                    Catch::Contains("has 7 of the 8 nodes") && Catch::Contains("(0, 0, 0) is missing"));
+  CHECK_THROWS_AS(match_nodes(mesh, {}, "a.csv"), cases::InputError);
+}
+
+TEST_CASE("an independent program's springs are measured with our ruler and agree with ours", "[peer]") {
+  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  compare::Comparison comparison = compare::compare_case(definition);
+  CHECK(compare::judge_gates(comparison).met());
+  const auto ours = comparison.msm.solution;
+  const auto external = compare::read_external({definition}, folder + "pulled_bar.csv");
+  REQUIRE(external);
+  compare::take_displacements(comparison, *external);
+  const auto& theirs = comparison.msm.solution;
+  double largest = 0, largest_volume = 0;
+  for (std::size_t n = 0; n < ours.displacement.size(); ++n)
+    largest = larger(largest, (ours.displacement[n] - theirs.displacement[n]).norm());
+  for (std::size_t c = 0; c < ours.cell_volume.size(); ++c)
+    largest_volume = larger(largest_volume, std::abs(ours.cell_volume[c] - theirs.cell_volume[c]));
+  CHECK(largest <= 1e-8);        // ours ends at 1e-9 of the load; 0.5 mm at the free end
+  CHECK(largest_volume <= 1e-8); // of 1 mm³
+  CHECK(compare::judge_gates(comparison).met());
+}
+
+TEST_CASE("the report of another program's springs says where they come from, without stiffness and counts") {
+  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  compare::Comparison comparison = compare::compare_case(definition);
+  compare::take_displacements(comparison, *compare::read_external({definition}, folder + "pulled_bar.csv"));
+  const auto side = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["msm"];
+  CHECK(side["status"] == "converged");
+  CHECK(side["source"] == folder + "pulled_bar.csv");
+  CHECK_FALSE(side.contains("stiffness_N_per_m"));
+  CHECK(side["newton_iterations"].is_null());
+  CHECK(side["residual"].is_null());
+  CHECK(side["inverted_cells"] == 0);
+  std::ostringstream text;
+  compare::write_text(text, comparison);
+  CHECK_THAT(text.str(), Catch::Contains("msm  displacements of " + folder + "pulled_bar.csv at 45 nodes\n"));
+  CHECK(text.str().find("given k_e") == std::string::npos);
+}
+
+TEST_CASE("one file of displacements belongs to one case") {
+  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  CHECK_THROWS_AS(compare::read_external({definition, definition}, folder + "pulled_bar.csv"),
+                  cases::InputError);
+  CHECK_FALSE(compare::read_external({definition}, ""));
+}

@@ -1,0 +1,92 @@
+#include "compare/solve/design.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+using namespace springproof;
+
+namespace {
+
+struct PublishedRow {
+  double poissons_ratio, edge, face_diagonal, internal_diagonal;
+};
+
+// Columns: table, poissons_ratio, edge, face_diagonal, internal_diagonal.
+std::vector<PublishedRow> published_pseudo_stiffness() {
+  std::ifstream file(SPRINGPROOF_SOURCE_DIR "/cases/published/pseudo_stiffness.csv");
+  std::vector<PublishedRow> rows;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::istringstream text(line);
+    PublishedRow row{};
+    char comma = 0;
+    double table = 0;
+    text >> table >> comma >> row.poissons_ratio >> comma >> row.edge >> comma >> row.face_diagonal >>
+        comma >> row.internal_diagonal;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+msm::DesignResult linear_design(double youngs_modulus, double poissons_ratio, double edge) {
+  return msm::design(compare::design_request(cases::LinearElastic{youngs_modulus, poissons_ratio},
+                                             msm::cube(edge), cases::Msm{}));
+}
+
+} // namespace
+
+TEST_CASE("the linear method regenerates all 33 entries of Table 4.1", "[verification]") {
+  const auto rows = published_pseudo_stiffness();
+  REQUIRE(rows.size() == 11);
+  const double tolerance =
+      0.0015; // three printed digits, and two entries whose last digit was rounded otherwise
+  for (const PublishedRow& row : rows) {
+    CAPTURE(row.poissons_ratio);
+    const msm::CellStiffness pseudo =
+        msm::pseudo_stiffness(linear_design(1, row.poissons_ratio, 2).stiffness, 1, 2);
+    CHECK(pseudo.edge == Approx(row.edge).margin(tolerance));
+    CHECK(pseudo.face_diagonal == Approx(row.face_diagonal).margin(tolerance));
+    CHECK(pseudo.internal_diagonal == Approx(row.internal_diagonal).margin(tolerance));
+  }
+}
+
+TEST_CASE("pseudo-stiffnesses depend neither on Young's modulus nor on the edge", "[verification]") {
+  const msm::CellStiffness one = msm::pseudo_stiffness(linear_design(1, 0.3, 2).stiffness, 1, 2);
+  const msm::CellStiffness other = msm::pseudo_stiffness(linear_design(0.3, 0.3, 0.7).stiffness, 0.3, 0.7);
+  CHECK(other.edge == Approx(one.edge).epsilon(1e-12)); // a well-conditioned least-squares problem: round-off
+  CHECK(other.internal_diagonal == Approx(one.internal_diagonal).epsilon(1e-12));
+}
+
+TEST_CASE("a box's design is that of its cell") {
+  cases::Case definition;
+  definition.body = cases::Box{{3, 2, 1}, {3, 2, 1}};
+  definition.material = cases::LinearElastic{0.3, 0.35};
+  const msm::DesignResult result = compare::design_for(cases::make_scene(definition));
+  CHECK(result.stiffness.edge ==
+        Approx(linear_design(0.3, 0.35, 1).stiffness.edge).epsilon(1e-14)); // the same sums
+  // Rounded to whole N/m these are the stiffnesses that the thesis prints (eq. 5.16).
+  CHECK(std::lround(1000 * result.stiffness.edge) == 31);
+  CHECK(std::lround(1000 * result.stiffness.face_diagonal) == 47);
+  CHECK(std::lround(1000 * result.stiffness.internal_diagonal) == 33);
+}
+
+TEST_CASE("every cell of an irregular mesh gets springs of its own, near those of a cube") {
+  cases::Case definition;
+  definition.body = cases::Box{{2, 2, 2}, {{2, 2, 2}}};
+  definition.material = cases::LinearElastic{0.3, 0.35};
+  definition.msm.design = GENERATE(cases::Design::linear_method, cases::Design::hybrid);
+  cases::Scene scene = cases::make_scene(definition);
+  const msm::CellStiffness cube = compare::design_for(scene).stiffness;
+  scene.mesh.grid.reset();
+  for (Eigen::Vector3d& x : scene.mesh.nodes)
+    x += 0.03 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
+  const msm::DesignResult design = compare::design_for(scene);
+  REQUIRE(compare::stiffness_of_cells(design).size() == 8);
+  CHECK(design.warnings.empty());
+  for (const msm::CellStiffness& k : design.cells) {
+    CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
+    CHECK(k.edge != cube.edge);
+  }
+}

@@ -1,0 +1,177 @@
+#include "fem_reference/laws/formulation.hpp"
+
+#include "fem_reference/laws/principal_stretches.hpp"
+#include "tests/fem_reference/scenes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace springproof;
+
+using namespace fem_reference;
+
+namespace {
+
+struct Named {
+  std::string name;
+  Formulation formulation;
+};
+
+/// Every formulation; Ogden materials with positive, negative, large and fractional exponents.
+std::vector<Named> formulations() {
+  const auto elastic = scenes::thesis_elastic();
+  return {{"small_strain", small_strain(elastic)},
+          {"saint_venant_kirchhoff", saint_venant_kirchhoff(elastic)},
+          {"log_strain", log_strain(elastic)},
+          {"neo-Hooke", ogden({{0.5}, {2}, 2.})},
+          {"Mooney-Rivlin", ogden({{0.3, 0.2}, {2, -2}, 2.})},
+          {"Ogden", ogden({{0.1, 0.2, -0.05}, {5.7255, 0.5, -3.}, 2.})}};
+}
+
+/// P with the pressure p(J) pointwise.
+Vector9 whole_stress(const Formulation& law, const Matrix3& f) {
+  PointStress point;
+  law.stress(f, Wanted::stress, point);
+  if (law.volumetric)
+    point.stress += law.volumetric->pressure(volume_ratio(law.kinematics, f)).value *
+                    flatten(cofactor(law.kinematics, f));
+  return point.stress;
+}
+
+Matrix9 whole_tangent(const Formulation& law, const Matrix3& f) {
+  PointStress point;
+  law.stress(f, Wanted::stress_and_tangent, point);
+  if (law.volumetric) {
+    const ValueAndSlope p = law.volumetric->pressure(volume_ratio(law.kinematics, f));
+    const Vector9 area = flatten(cofactor(law.kinematics, f));
+    add_cofactor_derivative(law.kinematics, f, p.value, point.tangent);
+    point.tangent += p.slope * area * area.transpose();
+  }
+  return point.tangent;
+}
+
+Matrix3 turn(double angle) {
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+}
+
+/// Deformation gradients with these stretches along axes that are nobody's.
+Matrix3 with_stretches(double a, double b, double c) {
+  return turn(0.4) * turn(1.1).transpose() * Eigen::Vector3d(a, b, c).asDiagonal() * turn(-0.7);
+}
+
+const std::vector<std::pair<std::string, Matrix3>> states{
+    {"rest", Matrix3::Identity()},
+    {"rotation", turn(0.9)},
+    {"uniaxial", with_stretches(1.7, 0.8, 0.8)},
+    {"equibiaxial", with_stretches(1.4, 1.4, 0.6)},
+    {"dilatation", with_stretches(1.2, 1.2, 1.2)},
+    {"three stretches", with_stretches(0.5, 2, 1.1)},
+    {"stretches 1e-12 apart", with_stretches(1.3, 1.3 + 1e-12, 0.7)},
+    {"stretches 1e-8 apart", with_stretches(1.3, 1.3 + 1e-8, 0.7)},
+    {"stretches 1e-5 apart", with_stretches(1.3, 1.3 + 1e-5, 0.7)},
+    {"stretches 1e-3 apart", with_stretches(1.3, 1.301, 0.7)}};
+
+} // namespace
+
+TEST_CASE("the stress tangent is the stress's derivative, where stretches coincide and where they nearly do",
+          "[verification]") {
+  for (const auto& [name, law] : formulations())
+    for (const auto& [state, f] : states) {
+      const Matrix9 tangent = whole_tangent(law, f);
+      Matrix9 differences;
+      const double step = 1e-5; // truncation step² ~ 1e-10, rounding 1e-16/step ~ 1e-11
+      for (int k = 0; k < 9; ++k) {
+        Matrix3 forward = f, backward = f;
+        forward(k / 3, k % 3) += step;
+        backward(k / 3, k % 3) -= step;
+        differences.col(k) = (whole_stress(law, forward) - whole_stress(law, backward)) / (2 * step);
+      }
+      CAPTURE(name, state);
+      CHECK((tangent - differences).norm() <= 1e-8 * tangent.norm()); // 10 times the larger of both
+    }
+}
+
+TEST_CASE("the tangent of a material with an energy is symmetric, that of log_strain is not",
+          "[verification]") {
+  for (const auto& [name, law] : formulations()) {
+    const Matrix9 tangent = whole_tangent(law, with_stretches(0.5, 2, 1.1));
+    const double skew = (tangent - tangent.transpose()).norm() / tangent.norm();
+    CAPTURE(name, skew);
+    if (law.symmetry == TangentSymmetry::symmetric) CHECK(skew <= 1e-13); // rounding error
+    if (law.symmetry == TangentSymmetry::unsymmetric) CHECK(skew > 1e-3); // no accident of rounding
+  }
+}
+
+TEST_CASE("a superposed rotation turns the stress and changes nothing else", "[verification]") {
+  for (const auto& [name, law] : formulations()) {
+    if (law.kinematics == Kinematics::linear)
+      continue; // small strain is not frame indifferent, by definition
+    for (const auto& [state, f] : states) {
+      const Matrix3 q = turn(2.2);
+      const Vector9 plain = whole_stress(law, f), turned = whole_stress(law, q * f);
+      const Matrix3 expected =
+          q * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(plain.data());
+      CAPTURE(name, state);
+      CHECK((turned - flatten(expected)).norm() <=
+            1e-13 * whole_tangent(law, f).norm()); // rounding of F's entries
+    }
+  }
+}
+
+TEST_CASE("every law has the moduli of linear elasticity at rest", "[verification]") {
+  const double mu = 0.4, kappa = 1.7;
+  const double young = 9 * kappa * mu / (3 * kappa + mu),
+               poisson = (3 * kappa - 2 * mu) / (6 * kappa + 2 * mu);
+  const Matrix9 linear = whole_tangent(small_strain({young, poisson}), Matrix3::Identity());
+  for (const auto& law : {saint_venant_kirchhoff({young, poisson}), log_strain({young, poisson}),
+                          ogden({{mu}, {2}, kappa}), ogden({{0.5, -0.1}, {5, -2.5}, kappa})})
+    CHECK((whole_tangent(law, Matrix3::Identity()) - linear).norm() <=
+          1e-13 * linear.norm()); // rounding error
+}
+
+TEST_CASE("log_strain is Hooke's law between Cauchy stress and the logarithm of the left stretch",
+          "[verification]") {
+  const auto elastic = scenes::thesis_elastic();
+  const auto [lambda, mu, kappa] = elastic_moduli(elastic);
+  const Matrix3 f = with_stretches(0.5, 2, 1.1);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> left(f * f.transpose());
+  const Matrix3 strain = left.eigenvectors() *
+                         (0.5 * left.eigenvalues().array().log()).matrix().asDiagonal() *
+                         left.eigenvectors().transpose();
+  const Matrix3 cauchy = lambda * strain.trace() * Matrix3::Identity() + 2 * mu * strain;
+  const Matrix3 first = f.determinant() * cauchy * f.inverse().transpose();
+  CHECK((whole_stress(log_strain(elastic), f) - flatten(first)).norm() <=
+        1e-13 * first.norm()); // rounding error
+}
+
+TEST_CASE("the volume ratio of a pressure is the inverse of the pressure of a volume ratio") {
+  for (const auto& [name, law] : formulations()) {
+    if (!law.volumetric) continue;
+    for (const double j : {0.2, 0.9, 1., 1.0001, 3.}) {
+      const ValueAndSlope p = law.volumetric->pressure(j), back = law.volumetric->volume_ratio(p.value);
+      CAPTURE(name, j);
+      CHECK(std::abs(back.value - j) <= 1e-14 * (1 + j)); // rounding error
+      CHECK(std::abs(back.slope * p.slope - 1) <= 1e-13); // derivative of the inverse
+    }
+  }
+}
+
+TEST_CASE("the ratio of hyperbolic sines has no gap where its series begins") {
+  for (const double a : {0.5, -1.5, 2.86275, 10.}) {
+    CHECK(sinh_ratio(a, 0) == a);
+    const double below = sinh_ratio(a, 0.999999e-3), above = sinh_ratio(a, 1.000001e-3);
+    CHECK(std::abs(below - above) <=
+          1e-11 * std::abs(a) * (1 + a * a)); // slope a³ d/3 times 2e-9, and rounding
+  }
+}
+
+TEST_CASE("a formulation refuses a material that is not its own") {
+  cases::Fem fem;
+  fem.formulation = cases::Formulation::hyperelastic;
+  CHECK_THROWS_AS(make_formulation(fem, scenes::thesis_elastic()), cases::InputError);
+  fem.formulation = cases::Formulation::log_strain;
+  CHECK_THROWS_AS(make_formulation(fem, scenes::thesis_ogden()), cases::InputError);
+}

@@ -1,0 +1,82 @@
+#include "msm/relaxation/relaxation.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
+#include "msm/model.hpp"
+#include "tests/msm/bodies.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+using namespace springproof;
+
+namespace {
+
+using bodies::thesis_cell;
+const std::vector<cases::Solver> relaxations = {cases::Solver::force_scaling, cases::Solver::fire,
+                                                cases::Solver::lbfgs};
+
+cases::Solution solve(cases::Case definition, cases::Solver solver, const msm::CellStiffness& stiffness,
+                      const msm::EquilibriumSettings& settings = {}) {
+  definition.msm.solver = solver;
+  return msm::Model(cases::make_scene(definition), {stiffness}).solve(settings);
+}
+
+} // namespace
+
+TEST_CASE("every explicit relaxation ends where Newton's method does") {
+  const cases::Case pulled = bodies::clamped_box({3, 3, 3}, bodies::tensile(0.05));
+  for (const msm::CellStiffness& stiffness : {thesis_cell, bodies::hybrid_cell}) {
+    const cases::Solution newton = solve(pulled, cases::Solver::newton, stiffness);
+    for (const cases::Solver solver : relaxations) {
+      INFO(cases::name_of(solver));
+      const cases::Solution relaxed = solve(pulled, solver, stiffness);
+      CHECK(relaxed.residual <= 1e-9);
+      // mm: 1e-9 of a load of 0.2 N over the lowest stiffness met here, above 1e-3 N/mm
+      CHECK(largest_difference(relaxed, newton) < 2e-7);
+      CHECK(relaxed.outcome == cases::Outcome::stable_equilibrium);
+      CHECK(relaxed.relaxation_iterations > 0);
+      CHECK(relaxed.newton_iterations == 0);
+      CHECK(relaxed.load_reached == 1);
+    }
+  }
+}
+
+TEST_CASE("an explicit relaxation on a body whose top is moved ends where Newton's method does") {
+  cases::Case pressed = bodies::clamped_box({3, 3, 3}, {});
+  cases::Moved down;
+  down.region = bodies::region("z+");
+  down.displacement = {0, 0, -0.3};
+  pressed.moved = {down};
+  const cases::Solution newton = solve(pressed, cases::Solver::newton, thesis_cell);
+  const cases::Solution relaxed = solve(pressed, cases::Solver::lbfgs, thesis_cell);
+  CHECK(largest_difference(relaxed, newton) < 1e-6); // mm; 1e-9 of reactions of some 0.1 N over 1e-3 N/mm
+  CHECK(relaxed.displacement.back().z() == -0.3);
+}
+
+TEST_CASE("an explicit relaxation that uses up its iterations says so, with the residual it has") {
+  const cases::Case pulled = bodies::clamped_box({3, 3, 3}, bodies::tensile(0.05));
+  msm::EquilibriumSettings settings;
+  settings.max_relaxation_iterations = 5;
+  for (const cases::Solver solver : relaxations) {
+    INFO(cases::name_of(solver));
+    try {
+      solve(pulled, solver, thesis_cell, settings);
+      FAIL("an equilibrium was reported");
+    } catch (const cases::SolveError& error) {
+      CHECK_THAT(error.what(), Catch::Contains("limit of 5 iterations"));
+      CHECK(error.residual() > 1e-9);
+      CHECK(error.outcome() == cases::Outcome::unknown);
+    }
+  }
+}
+
+TEST_CASE("an explicit relaxation can be stopped") {
+  msm::EquilibriumSettings settings;
+  int asked = 0;
+  settings.should_stop = [&] { return ++asked == 4; };
+  CHECK_THROWS_AS(solve(bodies::clamped_box({3, 3, 3}, bodies::tensile(0.05)), cases::Solver::fire,
+                        thesis_cell, settings),
+                  cases::SolveError);
+  CHECK(asked == 4);
+}
