@@ -1,27 +1,12 @@
 #include "fem_reference/linear_solver.hpp"
 
+#include "mechanics/petsc/rigid_motions.hpp"
+
 #include <cstring>
 
 namespace springproof::fem_reference {
 
 namespace {
-
-/// Rigid motions as near-kernel of the tangent: what algebraic multigrid must represent on its coarse levels.
-void attach_rigid_motions(const Discretisation& d) {
-  Vec points = nullptr;
-  check(MatCreateVecs(d.tangent, &points, nullptr));
-  const Vector owned(points);
-  check(VecSetBlockSize(points, 3));
-  PetscScalar* values = nullptr;
-  check(VecGetArray(points, &values));
-  for (int node = 0; node < d.n_owned_nodes; ++node)
-    for (int c = 0; c < 3; ++c) values[3 * node + c] = d.node_point[static_cast<std::size_t>(node)][c];
-  check(VecRestoreArray(points, &values));
-  MatNullSpace rigid = nullptr;
-  check(MatNullSpaceCreateRigidBody(points, &rigid));
-  const NullSpace owned_space(rigid);
-  check(MatSetNearNullSpace(d.tangent, rigid));
-}
 
 int negative_pivots(Mat factor) {
   PetscInt negative = 0;
@@ -63,7 +48,7 @@ LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
   // diagonal, which is a fifth faster, and still counts the negative ones; a factorisation gone bad would
   // show in the residual.
   if (symmetric) check(MatSetOption(tangent_, MAT_SPD, PETSC_TRUE));
-  attach_rigid_motions(d);
+  mechanics::petsc::attach_rigid_motions(tangent_, d.node_point);
   // an iterative solve leaves Newton a factor of 1e5 a step, hardly less than its quadratic convergence
   check(KSPSetTolerances(solver, 1e-5, PETSC_DEFAULT, PETSC_DEFAULT, 500));
   if (d.n_unknowns <= direct_solver_limit) {

@@ -37,7 +37,7 @@ class LinearSolver {
  private:
   bool is_direct() const;
 
-  Solver solver_;
+  mechanics::petsc::LinearSolver solver_;
   Mat tangent_;
   TangentSymmetry symmetry_;
   long n_factorisations_ = 0;

@@ -1,6 +1,6 @@
 #include "msm/direct/direct_system.hpp"
 
-#include "msm/lanczos.hpp"
+#include "mechanics/equilibrium/lanczos.hpp"
 #include "msm/tangent.hpp"
 
 #include <Eigen/CholmodSupport>
@@ -112,7 +112,7 @@ class DirectSystem : public EquilibriumSystem {
     while (!factorise(displacement, TransverseTerm::exact, shift))
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
     const auto apply = [&](const Vector& v) { return factorisation_.solution(v); };
-    LargestMode mode = largest_mode(apply, tangent_.n_free());
+    mechanics::LargestMode mode = mechanics::largest_mode(apply, tangent_.n_free());
     return {1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
 

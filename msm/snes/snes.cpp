@@ -2,15 +2,13 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/index.hpp"
+#include "mechanics/petsc/rigid_motions.hpp"
 #include "msm/problem.hpp"
 #include "msm/tangent.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <petscsnes.h>
 #include <random>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 namespace springproof::msm {
@@ -18,26 +16,10 @@ namespace springproof::msm {
 namespace {
 
 using cases::index;
+using mechanics::petsc::check;
+namespace petsc = mechanics::petsc;
 
 constexpr PetscInt direct_up_to = 30000; ///< unknowns; there both ways take about as long
-
-template<class Object, PetscErrorCode (*destroy)(Object*)>
-struct Destroy {
-  void operator()(Object object) const { destroy(&object); }
-};
-template<class Object, PetscErrorCode (*destroy)(Object*)>
-using Owned = std::unique_ptr<std::remove_pointer_t<Object>, Destroy<Object, destroy>>;
-using OwnedVec = Owned<Vec, VecDestroy>;
-using OwnedMat = Owned<Mat, MatDestroy>;
-using OwnedSnes = Owned<SNES, SNESDestroy>;
-
-/// @throws std::runtime_error for a non-zero code: a programming or memory error, never a solver that failed
-void check(PetscErrorCode code) {
-  if (code == 0) return;
-  const char* text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);
-  throw std::runtime_error(std::string("PETSc: ") + (text ? text : "error"));
-}
 
 /// A rank's part of the lattice: its points, and the springs and cells whose first point is among them.
 /// Points of others that these touch are ghosts at the end of the rank's own.
@@ -64,14 +46,14 @@ class Part {
     set_fixed(applied_.get(), nullptr);
   }
 
-  OwnedVec make_vector() const {
+  petsc::Vector make_vector() const {
     Vec vector = nullptr;
     check(VecCreateGhostBlock(communicator_, 3, 3 * n_own_, PETSC_DECIDE,
                               static_cast<PetscInt>(ghosts_.size()), ghosts_.data(), &vector));
-    return OwnedVec(vector);
+    return petsc::Vector(vector);
   }
 
-  OwnedMat make_matrix() const {
+  petsc::Matrix make_matrix() const {
     Mat matrix = nullptr;
     check(MatCreate(communicator_, &matrix));
     check(MatSetSizes(matrix, 3 * n_own_, 3 * n_own_, PETSC_DECIDE, PETSC_DECIDE));
@@ -83,8 +65,8 @@ class Part {
     check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
     check(MatSetOption(matrix, MAT_SPD,
                        PETSC_TRUE)); // where it is not, the pivots' signs or conjugate gradients tell
-    attach_rigid_motions(matrix);
-    return OwnedMat(matrix);
+    petsc::attach_rigid_motions(matrix, lattice_.rest);
+    return petsc::Matrix(matrix);
   }
 
   /// Owned entries of a vector from values of all points.
@@ -101,7 +83,7 @@ class Part {
     VecScatter scatter = nullptr;
     Vec all = nullptr;
     check(VecScatterCreateToAll(vector, &scatter, &all));
-    const OwnedVec owned(all);
+    const petsc::Vector owned(all);
     check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterDestroy(&scatter));
@@ -144,7 +126,7 @@ class Part {
     // An iterative solver moves the held points a little: the next step has to bring them back.
     Vec wanted = nullptr;
     PetscCall(VecDuplicate(displacement, &wanted));
-    const OwnedVec owned(wanted);
+    const petsc::Vector owned(wanted);
     PetscCall(VecCopy(displacement, wanted));
     move_supports(wanted);
     const PetscScalar *is = nullptr, *should_be = nullptr;
@@ -203,7 +185,7 @@ class Part {
   std::vector<PetscInt> ghosts_; ///< ascending
   std::vector<PetscInt> fixed_;  ///< owned degrees of freedom
   Lattice lattice_;              ///< in local numbers
-  OwnedVec moved_, force_, applied_;
+  petsc::Vector moved_, force_, applied_;
 
   bool owns(int point) const { return point >= first_ && point < first_ + n_own_; }
   PetscInt global(std::size_t local) const {
@@ -254,15 +236,6 @@ class Part {
     }
   }
 
-  void attach_rigid_motions(Mat matrix) const {
-    const OwnedVec points = make_vector();
-    put(points.get(), problem_.lattice.rest);
-    MatNullSpace rigid = nullptr;
-    check(MatNullSpaceCreateRigidBody(points.get(), &rigid));
-    check(MatSetNearNullSpace(matrix, rigid));
-    check(MatNullSpaceDestroy(&rigid));
-  }
-
   Points local_positions(Vec displacement) const {
     Vec local = nullptr;
     const PetscScalar* entries = nullptr;
@@ -288,14 +261,14 @@ PetscErrorCode evaluate_tangent(SNES, Vec x, Mat matrix, Mat, void* part) {
 }
 
 /// SNES set up for a part; what it points to must outlive it.
-OwnedSnes make_solver(Part& part, Mat matrix, Vec residual, const EquilibriumSettings& settings,
-                      MPI_Comm communicator) {
+petsc::NonlinearSolver make_solver(Part& part, Mat matrix, Vec residual, const EquilibriumSettings& settings,
+                                   MPI_Comm communicator) {
   SNES snes = nullptr;
   SNESLineSearch line_search = nullptr;
   KSP linear = nullptr;
   PC preconditioner = nullptr;
   check(SNESCreate(communicator, &snes));
-  OwnedSnes owned(snes);
+  petsc::NonlinearSolver owned(snes);
   check(SNESSetOptionsPrefix(snes, "msm_"));
   check(SNESSetFunction(snes, residual, evaluate_residual, &part));
   check(SNESSetJacobian(snes, matrix, matrix, evaluate_tangent, &part));
@@ -338,7 +311,7 @@ bool is_definite(SNES snes, Mat matrix, Vec displacement, Part& part) {
   check(part.tangent(displacement, matrix));
   Vec right = nullptr, solution = nullptr;
   check(MatCreateVecs(matrix, &solution, &right));
-  const OwnedVec owned_right(right), owned_solution(solution);
+  const petsc::Vector owned_right(right), owned_solution(solution);
   PetscInt first = 0, last = 0;
   check(VecGetOwnershipRange(right, &first, &last));
   std::mt19937 generator(3u + static_cast<unsigned>(first));
@@ -382,10 +355,10 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   Problem problem = make_problem(scene);
   problem.lattice = make_lattice(scene.mesh, stiffness);
   Part part(problem, communicator);
-  const OwnedVec now = part.make_vector(), trial = part.make_vector(), residual = part.make_vector();
-  const OwnedMat matrix = part.make_matrix();
+  const petsc::Vector now = part.make_vector(), trial = part.make_vector(), residual = part.make_vector();
+  const petsc::Matrix matrix = part.make_matrix();
   if (!start.empty()) part.put(now.get(), start);
-  const OwnedSnes snes = make_solver(part, matrix.get(), residual.get(), settings, communicator);
+  const petsc::NonlinearSolver snes = make_solver(part, matrix.get(), residual.get(), settings, communicator);
   cases::Solution solution;
   double step = settings.first_load_step;
   for (int n = 0; solution.load_reached < 1; ++n) {

@@ -1,9 +1,9 @@
-#include "fem_reference/petsc.hpp"
+#include "mechanics/petsc/handles.hpp"
 
 #include <stdexcept>
 #include <string>
 
-namespace springproof::fem_reference {
+namespace springproof::mechanics::petsc {
 
 void check(PetscErrorCode code) {
   if (code == 0) return;
@@ -20,4 +20,4 @@ Vector like(const Vector& vector) {
   return owned;
 }
 
-} // namespace springproof::fem_reference
+} // namespace springproof::mechanics::petsc

@@ -1,11 +1,11 @@
-#include "msm/lanczos.hpp"
+#include "mechanics/equilibrium/lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-namespace springproof::msm {
+namespace springproof::mechanics {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,4 +36,4 @@ LargestMode largest_mode(const std::function<VectorXd(const VectorXd&)>& apply, 
   }
 }
 
-} // namespace springproof::msm
+} // namespace springproof::mechanics

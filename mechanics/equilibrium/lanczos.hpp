@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace springproof::msm {
+namespace springproof::mechanics {
 
 struct LargestMode {
   double eigenvalue;
@@ -14,4 +14,4 @@ struct LargestMode {
 /// from a fixed pseudo-random vector: to 1e-6 relative, or what 60 steps give.
 LargestMode largest_mode(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index n);
 
-} // namespace springproof::msm
+} // namespace springproof::mechanics
