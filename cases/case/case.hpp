@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/enumeration.hpp"
 #include "cases/case/error.hpp"
 
 #include <Eigen/Core>
@@ -82,12 +83,13 @@ struct Moved {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
 };
 
-enum class LoadKind {
-  nodal_force, ///< value N on every node of the region
-  total_force, ///< value N, shared equally by the region's nodes
-  traction,    ///< value MPa on the rest area, dead, integrated consistently
-  torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
-};
+SPRINGPROOF_ENUMERATION(
+    LoadKind,
+    nodal_force, ///< value N on every node of the region
+    total_force, ///< value N, shared equally by the region's nodes
+    traction,    ///< value MPa on the rest area, dead, integrated consistently
+    torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
+)
 
 struct Load {
   Region region;
@@ -98,8 +100,8 @@ struct Load {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< mm; torque only
 };
 
-enum class Formulation { small_strain, saint_venant_kirchhoff, log_strain, hyperelastic };
-enum class Element { q1, q1_bbar, q1_p0, q2, q2_p1 };
+SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
+SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q2, q2_p1)
 
 struct Fem {
   Formulation formulation = Formulation::log_strain;
@@ -110,24 +112,25 @@ struct Fem {
   Where where;
 };
 
-enum class Design { linear_method, nonlinear_method, moduli, hybrid, multi_load, given };
+SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, multi_load, given)
 
 /// Homogeneous deformations that the multi-load design is fitted to.
-enum class LoadPath {
-  uniaxial,     ///< along a lattice axis, free sides
-  equibiaxial,  ///< along two lattice axes, the third free
-  pure_shear,   ///< planar tension: one axis stretched, one held, the third free
-  simple_shear, ///< between two lattice axes
-};
+SPRINGPROOF_ENUMERATION(LoadPath,
+                        uniaxial,    ///< along a lattice axis, free sides
+                        equibiaxial, ///< along two lattice axes, the third free
+                        pure_shear,  ///< planar tension: one axis stretched, one held, the third free
+                        simple_shear ///< between two lattice axes
+)
 
 /// How the springs' equilibrium is looked for. All but the first are there to be compared with it.
-enum class Solver {
-  newton,        ///< Newton's method with load steps
-  force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
-  fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
-  lbfgs,         ///< limited-memory quasi-Newton
-  snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
-};
+SPRINGPROOF_ENUMERATION(
+    Solver,
+    newton,        ///< Newton's method with load steps
+    force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
+    fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
+    lbfgs,         ///< limited-memory quasi-Newton
+    snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
+)
 
 struct Msm {
   Design design = Design::linear_method;
@@ -143,17 +146,10 @@ struct Msm {
   Where where;
 };
 
-enum class MeasureKind {
-  coordinate,
-  displacement,
-  tilt,
-  twist,
-  volume,
-  displacement_field_l2,
-  displacement_field_max
-};
-enum class Axis { x = 0, y = 1, z = 2 };
-enum class Component { x = 0, y = 1, z = 2, norm = 3 };
+SPRINGPROOF_ENUMERATION(MeasureKind, coordinate, displacement, tilt, twist, volume, displacement_field_l2,
+                        displacement_field_max)
+SPRINGPROOF_ENUMERATION(Axis, x, y, z)
+SPRINGPROOF_ENUMERATION(Component, x, y, z, norm)
 
 struct Measure {
   std::string name;
@@ -168,8 +164,8 @@ struct Measure {
 };
 
 /// Where an expectation's interval comes from; kinds are kept apart in reports.
-enum class ReferenceKind { exact, converged, peer, published, regression };
-enum class Quantity { error_percent, msm, fem };
+SPRINGPROOF_ENUMERATION(ReferenceKind, exact, converged, peer, published, regression)
+SPRINGPROOF_ENUMERATION(Quantity, error_percent, msm, fem)
 
 struct Expectation {
   std::string measure;

@@ -6,121 +6,26 @@
 
 namespace springproof::cases {
 
-template<>
-const NameTable<LoadKind>& names() {
-  static const NameTable<LoadKind> table{{LoadKind::nodal_force, "nodal_force"},
-                                         {LoadKind::total_force, "total_force"},
-                                         {LoadKind::traction, "traction"},
-                                         {LoadKind::torque, "torque"}};
-  return table;
-}
-
-template<>
-const NameTable<Formulation>& names() {
-  static const NameTable<Formulation> table{{Formulation::small_strain, "small_strain"},
-                                            {Formulation::saint_venant_kirchhoff, "saint_venant_kirchhoff"},
-                                            {Formulation::log_strain, "log_strain"},
-                                            {Formulation::hyperelastic, "hyperelastic"}};
-  return table;
-}
-
-template<>
-const NameTable<Element>& names() {
-  static const NameTable<Element> table{{Element::q1, "q1"},
-                                        {Element::q1_bbar, "q1_bbar"},
-                                        {Element::q1_p0, "q1_p0"},
-                                        {Element::q2, "q2"},
-                                        {Element::q2_p1, "q2_p1"}};
-  return table;
-}
-
-template<>
-const NameTable<Design>& names() {
-  static const NameTable<Design> table{{Design::linear_method, "linear_method"},
-                                       {Design::nonlinear_method, "nonlinear_method"},
-                                       {Design::moduli, "moduli"},
-                                       {Design::hybrid, "hybrid"},
-                                       {Design::multi_load, "multi_load"},
-                                       {Design::given, "given"}};
-  return table;
-}
-
-template<>
-const NameTable<LoadPath>& names() {
-  static const NameTable<LoadPath> table{{LoadPath::uniaxial, "uniaxial"},
-                                         {LoadPath::equibiaxial, "equibiaxial"},
-                                         {LoadPath::pure_shear, "pure_shear"},
-                                         {LoadPath::simple_shear, "simple_shear"}};
-  return table;
-}
-
-template<>
-const NameTable<Solver>& names() {
-  static const NameTable<Solver> table{{Solver::newton, "newton"},
-                                       {Solver::force_scaling, "force_scaling"},
-                                       {Solver::fire, "fire"},
-                                       {Solver::lbfgs, "lbfgs"},
-                                       {Solver::snes, "snes"}};
-  return table;
-}
-
-template<>
-const NameTable<MeasureKind>& names() {
-  static const NameTable<MeasureKind> table{{MeasureKind::coordinate, "coordinate"},
-                                            {MeasureKind::displacement, "displacement"},
-                                            {MeasureKind::tilt, "tilt"},
-                                            {MeasureKind::twist, "twist"},
-                                            {MeasureKind::volume, "volume"},
-                                            {MeasureKind::displacement_field_l2, "displacement_field_l2"},
-                                            {MeasureKind::displacement_field_max, "displacement_field_max"}};
-  return table;
-}
-
-template<>
-const NameTable<Axis>& names() {
-  static const NameTable<Axis> table{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}};
-  return table;
-}
-
-template<>
-const NameTable<Component>& names() {
-  static const NameTable<Component> table{
-      {Component::x, "x"}, {Component::y, "y"}, {Component::z, "z"}, {Component::norm, "norm"}};
-  return table;
-}
-
-template<>
-const NameTable<ReferenceKind>& names() {
-  static const NameTable<ReferenceKind> table{{ReferenceKind::exact, "exact"},
-                                              {ReferenceKind::converged, "converged"},
-                                              {ReferenceKind::peer, "peer"},
-                                              {ReferenceKind::published, "published"},
-                                              {ReferenceKind::regression, "regression"}};
-  return table;
-}
-
-template<>
-const NameTable<Quantity>& names() {
-  static const NameTable<Quantity> table{
-      {Quantity::error_percent, "error_percent"}, {Quantity::msm, "msm"}, {Quantity::fem, "fem"}};
-  return table;
-}
-
-template<>
-const NameTable<Status>& names() {
-  static const NameTable<Status> table{
-      {Status::converged, "converged"}, {Status::failed, "failed"}, {Status::skipped, "skipped"}};
-  return table;
+std::vector<std::string> split_enumerators(const char* list) {
+  std::vector<std::string> names(1);
+  for (; *list != '\0'; ++list)
+    if (*list == ',')
+      names.emplace_back();
+    else if (*list != ' ')
+      names.back() += *list;
+  return names;
 }
 
 template<>
 const NameTable<Outcome>& names() {
-  static const NameTable<Outcome> table{{Outcome::unknown, "unknown"},
-                                        {Outcome::stable_equilibrium, "stable equilibrium"},
-                                        {Outcome::unstable_equilibrium, "unstable equilibrium"},
-                                        {Outcome::limit_point, "limit point"},
-                                        {Outcome::mechanism, "mechanism"},
-                                        {Outcome::refused, "refused"}};
+  static const NameTable<Outcome> table = [] {
+    NameTable<Outcome> all;
+    for (std::string& name : split_enumerators(enumerators(Outcome{}))) {
+      std::replace(name.begin(), name.end(), '_', ' ');
+      all.emplace_back(static_cast<Outcome>(all.size()), std::move(name));
+    }
+    return all;
+  }();
   return table;
 }
 

@@ -8,50 +8,37 @@
 #include <utility>
 #include <vector>
 
-/// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike. A new
-/// enumerator is one line in its table in names.cpp.
+/// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike.
 namespace springproof::cases {
 
 template<class Enum>
-using NameTable = std::vector<std::pair<Enum, const char*>>;
+using NameTable = std::vector<std::pair<Enum, std::string>>;
 
-/// The table of one enumeration, in the order in which messages list it.
+/// The enumerators 0, 1, ... of a list separated by commas.
+std::vector<std::string> split_enumerators(const char* list);
+
+/// Names of a SPRINGPROOF_ENUMERATION, in the order in which messages list them.
 template<class Enum>
-const NameTable<Enum>& names();
+const NameTable<Enum>& names() {
+  static const NameTable<Enum> table = [] {
+    NameTable<Enum> all;
+    for (std::string& name : split_enumerators(enumerators(Enum{})))
+      all.emplace_back(static_cast<Enum>(all.size()), std::move(name));
+    return all;
+  }();
+  return table;
+}
 
-template<>
-const NameTable<LoadKind>& names();
-template<>
-const NameTable<Formulation>& names();
-template<>
-const NameTable<Element>& names();
-template<>
-const NameTable<Design>& names();
-template<>
-const NameTable<LoadPath>& names();
-template<>
-const NameTable<Solver>& names();
-template<>
-const NameTable<MeasureKind>& names();
-template<>
-const NameTable<Axis>& names();
-template<>
-const NameTable<Component>& names();
-template<>
-const NameTable<ReferenceKind>& names();
-template<>
-const NameTable<Quantity>& names();
-template<>
-const NameTable<Status>& names();
+/// Written with blanks: "stable equilibrium".
 template<>
 const NameTable<Outcome>& names();
 
-/// Name of an enumerator; every enumerator has one.
+/// Name of an enumerator.
 template<class Enum>
 std::string name_of(Enum value) {
   for (const auto& [known, name] : names<Enum>())
     if (known == value) return name;
-  return "?"; // an enumerator without its line in names.cpp; tests/cases/names_test.cpp guards against it
+  return "?"; // not an enumerator
 }
 
 /// Enumerator of that name, if there is one.

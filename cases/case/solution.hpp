@@ -10,7 +10,7 @@
 
 namespace springproof::cases {
 
-enum class Status { converged, failed, skipped };
+SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 
 /// What either model answers. A failed side keeps its message and counters but has no displacement.
 struct Solution {
