@@ -1,4 +1,4 @@
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_boundary.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,11 @@
 #include "cases/case/read_case.hpp"
 
 #include "cases/case/override.hpp"
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_boundary.hpp"
+#include "cases/case/read_material.hpp"
+#include "cases/case/read_measures.hpp"
+#include "cases/case/read_models.hpp"
+#include "cases/case/read_stress.hpp"
 
 #include <cerrno>
 #include <cstring>

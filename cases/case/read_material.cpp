@@ -1,4 +1,6 @@
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_material.hpp"
+
+#include "cases/case/read_models.hpp"
 
 #include <fmt/format.h>
 #include <limits>

@@ -1,4 +1,6 @@
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_measures.hpp"
+
+#include "cases/case/read_boundary.hpp"
 
 #include <fmt/format.h>
 

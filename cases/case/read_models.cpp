@@ -1,4 +1,4 @@
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_models.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

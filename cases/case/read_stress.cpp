@@ -1,4 +1,4 @@
-#include "cases/case/read_sections.hpp"
+#include "cases/case/read_stress.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
