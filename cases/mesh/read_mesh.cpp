@@ -1,20 +1,36 @@
 #include "cases/mesh/read_mesh.hpp"
 
 #include "cases/case/index.hpp"
+#include "cases/mesh/confined.hpp"
 #include "cases/mesh/find_grid.hpp"
 
 #include <algorithm>
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmsh.h>
 #include <map>
 #include <numeric>
+#include <sstream>
 #include <unordered_map>
 
 namespace springproof::cases {
 
+template<class Archive>
+void serialize(Archive& archive, Selection& selection) {
+  archive(selection.nodes, selection.edges, selection.faces);
+}
+
 namespace {
+
+/// For gmsh to mesh a geometry.
+constexpr int most_seconds = 600;
 
 using Tags = std::vector<std::size_t>;
 
@@ -23,19 +39,6 @@ enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
 
 /// gmsh's vertices of a hexahedron go around its bottom, then around its top; ours are numbered i + 2j + 4k.
 constexpr std::array<std::size_t, 8> gmsh_vertex{0, 1, 3, 2, 4, 5, 7, 6};
-
-/// gmsh is one global model: it lives as long as a mesh is read. Quiet, without anyone's configuration files,
-/// and every error is thrown (a std::string).
-struct GmshSession {
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-  }
-  ~GmshSession() { gmsh::finalize(); }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
 
 /// Elements of one type on one entity or dimension, node tags one element after another.
 struct Elements {
@@ -62,26 +65,23 @@ std::string type_name(int type) {
   return name;
 }
 
-/// Makes the mesh while gmsh has the file open, and remembers which node and cell is which of gmsh's.
+[[noreturn]] void refuse(const std::string& reason) {
+  throw std::runtime_error(reason);
+}
+
+/// Makes the mesh of gmsh's model, and remembers which node and cell is which of gmsh's.
 class Builder {
  public:
-  explicit Builder(const MeshFile& file) : file_(file) {}
-
   HexMesh build() {
     read_cells();
     read_nodes();
     check_cells();
     check_in_one_piece();
     read_groups();
-    find_grid(mesh_);
     return std::move(mesh_);
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& reason) const {
-    throw InputError(file_.where, fmt::format("{}: {}", file_.path, reason));
-  }
-
   void read_cells();
   void read_nodes();
   void check_cells() const;
@@ -93,7 +93,6 @@ class Builder {
     return found == node_number_.end() ? -1 : found->second;
   }
 
-  const MeshFile& file_;
   HexMesh mesh_;
   Tags cell_tags_;
   std::unordered_map<std::size_t, int> node_number_; ///< by gmsh's tag; nodes of hexahedra only
@@ -115,7 +114,11 @@ void Builder::read_cells() {
       cell_number_[elements.tags[e]] = mesh_.cells.size();
       cell_tags_.push_back(elements.tags[e]);
       std::array<int, 8> cell{};
-      for (std::size_t v = 0; v < 8; ++v) cell[v] = static_cast<int>(elements.nodes[8 * e + gmsh_vertex[v]]);
+      for (std::size_t v = 0; v < 8; ++v) {
+        const std::size_t tag = elements.nodes[8 * e + gmsh_vertex[v]];
+        if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
+        cell[v] = static_cast<int>(tag);
+      }
       mesh_.cells.push_back(cell);
     }
   }
@@ -242,18 +245,59 @@ void Builder::add_to_group(const std::string& name, Selection& group, const Elem
   }
 }
 
-/// gmsh reads every format it ever wrote; older ones lose the entities that groups hang on.
-void check_format(const MeshFile& file) {
-  std::ifstream stream(file.path);
+/// gmsh reads every format it ever wrote; older ones lose the entities of groups.
+void check_format(const std::string& path) {
+  std::ifstream stream(path);
   std::string heading;
   double version = 0;
+  if (!stream) refuse("cannot be read");
   if (!(stream >> heading >> version) || heading != "$MeshFormat")
-    throw InputError(file.where,
-                     file.path + ": is no gmsh mesh, which begins with $MeshFormat and its version");
+    refuse("is not a gmsh mesh, which begins with $MeshFormat and its version");
   if (!(version >= 4 && version < 5))
-    throw InputError(file.where,
-                     fmt::format("{}: has format {}, must be 4 or 4.1 (gmsh -save -format msh41 rewrites it)",
-                                 file.path, version));
+    refuse(fmt::format("has format {}, must be 4 or 4.1 (gmsh -save -format msh41 rewrites it)", version));
+}
+
+/// The file in gmsh, quiet, without configuration files. gmsh would also run a script NAME.msh.opt beside a
+/// mesh; a mesh is therefore opened by its descriptor, beside which there is none.
+void open_in_gmsh(const std::string& path, bool is_geometry) {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  if (is_geometry) {
+    gmsh::open(path);
+    gmsh::model::mesh::generate(3);
+  } else {
+    gmsh::open(fmt::format("/proc/self/fd/{}", open(path.c_str(), O_RDONLY)));
+  }
+}
+
+/// The mesh of a file, as bytes.
+std::string mesh_bytes(const std::string& path, bool is_geometry) {
+  if (!is_geometry) check_format(path);
+  HexMesh mesh;
+  try {
+    open_in_gmsh(path, is_geometry);
+    mesh = Builder().build();
+  } catch (const std::string& reason) { // gmsh throws its messages
+    refuse("gmsh: " + reason);
+  }
+  std::ostringstream bytes;
+  cereal::BinaryOutputArchive archive(bytes);
+  std::vector<double> coordinates;
+  for (const Eigen::Vector3d& node : mesh.nodes)
+    coordinates.insert(coordinates.end(), node.data(), node.data() + 3);
+  archive(coordinates, mesh.cells, mesh.groups, mesh.group_of_cell);
+  return bytes.str();
+}
+
+HexMesh from_bytes(const std::string& bytes) {
+  std::istringstream stream(bytes);
+  cereal::BinaryInputArchive archive(stream);
+  std::vector<double> coordinates;
+  HexMesh mesh;
+  archive(coordinates, mesh.cells, mesh.groups, mesh.group_of_cell);
+  for (std::size_t n = 0; n < coordinates.size(); n += 3) mesh.nodes.emplace_back(coordinates.data() + n);
+  return mesh;
 }
 
 } // namespace
@@ -263,15 +307,17 @@ HexMesh read_mesh(const MeshFile& file) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError(file.where, file.path + ": there is no such file");
   const bool is_geometry = path.extension() == ".geo";
-  if (!is_geometry) check_format(file);
-  const GmshSession session;
-  try {
-    gmsh::open(file.path);
-    if (is_geometry) gmsh::model::mesh::generate(3);
-    return Builder(file).build();
-  } catch (const std::string& reason) {
-    throw InputError(file.where, fmt::format("{}: gmsh: {}", file.path, reason));
-  }
+  // A .geo is a program, and gmsh crashes on some broken meshes.
+  const auto confined = [&] {
+    try {
+      return run_confined([&] { return mesh_bytes(file.path, is_geometry); }, most_seconds);
+    } catch (const std::runtime_error& error) {
+      throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
+    }
+  };
+  HexMesh mesh = from_bytes(confined());
+  find_grid(mesh);
+  return mesh;
 }
 
 } // namespace springproof::cases

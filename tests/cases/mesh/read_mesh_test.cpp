@@ -221,13 +221,48 @@ TEST_CASE("a mesh that the models cannot use is refused with the reason") {
                 "falls into 2 pieces that share no node");
   check_refused("a.msh", msh(gmsh_cube, 3, {{1, 2, 3, 4}}), "");
   check_refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "has format 2.2, must be 4");
-  check_refused("a.msh", "solid cube\n", "is no gmsh mesh");
-  check_refused("a.msh", "", "is no gmsh mesh");
+  check_refused("a.msh", "solid cube\n", "is not a gmsh mesh");
+  check_refused("a.msh", "", "is not a gmsh mesh");
   check_refused("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\nnonsense\n", "gmsh: ");
   check_refused("a.geo", "Point(1) = {0, 0, 0};\n", "has no hexahedra");
   check_refused("a.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n", "Tetrahedron 4");
   CHECK_THROWS_WITH(read_mesh({"/no/such.msh", {"case.toml", 6, 8, "body.file"}}),
                     "case.toml:6:8: body.file: /no/such.msh: there is no such file");
-  // The last: gmsh's parser does not recover from a syntax error within a process.
   check_refused("a.geo", "Pont(1) = {0, 0, 0};\n", "syntax error");
+}
+
+TEST_CASE("a geometry or mesh of a stranger runs nothing, writes nothing, and cannot end the program") {
+  const TemporaryFolder folder;
+  const std::string target = (folder.path / "written").string();
+  const std::string box = "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n";
+  for (const char* statement :
+       {"SystemCall \"touch {}\";", "NonBlockingSystemCall \"touch {}\";", "Printf(\"text\") > \"{}\";",
+        "Printf(\"text\") >> \"{}\";", "Save \"{}\";", "CreateDir \"{}\";"}) {
+    INFO(statement);
+    check_refused("a.geo", fmt::format(fmt::runtime(std::string(statement) + "\n"), target) + box,
+                  ""); // tetrahedra, or the statement itself
+    CHECK_FALSE(fs::exists(target));
+  }
+  check_refused("a.geo", "Exit;\n", "ended without an answer");
+  check_refused("a.geo", "Abort;\n", "");
+  const std::string mesh = folder.write("a.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
+  folder.write("a.msh.opt", "SystemCall \"touch " + target + "\"; Exit;\n");
+  CHECK(read_mesh({mesh, {}}).cells.size() == 1);
+  CHECK_FALSE(fs::exists(target));
+}
+
+TEST_CASE("a mesh with impossible numbers is refused, whatever gmsh makes of it") {
+  const std::string sound = msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}});
+  const auto with = [&](const std::string& before, const std::string& after) {
+    std::string text = sound;
+    const std::size_t at = text.find(before);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, before.size(), after);
+  };
+  for (const char* tag : {"-1", "0", "9223372036854775807", "18446744073709551615"}) {
+    check_refused("a.msh", with("3 1 0 8\n1\n", fmt::format("3 1 0 8\n{}\n", tag)), "");
+    check_refused("a.msh", with("101 1 2", fmt::format("101 {} 2", tag)), "");
+  }
+  check_refused("a.msh", with("$Nodes\n1 8 1 8", "$Nodes\n1 99999999999 1 99999999999"), "");
+  check_refused("a.msh", with("$Elements\n1 1 101", "$Elements\n1 99999999999 101"), "");
 }
