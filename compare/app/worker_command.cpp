@@ -15,7 +15,7 @@ void add_worker_command(CLI::App& program, Action& chosen) {
   command->callback([is_timing, &chosen] {
     end_with_parent();
     chosen = [is_timing] {
-      serve_jobs(*is_timing ? answer_variant : answer_job);
+      serve_jobs(*is_timing ? answer_timing_job : answer_job);
       return 0;
     };
   });

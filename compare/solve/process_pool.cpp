@@ -1,14 +1,16 @@
 #include "compare/solve/process_pool.hpp"
 
+#include "compare/provenance/digest.hpp"
+
 #include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <poll.h>
 #include <spawn.h>
+#include <sstream>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -43,21 +45,33 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return result;
 }
 
-/// Answers are framed as "ok N\n" or "failed N\n" and N bytes.
-std::string frame(const JobAnswer& answer) {
-  const std::string& content = answer.bytes ? *answer.bytes : answer.reason;
-  return fmt::format("{} {}\n", answer.bytes ? "ok" : "failed", content.size()) + content;
+/// What is sent either way: a heading of kind ("job", "ok", "failed"), length and digest, and the content.
+struct Frame {
+  std::string kind, content;
+};
+
+std::string framed(const Frame& frame) {
+  return fmt::format("{} {} {}\n", frame.kind, frame.content.size(), digest(frame.kind + frame.content)) +
+         frame.content;
 }
 
-std::optional<JobAnswer> unframe(const std::string& received) {
-  const std::size_t end_of_line = received.find('\n');
-  if (end_of_line == std::string::npos) return std::nullopt;
-  const std::size_t blank = received.find(' ');
-  const std::size_t size = std::stoul(received.substr(blank + 1));
-  if (received.size() < end_of_line + 1 + size) return std::nullopt;
-  const std::string content = received.substr(end_of_line + 1, size);
-  if (received.substr(0, blank) == "ok") return JobAnswer{content, ""};
-  return JobAnswer{std::nullopt, content};
+/// Takes a frame from the beginning of what was received; nothing as long as it is not complete.
+/// @throws std::runtime_error if it is none, or damaged
+std::optional<Frame> take_frame(std::string& received) {
+  constexpr std::size_t longest_heading = 100;
+  const std::size_t begin = received.find('\n') + 1;
+  if (begin == 0 && received.size() < longest_heading) return std::nullopt;
+  std::istringstream heading(received.substr(0, std::min(begin, longest_heading)));
+  Frame frame;
+  std::size_t size = 0;
+  std::string expected;
+  if (!(heading >> frame.kind >> size >> expected)) throw std::runtime_error("what was received is no frame");
+  if (received.size() - begin < size) return std::nullopt;
+  frame.content = received.substr(begin, size);
+  if (digest(frame.kind + frame.content) != expected)
+    throw std::runtime_error("what was received is damaged");
+  received.erase(0, begin + size);
+  return frame;
 }
 
 std::string describe_end(int status) {
@@ -65,6 +79,17 @@ std::string describe_end(int status) {
     return fmt::format("its process was ended by signal {} ({})", WTERMSIG(status),
                        strsignal(WTERMSIG(status)));
   return fmt::format("its process ended with status {} and no answer", WEXITSTATUS(status));
+}
+
+/// Writes all bytes to a socket.  @return false if its other end is closed
+bool send_all(int socket, const std::string& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t n = send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    sent += static_cast<std::size_t>(n);
+  }
+  return true;
 }
 
 /// One worker process; it ends with this object, at once if it is at work.
@@ -103,18 +128,12 @@ class Worker {
   /// A worker that has died by now does not read the job: read() will say so.
   void give(std::size_t index, const std::string& job) {
     job_ = index;
-    const std::string line = job + "\n";
-    for (std::size_t sent = 0; sent < line.size();) {
-      const ssize_t n = send(socket_, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) break;
-      sent += static_cast<std::size_t>(n);
-    }
+    send_all(socket_, framed({"job", job}));
   }
 
   struct News {
     std::optional<JobAnswer> answer; ///< of the job it had
-    bool has_ended;
+    bool has_ended;                  ///< or is not to be used any more
   };
   /// Waits for the next bytes of the answer.
   News read() {
@@ -128,12 +147,15 @@ class Worker {
       return {JobAnswer{std::nullopt, describe_end(status)}, true};
     }
     received_.append(block, static_cast<std::size_t>(n));
-    std::optional<JobAnswer> answer = unframe(received_);
-    if (answer) {
-      received_.clear();
+    try {
+      const std::optional<Frame> frame = take_frame(received_);
+      if (!frame) return {std::nullopt, false};
       job_.reset();
+      if (frame->kind == "ok") return {JobAnswer{frame->content, ""}, false};
+      return {JobAnswer{std::nullopt, frame->content}, false};
+    } catch (const std::runtime_error& error) { // its process is ended and replaced
+      return {JobAnswer{std::nullopt, std::string("its answer: ") + error.what()}, true};
     }
-    return {answer, false};
   }
 
  private:
@@ -200,20 +222,19 @@ void serve_jobs(const std::function<std::string(const std::string& job)>& work) 
   // Libraries that print must not print into an answer.
   const int answers = dup(STDOUT_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
-  for (std::string job; std::getline(std::cin, job);) {
-    JobAnswer answer;
+  std::string received;
+  char block[1 << 16];
+  for (ssize_t n; (n = read(STDIN_FILENO, block, sizeof block)) > 0 || (n < 0 && errno == EINTR);) {
+    received.append(block, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    const std::optional<Frame> job = take_frame(received);
+    if (!job) continue;
+    Frame answer{"ok", ""};
     try {
-      answer.bytes = work(job);
+      answer.content = work(job->content);
     } catch (const std::exception& error) {
-      answer.reason = error.what();
+      answer = {"failed", error.what()};
     }
-    const std::string bytes = frame(answer);
-    for (std::size_t written = 0; written < bytes.size();) {
-      const ssize_t n = write(answers, bytes.data() + written, bytes.size() - written);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return;
-      written += static_cast<std::size_t>(n);
-    }
+    if (!send_all(answers, framed(answer))) return;
   }
 }
 

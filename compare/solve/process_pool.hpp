@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Jobs in worker processes. MPI and PETSc are not made for threads, and a process that crashes takes one job
-/// with it and no more. A job is a line of text, its answer any bytes.
+/// with it and no more. A job and its answer are any bytes; damage on the way is noticed.
 namespace springproof::compare {
 
 struct JobAnswer {
@@ -22,7 +22,6 @@ struct ProcessPool {
 /// Hands out the jobs in their order, each to the first worker that is free, and waits for all. A worker that
 /// ends without an answer fails the job it had, and another one takes its place. Workers that are left when
 /// the caller is ended find their input closed.
-/// @param jobs     without line breaks
 /// @param on_done  told the index of each job and its answer when it comes, in the order in which that
 /// happens
 /// @return one answer per job, in the order of the jobs

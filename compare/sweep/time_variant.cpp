@@ -1,11 +1,10 @@
 #include "compare/sweep/time_variant.hpp"
 
-#include "cases/case/read_case.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/solve/bytes.hpp"
 #include "compare/solve/design.hpp"
+#include "compare/solve/fields.hpp"
 #include "compare/solve/solve_side.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
@@ -14,6 +13,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+
+namespace cereal {
+
+SPRINGPROOF_FIELDS(springproof::compare::Variant, program, design, formulation, element, cells, tolerance)
+SPRINGPROOF_FIELDS(springproof::compare::TimingRules, repetitions, budget_seconds)
+SPRINGPROOF_FIELDS(springproof::compare::VariantRun, first, again, setup_seconds, first_seconds,
+                   again_seconds, is_warm, peak_megabytes, start_megabytes)
+
+} // namespace cereal
 
 namespace springproof::compare {
 
@@ -189,43 +197,27 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
   return {}; // not reached: every program is above
 }
 
-template<class Archive>
-void transfer(Archive& archive, VariantRun& run) {
-  transfer_all(archive, run.first, run.again, run.setup_seconds, run.first_seconds, run.again_seconds,
-               run.is_warm, run.peak_megabytes, run.start_megabytes);
+std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
+  return to_bytes(definition, variant, rules);
 }
 
-std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules) {
-  if (case_file.find_first_of("\t\n") != std::string::npos)
-    throw cases::InputError("'" + case_file + "': a tab or line break here cannot be passed to a worker");
-  return fmt::format("{}\t{}\t{}\t{}", case_file, rules.repetitions, rules.budget_seconds, to_words(variant));
-}
-
-std::string answer_variant(const std::string& line) {
-  const std::size_t end_of_file = line.find('\t');
-  const std::size_t end_of_repetitions = line.find('\t', end_of_file + 1);
-  const std::size_t end_of_budget = line.find('\t', end_of_repetitions + 1);
-  if (end_of_budget == std::string::npos) throw std::runtime_error("'" + line + "' is no job");
-  const cases::Case definition = cases::read_case(line.substr(0, end_of_file));
-  const TimingRules rules{std::stoi(line.substr(end_of_file + 1)),
-                          std::stod(line.substr(end_of_repetitions + 1))};
-  const Variant variant = variant_from_words(line.substr(end_of_budget + 1));
+std::string answer_timing_job(const std::string& job) {
+  cases::Case definition;
+  Variant variant;
+  TimingRules rules;
+  from_bytes(job, definition, variant, rules);
   const std::optional<double> before = peak_resident_megabytes();
   VariantRun run = time_variant(definition, variant, rules);
   if (variant.program != Program::calculix) { // whose memory is another process's
     run.start_megabytes = before;
     run.peak_megabytes = peak_resident_megabytes();
   }
-  Writer writer;
-  transfer(writer, run);
-  return writer.bytes;
+  return to_bytes(run);
 }
 
-VariantRun variant_run_from(const std::string& bytes) {
-  Reader reader(bytes);
+VariantRun variant_run_from(const std::string& answer) {
   VariantRun run;
-  transfer(reader, run);
-  if (!reader.at_end()) throw std::runtime_error("a worker's answer is too long");
+  from_bytes(answer, run);
   return run;
 }
 

@@ -41,11 +41,10 @@ struct VariantRun {
 /// @throws InputError when the case has no such variant
 VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
 
-/// A job of a worker: a case file, a variant, rules; and its answer as bytes, the memory of this process in
-/// it.
-std::string to_line(const std::string& case_file, const Variant& variant, const TimingRules& rules);
-std::string answer_variant(const std::string& line);
-/// @throws std::runtime_error if the bytes are not whole
-VariantRun variant_run_from(const std::string& bytes);
+/// A job of a worker, and its answer with the memory of that process in it.
+std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
+std::string answer_timing_job(const std::string& job);
+/// @throws std::exception if the bytes are no answer
+VariantRun variant_run_from(const std::string& answer);
 
 } // namespace springproof::compare

@@ -3,8 +3,6 @@
 #include "cases/case/names.hpp"
 
 #include <fmt/format.h>
-#include <sstream>
-#include <stdexcept>
 
 namespace springproof::compare {
 
@@ -50,26 +48,6 @@ cases::Case with_variant(const cases::Case& definition, const Variant& variant) 
     result.fem.element = variant.element;
   }
   return result;
-}
-
-std::string to_words(const Variant& v) {
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", static_cast<int>(v.program),
-                     static_cast<int>(v.design), static_cast<int>(v.formulation), static_cast<int>(v.element),
-                     v.cells[0], v.cells[1], v.cells[2], v.tolerance);
-}
-
-Variant variant_from_words(const std::string& words) {
-  std::istringstream stream(words);
-  int program = 0, design = 0, formulation = 0, element = 0;
-  Variant v;
-  if (!(stream >> program >> design >> formulation >> element >> v.cells[0] >> v.cells[1] >> v.cells[2] >>
-        v.tolerance))
-    throw std::runtime_error("'" + words + "' is no variant");
-  v.program = static_cast<Program>(program);
-  v.design = static_cast<cases::Design>(design);
-  v.formulation = static_cast<cases::Formulation>(formulation);
-  v.element = static_cast<cases::Element>(element);
-  return v;
 }
 
 } // namespace springproof::compare

@@ -41,9 +41,4 @@ std::string full_name(const Variant& variant);
 /// @param definition  its body is a box
 cases::Case with_variant(const cases::Case& definition, const Variant& variant);
 
-/// A variant as words of a line, separated by tabs, and back.
-std::string to_words(const Variant& variant);
-/// @throws std::runtime_error for words that are no variant
-Variant variant_from_words(const std::string& words);
-
 } // namespace springproof::compare

@@ -8,14 +8,33 @@ using namespace springproof;
 
 namespace {
 
-/// A worker in a few lines of shell: "crash" kills it, "leave" makes it end, "fail" is refused, anything else
-/// comes back with the worker's process number behind it.
-compare::ProcessPool shell_pool(int n_workers) {
-  return {{"sh", "-c",
-           "while read -r job; do case $job in crash) kill -SEGV $$;; leave) exit 7;; "
-           "fail) printf 'failed 3\\nwhy';; "
-           "*) answer=\"$job $$\"; printf 'ok %d\\n%s' ${#answer} \"$answer\";; esac; done"},
+/// A worker in a few lines of Python: "crash" kills it, "leave" makes it end, "fail" is refused, "damage"
+/// comes back with other bytes than its digest says, "chatter" as no frame, "zeros N" as N zeros, anything
+/// else with the worker's process number behind it.
+compare::ProcessPool python_pool(int n_workers) {
+  return {{"python3", "-c", R"(
+import hashlib, os, signal, sys
+def answer(kind, content, damage=b""):
+    heading = b"%b %d %b\n" % (kind, len(content), hashlib.sha256(kind + content).hexdigest().encode())
+    sys.stdout.buffer.write(heading + (damage or content))
+    sys.stdout.buffer.flush()
+while heading := sys.stdin.buffer.readline():
+    kind, size, digest = heading.split()
+    job = sys.stdin.buffer.read(int(size))
+    assert kind == b"job" and hashlib.sha256(kind + job).hexdigest().encode() == digest
+    if job == b"crash": os.kill(os.getpid(), signal.SIGSEGV)
+    elif job == b"leave": sys.exit(7)
+    elif job == b"fail": answer(b"failed", b"why")
+    elif job == b"damage": answer(b"ok", b"right", b"wrong")
+    elif job == b"chatter": print("x" * 200, flush=True)
+    elif job.startswith(b"zeros "): answer(b"ok", bytes(int(job.split()[1])))
+    else: answer(b"ok", job + b" %d" % os.getpid())
+)"},
           n_workers};
+}
+
+std::vector<compare::JobAnswer> run(const compare::ProcessPool& pool, const std::vector<std::string>& jobs) {
+  return compare::run_in_processes(pool, jobs, [](std::size_t, const compare::JobAnswer&) {});
 }
 
 std::string first_word(const compare::JobAnswer& answer) {
@@ -31,7 +50,7 @@ TEST_CASE("every job is answered once, in its own place, whatever the number of 
   for (const int n_workers : {1, 3, 50}) {
     std::multiset<std::size_t> done;
     const auto answers = compare::run_in_processes(
-        shell_pool(n_workers), jobs, [&](std::size_t j, const compare::JobAnswer&) { done.insert(j); });
+        python_pool(n_workers), jobs, [&](std::size_t j, const compare::JobAnswer&) { done.insert(j); });
     REQUIRE(answers.size() == jobs.size());
     for (std::size_t j = 0; j < jobs.size(); ++j) {
       CHECK(first_word(answers[j]) == jobs[j]);
@@ -41,9 +60,7 @@ TEST_CASE("every job is answered once, in its own place, whatever the number of 
 }
 
 TEST_CASE("a job that fails or crashes its worker fails alone, with the reason, and another worker goes on") {
-  const auto answers =
-      compare::run_in_processes(shell_pool(1), {"a", "fail", "b", "crash", "c", "leave", "crash", "d"},
-                                [](std::size_t, const compare::JobAnswer&) {});
+  const auto answers = run(python_pool(1), {"a", "fail", "b", "crash", "c", "leave", "crash", "d"});
   for (const std::size_t j : {0, 2, 4, 7}) CHECK(answers[j].bytes);
   for (const std::size_t j : {1, 3, 5, 6}) CHECK_FALSE(answers[j].bytes);
   CHECK(answers[1].reason == "why");
@@ -54,11 +71,20 @@ TEST_CASE("a job that fails or crashes its worker fails alone, with the reason, 
   CHECK(answers[2].bytes->substr(2) != answers[4].bytes->substr(2)); // the crash did not
 }
 
+TEST_CASE("a job may hold any bytes") {
+  const std::string job{"\0\n\t\xff job 3 x\n", 14};
+  CHECK(run(python_pool(1), {job})[0].bytes->substr(0, job.size()) == job);
+}
+
+TEST_CASE("an answer that is damaged or no answer fails its job, and another worker goes on") {
+  const auto answers = run(python_pool(1), {"damage", "chatter", "a"});
+  CHECK_THAT(answers[0].reason, Catch::Contains("damaged"));
+  CHECK_THAT(answers[1].reason, Catch::Contains("no frame"));
+  CHECK(answers[2].bytes);
+}
+
 TEST_CASE("long answers arrive whole") {
-  const compare::ProcessPool pool{
-      {"sh", "-c", "while read -r n; do printf 'ok %d\\n' $n; head -c $n /dev/zero; done"}, 2};
-  const auto answers = compare::run_in_processes(pool, {"1000000", "0", "300000"},
-                                                 [](std::size_t, const compare::JobAnswer&) {});
+  const auto answers = run(python_pool(2), {"zeros 1000000", "zeros 0", "zeros 300000"});
   CHECK(*answers[0].bytes == std::string(1000000, '\0'));
   CHECK(answers[1].bytes->empty());
   CHECK(answers[2].bytes->size() == 300000);
@@ -66,7 +92,6 @@ TEST_CASE("long answers arrive whole") {
 
 TEST_CASE("a worker program that does not exist is an error, no jobs start no worker") {
   const compare::ProcessPool pool{{"/no/such/program"}, 1};
-  CHECK_THROWS_AS(compare::run_in_processes(pool, {"a"}, [](std::size_t, const compare::JobAnswer&) {}),
-                  std::system_error);
-  CHECK(compare::run_in_processes(pool, {}, [](std::size_t, const compare::JobAnswer&) {}).empty());
+  CHECK_THROWS_AS(run(pool, {"a"}), std::system_error);
+  CHECK(run(pool, {}).empty());
 }

@@ -129,6 +129,6 @@ TEST_CASE("broken bytes are refused, whole ones come back as they were") {
   CHECK(after.mesh_study->unknowns == before.mesh_study->unknowns);
   CHECK(after.mesh_study->measures[0].limit->extrapolated == 3);
   CHECK(after.peer->largest_difference == 1e-7);
-  CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1), after), std::runtime_error);
-  CHECK_THROWS_AS(compare::from_bytes(bytes + "x", after), std::runtime_error);
+  CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1), after), std::exception);
+  CHECK_THROWS_AS(compare::from_bytes(bytes + "x", after), std::exception);
 }

@@ -112,11 +112,8 @@ TEST_CASE("repetitions are as many as the budget pays for") {
   CHECK(n_repetitions(std::nan(""), rules) == 0);
 }
 
-TEST_CASE("a variant comes back from the words that a worker gets") {
-  const Variant variant{Program::finite_elements, {},        cases::Formulation::log_strain,
-                        cases::Element::q2,       {1, 2, 3}, 1e-4};
-  CHECK(full_name(variant_from_words(to_words(variant))) == full_name(variant));
-  CHECK_THROWS_AS(variant_from_words("1 2 three"), std::runtime_error);
+TEST_CASE("a timing's answer that is not whole is refused") {
+  CHECK_THROWS_AS(variant_run_from("1 2 three"), std::exception);
 }
 
 TEST_CASE("failed variants and missing values give no points") {
@@ -160,8 +157,8 @@ TEST_CASE(
   const Variant elements{Program::finite_elements, {},        cases::Formulation::log_strain,
                          cases::Element::q2,       {2, 2, 2}, 1e-9};
   for (const Variant& variant : {springs(2), elements}) {
-    const std::string line = to_line(folder + "cube_tensile.toml", variant, rules);
-    const JobAnswer answer = run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {line},
+    const std::string job = timing_job(cases::read_case(folder + "cube_tensile.toml"), variant, rules);
+    const JobAnswer answer = run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {job},
                                               [](std::size_t, const compare::JobAnswer&) {})
                                  .front();
     INFO(answer.reason);
