@@ -12,7 +12,7 @@ namespace springproof::msm {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// What a design method answers for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
+/// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
 /// diagonals, and the volume term (k_v/2) V0 (V/V0 - 1)².
 struct CellStiffness {
   double edge = 0;              ///< k_e, N/mm
@@ -35,14 +35,14 @@ struct VolumeCell {
   double rest_volume;       ///< mm³
 };
 
-/// A mass-spring body at rest: its points and what joins them. Links are sorted by (i, j) and unique.
+/// A mass-spring body at rest: its points, links and volume terms. Links are sorted by (i, j) and unique.
 struct Lattice {
   Points rest; ///< mm
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
 };
 
-/// Where the cell's vertices are, mm.
+/// Positions of the cell's vertices, mm.
 CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
 
 /// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis

@@ -61,7 +61,7 @@ struct RegionMaterial {
 /// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, or
 /// a patch of the surface around a point.
 struct Region {
-  std::string name; ///< as written; of a patch, what it is called in messages; empty for a node
+  std::string name;                    ///< as written; of a patch, its name in messages; empty for a node
   std::optional<Eigen::Vector3d> near; ///< mm
   Where where;
   std::optional<double> radius =
@@ -73,7 +73,7 @@ struct Fixed {
   std::array<bool, 3> components{true, true, true};
 };
 
-/// A region that is moved by hand: at load factor s by s times a displacement, or turned by s times an angle.
+/// A region of prescribed motion: at load factor s, s times a displacement or a rotation by s times an angle.
 struct Moved {
   Region region;
   std::array<bool, 3> components{true, true, true};       ///< all three when it is turned
@@ -122,12 +122,12 @@ SPRINGPROOF_ENUMERATION(LoadPath,
                         simple_shear ///< between two lattice axes
 )
 
-/// How the springs' equilibrium is looked for. All but the first are there to be compared with it.
+/// How the springs' equilibrium is computed. All but the first are for comparison.
 SPRINGPROOF_ENUMERATION(
     Solver,
     newton,        ///< Newton's method with load steps
     force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
-    fire,          ///< inertia that is lost on the way uphill (Bitzek et al. 2006)
+    fire,          ///< damped inertial relaxation (Bitzek et al. 2006)
     lbfgs,         ///< limited-memory quasi-Newton
     snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
 )
@@ -163,7 +163,7 @@ struct Measure {
   Where where;
 };
 
-/// Where an expectation's interval comes from; kinds are kept apart in reports.
+/// Where an expectation's interval comes from; reports count the kinds separately.
 SPRINGPROOF_ENUMERATION(ReferenceKind, exact, converged, peer, published, regression)
 SPRINGPROOF_ENUMERATION(Quantity, error_percent, msm, fem)
 

@@ -32,7 +32,7 @@ class InputError : public std::runtime_error {
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {
  public:
-  /// What is known besides, of the last equilibrium that was found.
+  /// Further data of the last equilibrium that was found.
   struct Progress {
     int newton_iterations = 0; ///< in all
     std::optional<double> lowest_eigenvalue = std::nullopt;
@@ -40,7 +40,7 @@ class SolveError : public std::runtime_error {
   };
   /// @param load_reached  fraction of the load in equilibrium when the solver gave up, 0 to 1
   /// @param residual      |imbalance on free degrees of freedom| / |applied load| when it gave up
-  /// @param outcome       what the solver found to be the cause
+  /// @param outcome       the cause, as the solver found it
   SolveError(const std::string& reason, double load_reached, double residual,
              Outcome outcome = Outcome::unknown)
       : SolveError(reason, load_reached, residual, outcome, Progress{}) {}

@@ -60,8 +60,8 @@ std::vector<std::string> all_names() {
 /// The words of a list as a message shows them: "a" | "b" | "c".
 std::string alternatives(const std::vector<std::string>& words);
 
-/// Of the known words the one nearest to what was written: at most one edit (insertion, deletion,
-/// replacement, or exchange of two neighbours) for every three letters. Nothing if none is that near.
+/// The known word with the fewest edits (insertion, deletion, replacement, exchange of neighbours) from what
+/// was written, at most one for every three letters; nothing if there is none.
 std::optional<std::string> nearest_name(const std::string& written, const std::vector<std::string>& known);
 
 } // namespace springproof::cases

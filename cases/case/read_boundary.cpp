@@ -64,8 +64,8 @@ Eigen::Vector3d read_direction(const Entry& entry) {
   return direction.stableNormalized();
 }
 
-/// A load over an area needs one: of a box's regions only a face has it. A mesh's groups are seen when it is
-/// read.
+/// A load over an area needs a region with an area: of a box's regions, a face. Groups of a mesh are checked
+/// when it is read.
 void check_has_area(const Load& load, const Body& body) {
   const bool has_area = load.region.near
                             ? load.region.radius.has_value()

@@ -22,7 +22,7 @@ std::string text_of(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  // A folder opens, but it cannot be read.
+  // A folder opens, but cannot be read.
   if (!file || !(text << file.rdbuf())) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
     throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);

@@ -8,8 +8,8 @@ namespace springproof::cases {
 
 namespace {
 
-/// Two nodes that must differ for the direction between them to exist. Whether different names mean one node
-/// is seen on the mesh.
+/// Two nodes that must differ for the direction between them to exist. Different names of one node are found
+/// on the mesh.
 void check_differ(Table& table, const std::string& key, const Region& here, const Region& other,
                   const std::string& other_key) {
   if (here.name == other.name && here.near == other.near)

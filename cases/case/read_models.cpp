@@ -54,7 +54,7 @@ Formulation read_formulation_name(const Entry& entry) {
   return *formulation;
 }
 
-/// What "auto" falls back on is the default.
+/// "auto" falls back on the default.
 Formulation read_formulation(Table& table, const Material& material) {
   const bool is_ogden = std::holds_alternative<Ogden>(material);
   if (is_auto(table, "formulation")) {
@@ -77,7 +77,7 @@ Formulation read_formulation(Table& table, const Material& material) {
   return *formulation;
 }
 
-/// What the element must be for the material, when it is something else.
+/// The elements required by the material, when this one is not among them.
 std::optional<std::string> element_needed(Element element, const Material& material) {
   const Ogden* ogden = std::get_if<Ogden>(&material);
   if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
@@ -148,7 +148,7 @@ void check_given_stiffness(const Entry& entry, const std::array<double, 3>& stif
     entry.refuse("stiffnesses of which one is above 0");
 }
 
-/// What the design must be for the Poisson's ratio it starts from, when it is something else.
+/// The requirement of the design on Poisson's ratio, when it is not met.
 std::optional<std::string> design_needed(const Msm& msm, const Material& material) {
   const LinearElastic* linear = std::get_if<LinearElastic>(&material);
   const Ogden* ogden = std::get_if<Ogden>(&material);

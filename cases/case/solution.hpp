@@ -12,7 +12,7 @@ namespace springproof::cases {
 
 SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 
-/// What either model answers. A failed side keeps its message and counters but has no displacement.
+/// Result of a solve of either model. A failed one has a message and counters but no displacement.
 struct Solution {
   Status status = Status::skipped;
   std::string message;

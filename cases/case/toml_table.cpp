@@ -132,8 +132,7 @@ Entry Table::entry(const std::string& key) {
 }
 
 void Table::refuse_key(const toml::key& key, const toml::node& value, const std::string& problem) const {
-  // A key from the command line stands nowhere in the file, and its value knows that better than the key
-  // does.
+  // A key from the command line has no position in the file; the position is that of its value.
   const toml::source_region& source = value.source().path ? key.source() : value.source();
   throw InputError(place_of(source, path_to(std::string(key))), problem);
 }

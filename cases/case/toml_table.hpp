@@ -15,24 +15,24 @@
 /// value, and what is allowed. Only the readers of case files include this.
 namespace springproof::cases {
 
-/// What stands behind a key, or would: a missing key is an entry without a node, so that "is missing" and "is
-/// wrong" are reported by the same line of the reader.
+/// The value of a key. A missing key is an entry without a node, so that one line of a reader reports both
+/// missing and wrong values.
 struct Entry {
   const toml::node* node;
   Where where;
 
   /// Throws InputError "is VALUE, must be ALLOWED", or "is missing, must be ALLOWED".
   [[noreturn]] void refuse(const std::string& allowed) const;
-  /// The same for a word out of a list, with the nearest word when one is near.
+  /// The same for a word out of a list, with the nearest one as a suggestion.
   [[noreturn]] void refuse_word(const std::vector<std::string>& allowed) const;
   /// The elements of an array; refuses anything else.
   std::vector<Entry> elements(const std::string& allowed) const;
 };
 
-/// Where a node stands; a node from the command line has neither file nor line.
+/// Position of a node; a node from the command line has neither file nor line.
 Where place_of(const toml::node& node, const std::string& key);
 
-// Readers: functions of an entry that answer a checked value.
+// Readers: functions of an entry that return a checked value.
 
 using Condition = std::function<bool(double)>;
 inline bool is_anything(double) {
@@ -88,7 +88,7 @@ Enum read_name(const Entry& entry) {
   return *value;
 }
 
-/// A table that remembers which keys were asked for: what is left over at the end is an unknown key.
+/// A table that records which keys were read: the others are unknown keys.
 class Table {
  public:
   Table(const Entry& entry, const std::string& allowed);
@@ -96,7 +96,7 @@ class Table {
   /// Where the table begins.
   const Where& where() const { return where_; }
   bool has(const std::string& key) const { return table_->contains(key); }
-  /// What stands behind a key. When nothing does but an unasked key is nearly the same, that one is reported
+  /// The value of a key. If it is missing and a key that was not read is similar, that one is reported
   /// as misspelt.
   Entry entry(const std::string& key);
 
@@ -143,7 +143,7 @@ class Table {
     }
     return values;
   }
-  /// Throws InputError at the first key that was not asked for, with the nearest known one.
+  /// Throws InputError at the first key that was not read, with the nearest known one.
   void refuse_unknown_keys() const;
 
  private:

@@ -52,7 +52,7 @@ HexMesh make_box_mesh(const Eigen::Vector3d& size, const std::array<int, 3>& cel
 
 /// Every cell split into eight at its trilinear midpoints, so the body stays the same body. The old nodes
 /// keep their numbers; the children of cell c are cells 8c .. 8c+7; groups are refined with it. The result is
-/// numbered like no grid, so its grid is empty.
+/// not numbered like a grid, so its grid is empty.
 HexMesh refine(const HexMesh& mesh);
 
 /// Volume of the trilinear hexahedron with these vertices (mm³; negative when inside out), exact (2x2x2

@@ -162,8 +162,7 @@ void Builder::check_cells() const {
       inverted.size(), mesh_.cells.size(), which, inverted.size() > n_shown ? " ..." : ""));
 }
 
-/// A piece that shares no node with the rest floats freely: most often the nodes of neighbours were never
-/// merged.
+/// A piece that shares no node with the rest is unconstrained: most often coincident nodes were not merged.
 void Builder::check_in_one_piece() const {
   std::vector<int> root(mesh_.nodes.size());
   std::iota(root.begin(), root.end(), 0);
@@ -222,7 +221,7 @@ void Builder::add_to_group(const std::string& name, Selection& group, const Elem
     std::vector<int> nodes;
     for (std::size_t v = 0; v < elements.nodes_each(); ++v)
       nodes.push_back(node_of(elements.nodes[e * elements.nodes_each() + v]));
-    // A point or a line of the drawing may well lie off the body; a surface of a group must not.
+    // Points and lines of the geometry may lie off the body; a group's surface must not.
     const bool is_off = std::count(nodes.begin(), nodes.end(), -1) > 0;
     if (is_off && (elements.type == point || elements.type == line)) continue;
     if (elements.type == line) add_edge(nodes[0], nodes[1]);

@@ -10,8 +10,8 @@ namespace springproof::cases {
 /// of the same name are one. Nodes that no hexahedron has are left out; equal cuboids along the axes become a
 /// grid (find_grid).
 /// @throws InputError, at the place of `file` in the case file, if it cannot be read or is of another format;
-/// if it has other three-dimensional cells, none, or inverted ones; if it falls into pieces; if a group has
-/// something that is no part of a hexahedron
+/// if it has no hexahedra, inverted ones or other three-dimensional cells; if it is not connected; if an
+/// element of a group is not part of a hexahedron
 HexMesh read_mesh(const MeshFile& file);
 
 } // namespace springproof::cases

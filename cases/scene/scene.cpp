@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node, it does not search for one
+constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node and does not search for one
 
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
@@ -110,7 +110,7 @@ Selection select_patch(const HexMesh& mesh, const Region& region) {
   return patch;
 }
 
-/// A patch becomes a group of the mesh, so that a finer mesh has the same one.
+/// A patch becomes a group of the mesh, so that refined meshes keep the same patch.
 void add_patch(HexMesh& mesh, const Region& region) {
   if (region.radius) mesh.groups.emplace(region.name, select_patch(mesh, region));
 }
@@ -176,7 +176,7 @@ void check_measure(const HexMesh& mesh, const Measure& measure) {
   }
 }
 
-/// A degree of freedom is held once: a node that one region holds and another moves has no place to go.
+/// A degree of freedom is constrained once: not both fixed and moved, nor moved by two regions.
 void check_motions(const Scene& scene) {
   std::vector<bool> is_taken(3 * scene.mesh.nodes.size(), false);
   const std::size_t n_resting = scene.fixed.size() - scene.moved.size();

@@ -22,7 +22,8 @@ struct Scene {
   Case definition;
   HexMesh mesh;
   std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
-  std::vector<FixedNodes> fixed;     ///< [[fixed]], [[symmetry]] and [[moved]] alike: what is no unknown
+  std::vector<FixedNodes>
+      fixed; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
 };
@@ -37,7 +38,7 @@ int select_node(const HexMesh& mesh, const Region& region);
 /// The body's own material, then those of its regions.
 std::vector<Material> materials_of(const Case& definition);
 
-/// Which of them a cell is made of.
+/// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
 
 /// Builds or reads the body's mesh and resolves every region of the case (those of measures too).
@@ -47,11 +48,11 @@ Scene make_scene(const Case& definition);
 /// The same scene on the mesh refined n times. Nodal forces stay on the nodes of the body's own mesh.
 Scene refine(const Scene& scene, int n);
 
-/// Whether degree of freedom 3*node + component is held, for every node of the mesh.
+/// Whether degree of freedom 3*node + component is constrained, for every node of the mesh.
 std::vector<bool> fixed_degrees_of_freedom(const Scene& scene);
 
-/// Where a motion has brought a point of rest position `rest` (mm) at a load factor: its displacement, mm; 0
-/// on components that the motion leaves alone.
+/// Displacement (mm) that a motion prescribes at a load factor for a point of rest position `rest` (mm); 0
+/// on components that the motion leaves free.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
 /// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries
@@ -62,8 +63,8 @@ std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 /// The point forces (nodal_force, total_force) alone, N per node.
 std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
-/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest. A torque
-/// needs the polar moment of its faces about the axis: see polar_moment().
+/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest.
+/// @param polar_moment  of the region's faces about a torque's axis: see polar_moment()
 Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point,
                                  double polar_moment);
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-/// The eigenspace analysis of thesis section 4.2.2: which subspaces of displacement two stiffness matrices
-/// treat alike. All answers depend on the spaces alone, not on the basis a solver returns inside a multiple
+/// The eigenspace analysis of thesis section 4.2.2: which invariant subspaces two stiffness matrices
+/// share. All results depend on the subspaces alone, not on the basis that a solver returns inside a multiple
 /// eigenvalue.
 namespace springproof::compare {
 

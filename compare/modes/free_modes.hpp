@@ -7,8 +7,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-/// The lowest modes of a whole free body, both models on one mesh: what the analysis of a single cell cannot
-/// show.
+/// The lowest modes of a whole free body, both models on one mesh.
 namespace springproof::compare {
 
 /// Sum of cell matrices on a mesh's degrees of freedom, 3*node + component, N/mm.

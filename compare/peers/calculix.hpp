@@ -7,12 +7,12 @@
 #include <ostream>
 #include <string>
 
-/// CalculiX, an independent finite-element program, as a third opinion on a case. Its element C3D8 is the
+/// CalculiX, an independent finite-element program, solves a case too. Its element C3D8 is the
 /// fully integrated trilinear hexahedron: linear in a static step it is our small_strain q1, with NLGEOM our
 /// saint_venant_kirchhoff q1.
 namespace springproof::compare {
 
-/// Why CalculiX cannot be asked about this case; nothing if it can.
+/// Why CalculiX cannot solve this case; nothing if it can.
 std::optional<std::string> reason_without_calculix(const cases::Case& definition);
 
 /// CalculiX's input: the mesh refined as the case's finite elements are, supports by degree of freedom, and
@@ -32,8 +32,8 @@ struct CalculixOutput {
 CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes);
 
 /// Runs `ccx` in a temporary folder, one thread. Skipped, with the reason as its message, when there is no
-/// such program or it cannot express the case; residual and linear iterations stay 0, for CalculiX does not
-/// tell them.
+/// such program or it cannot express the case; residual and linear iterations stay 0, since CalculiX does not
+/// print them.
 /// @throws SolveError when it stops before the full load
 cases::Solution solve_with_calculix(const cases::Scene& scene);
 

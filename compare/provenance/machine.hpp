@@ -5,7 +5,7 @@
 
 namespace springproof::compare {
 
-/// What a timing depends on.
+/// The machine and build that a timing depends on.
 struct Machine {
   std::string processor;
   int cores;
@@ -17,7 +17,7 @@ struct Machine {
 Machine describe_machine();
 
 /// The most memory that this process has had resident, in units of 10^6 bytes; nothing where the system does
-/// not tell.
+/// not report it.
 std::optional<double> peak_resident_megabytes();
 
 /// Whether the BLAS that this process loaded is OpenBLAS.

@@ -15,7 +15,7 @@
 /// of design.cpp.
 namespace springproof::msm {
 
-/// What a design method may look at.
+/// Input of a design method.
 struct DesignRequest {
   cases::Material material;
   CellVertices cell = cube(1); ///< mm
@@ -27,13 +27,13 @@ struct DesignRequest {
 
 struct DesignResult {
   CellStiffness stiffness;        ///< of the request's cell
-  std::optional<double> residual; ///< what the method minimised, at its minimum; absent for a closed form
+  std::optional<double> residual; ///< the method's objective at its minimum; absent for a closed form
   LatticeModuli moduli;
   std::vector<std::string> warnings;  ///< why the design should not be trusted; empty for a sound one
   std::vector<CellStiffness> cells{}; ///< of every cell of a mesh of unequal cells; empty when all are alike
 };
 
-/// Runs the method that request.options names, then examines its answer.
+/// Runs the method that request.options names, then examines its result.
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 

@@ -22,8 +22,8 @@ struct LinearFit {
   double residual; ///< || K_FEM - K_MSM ||_F, N/mm
 };
 
-/// The linear method: the k_e, k_f, k_d >= 0 whose K_MSM is nearest to a reference matrix in the Frobenius
-/// norm.
+/// The linear method: the k_e, k_f, k_d >= 0 that minimise the distance of K_MSM from a reference matrix in
+/// the Frobenius norm.
 /// @param reference  symmetric 24x24 stiffness matrix of the same cell, N/mm    @param vertices  any
 /// hexahedron, mm Source: thesis eq. 4.15, the same minimiser as eq. 4.19.
 LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertices);

@@ -47,7 +47,7 @@ struct StrainResidual {
     try {
       return lateral_stretch({value(k[0]), value(k[1]), value(k[2]), 0}, std::exp(strain));
     } catch (const cases::SolveError&) {
-      return 0; // tells Ceres that the objective has no value here
+      return 0; // no value of the objective here, for Ceres
     }
   }
 };
@@ -106,7 +106,7 @@ Minimum minimise(const UniaxialCurve& reference, double edge, double unit, std::
   return {start, 2 * summary.final_cost, summary.IsSolutionUsable()};
 }
 
-/// All alike, each kind of spring alone in charge, and two far corners.
+/// Equal stiffnesses, each kind of spring dominant, and two far corners.
 constexpr std::array<std::array<double, 3>, 6> starts = {
     {{0.2, 0.2, 0.2}, {1, 0.05, 0.05}, {0.05, 1, 0.05}, {0.05, 0.05, 1}, {1, 1, 0.05}, {2, 2, 2}}};
 
