@@ -15,7 +15,7 @@ using cases::Element;
 using Displacement = Eigen::Matrix<double, 24, 1>;
 using Vertices = std::array<Eigen::Vector3d, 8>;
 
-const cases::LinearElastic material = {0.3, 0.35};
+const cases::LinearElastic hooke = {0.3, 0.35};
 
 Vertices distorted() {
   Vertices vertices;
@@ -49,13 +49,13 @@ TEST_CASE("a linear displacement of a distorted element stores the exact strain 
   const double exact =
       (lambda * std::pow(strain.trace(), 2) + 2 * mu * strain.squaredNorm()) * volume(vertices);
   const Displacement u = affine(vertices, strain);
-  const double energy = u.dot(fem_reference::element_stiffness(vertices, material, element) * u);
+  const double energy = u.dot(fem_reference::element_stiffness(vertices, hooke, element) * u);
   CHECK(energy == Approx(exact).epsilon(1e-13)); // 2x2x2 Gauss is exact here: round-off remains
 }
 
 TEST_CASE("an element has six zero-energy modes and no more", "[verification]") {
   const Element element = GENERATE(Element::q1, Element::q1_bbar);
-  const auto stiffness = fem_reference::element_stiffness(distorted(), material, element);
+  const auto stiffness = fem_reference::element_stiffness(distorted(), hooke, element);
   CHECK((stiffness - stiffness.transpose()).norm() <= 1e-14 * stiffness.norm()); // round-off of one product
   const Eigen::VectorXd eigenvalues =
       Eigen::SelfAdjointEigenSolver<fem_reference::ElementStiffness>(stiffness).eigenvalues();
@@ -83,7 +83,7 @@ TEST_CASE("B-bar leaves the deviatoric stiffness alone and softens a bending mod
 }
 
 TEST_CASE("an element's stiffness refuses what has no meaning") {
-  CHECK_THROWS_AS(fem_reference::element_stiffness(distorted(), material, Element::q2), cases::InputError);
+  CHECK_THROWS_AS(fem_reference::element_stiffness(distorted(), hooke, Element::q2), cases::InputError);
   CHECK_THROWS_AS(fem_reference::element_stiffness(distorted(), {0.3, 0.5}, Element::q1), cases::InputError);
   CHECK_THROWS_AS(fem_reference::element_stiffness(distorted(), {0.3, std::nan("")}, Element::q1),
                   cases::InputError);
@@ -92,5 +92,5 @@ TEST_CASE("an element's stiffness refuses what has no meaning") {
   std::swap(inverted[2], inverted[3]);
   std::swap(inverted[4], inverted[5]);
   std::swap(inverted[6], inverted[7]);
-  CHECK_THROWS_AS(fem_reference::element_stiffness(inverted, material, Element::q1), cases::InputError);
+  CHECK_THROWS_AS(fem_reference::element_stiffness(inverted, hooke, Element::q1), cases::InputError);
 }

@@ -12,7 +12,7 @@ cmake --build "$build" --target springproof_cases_tests springproof_msm_tests sp
 export OPENBLAS_NUM_THREADS=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$source/tests/sanitize/leaks.txt:print_suppressions=0"
-(cd "$build" && ./springproof_cases_tests "~[verification]" && ./springproof_msm_tests "~[verification]") &
+(cd "$build" && ./springproof_cases_tests "~[verification]~[verification-long]" && ./springproof_msm_tests "~[verification]~[verification-long]") &
 unit_tests=$!
 hard_cases=0
 (cd "$source/cases/hard" && "$build/springproof_hard_springs" bar_buckling.toml bar_buckling_imperfect.toml \

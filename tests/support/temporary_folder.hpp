@@ -2,17 +2,19 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 #include <unistd.h>
 
-/// A folder of a test's own, which goes with it.
+/// A folder of a test's own, which is removed with it.
 struct TemporaryFolder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() /
       ("springproof-test-" + std::to_string(::getpid()) + "-" + std::to_string(count()++));
   TemporaryFolder() { std::filesystem::create_directories(path); }
   ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  /// A file in it, and where it is.
+  /// Writes a file in it.  @return its path
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name) << text;
     return (path / name).string();
@@ -26,3 +28,10 @@ struct TemporaryFolder {
     return n;
   }
 };
+
+/// Content of a file, byte by byte.  @throws std::runtime_error if there is none
+inline std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(file), {}};
+}

@@ -1,18 +1,11 @@
 // The program as its users run it: exit status, standard output, standard error, files.
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/run_program.hpp"
 
-#include <array>
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
-
-using namespace springproof;
 
 namespace fs = std::filesystem;
 
@@ -21,38 +14,14 @@ namespace {
 const std::string cases_folder = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases";
 const std::string shear = cases_folder + "/thesis/linear_elastic/cube_shear_small.toml";
 
-struct Outcome {
-  int status;
-  std::string out, error;
-};
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// @param words  as typed in a shell, after the program's name
-/// @param before  shell commands in front
-Outcome run_program(const std::string& words, const std::string& before = "") {
-  const TemporaryFolder folder;
-  const std::string errors = (folder.path / "stderr").string();
-  FILE* pipe = popen((before + SPRINGPROOF_PROGRAM " " + words + " 2>" + errors).c_str(), "r");
-  REQUIRE(pipe);
-  std::string out;
-  std::array<char, 4096> block{};
-  while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
-  const int status = pclose(pipe);
-  return {WEXITSTATUS(status), out, content(errors)};
-}
-
 } // namespace
 
 TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else",
-          "[unit][long]") {
+          "[unit-long]") {
   for (const auto& entry : fs::recursive_directory_iterator(cases_folder + "/thesis")) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path());
-    const Outcome outcome = run_program("run --json " + entry.path().string());
+    const ProgramRun outcome = run_program("run --json " + entry.path().string());
     REQUIRE(outcome.status == 0);
     CHECK(outcome.error.empty());
     const auto document = nlohmann::json::parse(outcome.out);
@@ -68,7 +37,7 @@ TEST_CASE("every case that comes with the program runs, and --json prints one do
 }
 
 TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
-  const Outcome outcome = run_program("run --json --only msm " + shear);
+  const ProgramRun outcome = run_program("run --json --only msm " + shear);
   REQUIRE(outcome.status == 0);
   const auto document = nlohmann::json::parse(outcome.out);
   CHECK(document["cases"][0]["fem"]["status"] == "skipped");
@@ -80,7 +49,7 @@ TEST_CASE("a broken case ends in exit status 2, one message and no files, even b
   const TemporaryFolder folder;
   const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";
   std::ofstream(broken) << "schema = 1\nname = \"b\"\nbdoy = 3\n";
-  const Outcome outcome = run_program("run " + shear + " " + broken.string() + " --out " + out.string());
+  const ProgramRun outcome = run_program("run " + shear + " " + broken.string() + " --out " + out.string());
   CHECK(outcome.status == 2);
   CHECK(outcome.out.empty());
   CHECK(outcome.error.find("broken.toml:3:1: bdoy") != std::string::npos);
@@ -90,7 +59,7 @@ TEST_CASE("a broken case ends in exit status 2, one message and no files, even b
 }
 
 TEST_CASE("a region that selects nothing is refused before any solve, with its place in the file") {
-  const Outcome outcome = run_program("run " + shear + " --set 'measure[0].top=\"near 1 2 3.5\"'");
+  const ProgramRun outcome = run_program("run " + shear + " --set 'measure[0].top=\"near 1 2 3.5\"'");
   CHECK(outcome.status == 2);
   CHECK(outcome.out.empty());
   CHECK(outcome.error.find("no node within") != std::string::npos);
@@ -112,7 +81,7 @@ TEST_CASE(
 }
 
 TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none") {
-  const Outcome study =
+  const ProgramRun study =
       run_program("run --json --only fem --converge " + cases_folder + "/studies/clamped_block_shear.toml");
   REQUIRE(study.status == 0);
   const auto side = nlohmann::json::parse(study.out)["cases"][0]["fem"];
@@ -121,7 +90,7 @@ TEST_CASE("run --converge gives each measure an error bar, or the reason why the
     CHECK(side["discretisation_error_percent"][measure].get<double>() < 20); // four cells across, first order
   }
   CHECK(side["mesh_study"]["refine"] == std::vector<int>{0, 1, 2});
-  const Outcome point_forces = run_program("run --json --only fem --converge " + shear);
+  const ProgramRun point_forces = run_program("run --json --only fem --converge " + shear);
   REQUIRE(point_forces.status == 0);
   const auto none = nlohmann::json::parse(point_forces.out)["cases"][0]["fem"];
   CHECK(none["discretisation_error_percent"]["alpha_1"].is_null());
@@ -130,7 +99,7 @@ TEST_CASE("run --converge gives each measure an error bar, or the reason why the
 }
 
 TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") {
-  const Outcome outcome =
+  const ProgramRun outcome =
       run_program("run --json --only fem --peer ccx " + shear + " --set fem.element=q1_bbar");
   REQUIRE(outcome.status == 0);
   const auto result = nlohmann::json::parse(outcome.out)["cases"][0];
@@ -142,7 +111,7 @@ TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") 
 TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unknown table") {
   for (const char* words : {"", "run", "run --no-such-option x", "tables 9.9", "run /no/such/file.toml"}) {
     INFO(words);
-    const Outcome outcome = run_program(words);
+    const ProgramRun outcome = run_program(words);
     CHECK(outcome.status == 2);
     CHECK_FALSE(outcome.error.empty());
   }
@@ -150,7 +119,7 @@ TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unkno
 }
 
 TEST_CASE("design --json is one document with the keys that were promised") {
-  const Outcome outcome = run_program("design --young 0.3 --poisson 0.35 --edge 1 --method hybrid --json");
+  const ProgramRun outcome = run_program("design --young 0.3 --poisson 0.35 --edge 1 --method hybrid --json");
   REQUIRE(outcome.status == 0);
   CHECK(outcome.error.empty());
   const auto document = nlohmann::json::parse(outcome.out);
@@ -166,7 +135,7 @@ TEST_CASE("design --json is one document with the keys that were promised") {
 }
 
 TEST_CASE("design --compare shows every method, and why one refuses") {
-  const Outcome outcome = run_program("design --young 0.3 --poisson 0.2 --compare --json");
+  const ProgramRun outcome = run_program("design --young 0.3 --poisson 0.2 --compare --json");
   REQUIRE(outcome.status == 0);
   const auto methods = nlohmann::json::parse(outcome.out)["methods"];
   REQUIRE(methods.size() == 5);
@@ -189,7 +158,7 @@ TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
       {"--curve /nonexistent.csv --method nonlinear_method", "cannot be read"},
   }));
   CAPTURE(words);
-  const Outcome outcome = run_program("design " + words);
+  const ProgramRun outcome = run_program("design " + words);
   CHECK(outcome.status == 2);
   CHECK(outcome.out.empty());
   CHECK_THAT(outcome.error, Catch::Contains(reason));
@@ -200,7 +169,7 @@ TEST_CASE("a negative Poisson's ratio is allowed for the moduli") {
 }
 
 TEST_CASE("eigen --json numbers the spaces from 1 as the thesis does") {
-  const Outcome outcome = run_program("eigen --poisson 0 --json --body 2 --modes 6");
+  const ProgramRun outcome = run_program("eigen --poisson 0 --json --body 2 --modes 6");
   REQUIRE(outcome.status == 0);
   CHECK(outcome.error.empty());
   const auto document = nlohmann::json::parse(outcome.out);
@@ -237,7 +206,7 @@ TEST_CASE("design --out draws the figures of its method") {
 
 TEST_CASE("stress puts a hard case to its models, and says in one document what became of each") {
   const TemporaryFolder folder;
-  const Outcome outcome =
+  const ProgramRun outcome =
       run_program("stress --json mechanism disconnected_piece --out " + folder.path.string());
   REQUIRE(outcome.status == 0);
   CHECK(outcome.error.empty());
@@ -264,22 +233,22 @@ TEST_CASE("a hard case that ends otherwise than expected makes stress answer 1, 
   text.replace(text.find(expected), expected.size(), "outcome = \"limit point\"");
   const fs::path wrong = folder.path / "wrong.toml";
   std::ofstream(wrong) << text;
-  const Outcome outcome = run_program("stress " + wrong.string() + " negative_face_diagonal");
+  const ProgramRun outcome = run_program("stress " + wrong.string() + " negative_face_diagonal");
   CHECK(outcome.status == 1);
   CHECK_THAT(outcome.out, Catch::Contains("outcome mechanism, expected limit point"));
   CHECK_THAT(outcome.out, Catch::Contains("1 of 2 hard cases ended as expected"));
 }
 
 TEST_CASE("a hard case that does not exist is refused with the nearest name, and run refuses hard cases") {
-  const Outcome unknown = run_program("stress mechansim");
+  const ProgramRun unknown = run_program("stress mechansim");
   CHECK(unknown.status == 2);
   CHECK_THAT(unknown.error, Catch::Contains("did you mean \"mechanism\"?"));
-  const Outcome ordinary = run_program("run " + cases_folder + "/hard/mechanism.toml");
+  const ProgramRun ordinary = run_program("run " + cases_folder + "/hard/mechanism.toml");
   CHECK(ordinary.status == 2);
   CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
 }
 
-TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[unit][long]") {
+TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[unit-long]") {
   const TemporaryFolder folder;
   const auto in_folder = [&](const std::string& words) {
     return run_program(words, "cd " + folder.path.string() + " && ");
@@ -289,12 +258,12 @@ TEST_CASE("every template gives a case that runs, and nothing is ever overwritte
     const std::string new_case = std::string("new my-") + name + " --template " + name;
     REQUIRE(in_folder(new_case).status == 0);
     CHECK(content(folder.path / ("my-" + std::string(name) + ".toml")).find("TEMPLATE") == std::string::npos);
-    const Outcome run = in_folder("run --json my-" + std::string(name) + ".toml");
+    const ProgramRun run = in_folder("run --json my-" + std::string(name) + ".toml");
     REQUIRE(run.status == 0);
     const auto document = nlohmann::json::parse(run.out);
     CHECK(document["cases"][0]["name"] == "my-" + std::string(name));
     for (const auto& measure : document["cases"][0]["measures"]) CHECK(measure["error_percent"].is_number());
-    const Outcome again = in_folder(new_case);
+    const ProgramRun again = in_folder(new_case);
     CHECK(again.status == 2);
     CHECK(again.error.find("nothing is overwritten") != std::string::npos);
   }
@@ -304,7 +273,7 @@ TEST_CASE("every template gives a case that runs, and nothing is ever overwritte
   CHECK_FALSE(fs::exists(folder.path / "my-mesh.toml"));
   for (const char* wrong : {"new ../up", "new .hidden", "new 'a b'", "new x --template bax"}) {
     CAPTURE(wrong);
-    const Outcome outcome = in_folder(wrong);
+    const ProgramRun outcome = in_folder(wrong);
     CHECK(outcome.status == 2);
     CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
   }

@@ -5,7 +5,6 @@
 #include "tests/compare/gates/judged.hpp"
 
 #include <catch2/catch.hpp>
-#include <iterator>
 
 using namespace springproof;
 
@@ -70,11 +69,6 @@ compare::GatedCase judge_file(const std::string& path, double fem, std::optional
   comparison.scene.definition = cases::read_case(path);
   comparison.measures = {{"L", "mm", fem, msm, std::nullopt}};
   return compare::judge_gates(comparison);
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 } // namespace

@@ -16,7 +16,7 @@ TEST_CASE("text on the page cannot be mistaken for markup") {
   CHECK(escape("<a href='x'>\"R&D\"</a>") == "&lt;a href=&#39;x&#39;&gt;&quot;R&amp;D&quot;&lt;/a&gt;");
 }
 
-TEST_CASE("a number is rounded and never a negative zero; one that is missing is a dash") {
+TEST_CASE("a number is rounded and never a negative zero, and a missing one is a dash") {
   CHECK(number(-4.906) == "-4.91");
   CHECK(number(-0.004) == "0.00");
   CHECK(number(-0.4, 0) == "0");

@@ -16,7 +16,7 @@ cases::Case shear() {
   return cases::read_case(std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/sweep/cube_shear.toml");
 }
 
-constexpr std::array<std::array<int, 3>, 3> cells{{{2, 2, 2}, {4, 4, 4}, {8, 8, 8}}};
+constexpr std::array<std::array<int, 3>, 3> meshes{{{2, 2, 2}, {4, 4, 4}, {8, 8, 8}}};
 
 /// A shear that is wrong by c h^p, h the width of a cell.
 std::vector<Vector3d> field(const std::array<int, 3>& n, double c, double p) {
@@ -27,20 +27,20 @@ std::vector<Vector3d> field(const std::array<int, 3>& n, double c, double p) {
 }
 
 std::array<std::vector<Vector3d>, 3> fields(double c, double p) {
-  return {field(cells[0], c, p), field(cells[1], c, p), field(cells[2], c, p)};
+  return {field(meshes[0], c, p), field(meshes[1], c, p), field(meshes[2], c, p)};
 }
 
 } // namespace
 
 TEST_CASE("an error of one power of the mesh width is extrapolated away", "[verification]") {
   for (const double p : {1., 1.5, 4.}) {
-    const Reference reference = make_reference(shear(), cells, fields(1e-4, p));
+    const Reference reference = make_reference(shear(), meshes, fields(1e-4, p));
     // extrapolation multiplies the rounding of the differences, 1e-16 / 1e-4, by no more than 10
-    CHECK(*field_error_percent(reference, cells[0], field(cells[0], 0, 1)) <= 1e-8);
+    CHECK(*field_error_percent(reference, meshes[0], field(meshes[0], 0, 1)) <= 1e-8);
     CHECK(reference.measures[0].value == Approx(1).epsilon(1e-9)); // 0.1 of the height
     CHECK(reference.field.note.empty());
     const double error_of_finest = 100 * 1e-4 * std::pow(10. / 8, p) / 0.1; // percent
-    CHECK(*field_error_percent(reference, cells[2], field(cells[2], 1e-4, p)) ==
+    CHECK(*field_error_percent(reference, meshes[2], field(meshes[2], 1e-4, p)) ==
           Approx(error_of_finest).epsilon(1e-6));
     CHECK(reference.field.uncertainty_percent ==
           Approx(1.25 * error_of_finest).epsilon(0.05)); // of the finest's size
@@ -48,9 +48,9 @@ TEST_CASE("an error of one power of the mesh width is extrapolated away", "[veri
 }
 
 TEST_CASE("without an order the finest mesh stands, with three times its last change for uncertainty") {
-  std::array<std::vector<Vector3d>, 3> growing{field(cells[0], 0, 1), field(cells[1], 1e-3, 0),
-                                               field(cells[2], 3e-3, 0)};
-  const Reference reference = make_reference(shear(), cells, growing);
+  std::array<std::vector<Vector3d>, 3> growing{field(meshes[0], 0, 1), field(meshes[1], 1e-3, 0),
+                                               field(meshes[2], 3e-3, 0)};
+  const Reference reference = make_reference(shear(), meshes, growing);
   CHECK_FALSE(reference.field.note.empty());
   CHECK_FALSE(reference.measures[0].note.empty());
   CHECK(reference.measures[0].value == Approx(1.03));
@@ -59,16 +59,16 @@ TEST_CASE("without an order the finest mesh stands, with three times its last ch
 }
 
 TEST_CASE("meshes that agree leave no uncertainty and no error") {
-  const Reference reference = make_reference(shear(), cells, fields(0, 1));
+  const Reference reference = make_reference(shear(), meshes, fields(0, 1));
   CHECK(reference.field.uncertainty_percent <= 1e-7); // rounding
-  for (const auto& error : measure_errors_percent(reference, cells[0], field(cells[0], 0, 1)))
+  for (const auto& error : measure_errors_percent(reference, meshes[0], field(meshes[0], 0, 1)))
     CHECK(std::abs(error.value()) <= 1e-9); // rounding
 }
 
 TEST_CASE("a body that stays at rest is wrong by all of it") {
-  const Reference reference = make_reference(shear(), cells, fields(0, 1));
+  const Reference reference = make_reference(shear(), meshes, fields(0, 1));
   std::vector<Vector3d> still(27, Vector3d::Zero());
-  CHECK(field_error_percent(reference, cells[0], still).value() == Approx(100));
-  for (const auto& error : measure_errors_percent(reference, cells[0], still))
+  CHECK(field_error_percent(reference, meshes[0], still).value() == Approx(100));
+  for (const auto& error : measure_errors_percent(reference, meshes[0], still))
     CHECK(error.value() == Approx(-100));
 }

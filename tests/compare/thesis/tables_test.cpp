@@ -1,40 +1,24 @@
 // `springproof tables` as its users run it.
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/run_program.hpp"
 
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
-
-using namespace springproof;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
 
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Standard output of the program; the exit status must be 0.  @param words  as typed in a shell
+/// Standard output of the program in the project's folder; the exit status must be 0.
+/// @param words  as typed in a shell
 std::string output(const std::string& words) {
-  const std::string line =
-      "cd " SPRINGPROOF_SOURCE_DIR " && " SPRINGPROOF_PROGRAM " " + words + " 2>/dev/null";
-  FILE* pipe = popen(line.c_str(), "r");
-  REQUIRE(pipe);
-  std::string out;
-  std::array<char, 4096> block{};
-  while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
-  REQUIRE(WEXITSTATUS(pclose(pipe)) == 0);
-  return out;
+  const ProgramRun run = run_program(words, "cd " SPRINGPROOF_SOURCE_DIR " && ");
+  INFO(run.error);
+  REQUIRE(run.status == 0);
+  return run.out;
 }
 
 /// The words behind the program's name in a command that a result carries.
@@ -47,7 +31,7 @@ std::string words_of(const Json& entry) {
 } // namespace
 
 // The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
-TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[unit][long]") {
+TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[unit-long]") {
   const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
   CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
@@ -99,7 +83,7 @@ TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
 TEST_CASE(
     "at least 75 of 90 errors in print are met within a point, all volumes within 2 mm3, the bar within 1.6 "
     "points",
-    "[verification][long]") {
+    "[verification-long]") {
   const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.2 5.3 5.4 5.12 --json"));
   const auto group = [&](const std::string& name) {
     for (const Json& candidate : document["summary"]["groups"])

@@ -93,8 +93,7 @@ TEST_CASE("a file is written whole or not at all") {
                                         out.setstate(std::ios::badbit);
                                       }),
                   cases::InputError);
-  std::ifstream file(target);
-  CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "whole");
+  CHECK(content(target) == "whole");
   CHECK(std::distance(fs::directory_iterator(folder.path / "deep"), fs::directory_iterator()) == 1);
   CHECK_THROWS_AS(compare::write_file("/proc/none/file", [](std::ostream&) {}), cases::InputError);
 }

@@ -9,9 +9,9 @@ using namespace springproof;
 
 namespace {
 
-const msm::CellStiffness springs = {0.031, 0.047, 0.033, 0};
-const msm::CellStiffness hybrid = {0.05, 0.01, 0.04, 0.3};
-const double edge = 1.3;
+const msm::CellStiffness plain_springs = {0.031, 0.047, 0.033, 0};
+const msm::CellStiffness springs_and_volume = {0.05, 0.01, 0.04, 0.3};
+const double cell_edge = 1.3;
 
 Eigen::Matrix3d some_deformation() {
   Eigen::Matrix3d f;
@@ -22,30 +22,30 @@ Eigen::Matrix3d some_deformation() {
 } // namespace
 
 TEST_CASE("a lattice block's energy per volume is the closed form", "[verification]") {
-  for (const msm::CellStiffness& stiffness : {springs, hybrid}) {
+  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume}) {
     const int n = 3;
     const msm::Lattice lattice = msm::make_lattice(
-        cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {{n, n, n}}), {stiffness});
+        cases::make_box_mesh(Eigen::Vector3d::Constant(n * cell_edge), {{n, n, n}}), {stiffness});
     msm::Points positions = lattice.rest;
     for (Eigen::Vector3d& x : positions) x = some_deformation() * x;
-    const double expected = msm::energy(lattice, positions) / std::pow(n * edge, 3);
-    const double energy = msm::lattice_energy_density(stiffness, edge, some_deformation());
+    const double expected = msm::energy(lattice, positions) / std::pow(n * cell_edge, 3);
+    const double energy = msm::lattice_energy_density(stiffness, cell_edge, some_deformation());
     CHECK(energy == Approx(expected).epsilon(1e-13)); // the same sums in another order
   }
 }
 
 TEST_CASE("the lattice's stress is the derivative of its energy", "[verification]") {
   const Eigen::Matrix3d f = some_deformation();
-  for (const msm::CellStiffness& stiffness : {springs, hybrid}) {
-    const Eigen::Matrix3d stress = msm::lattice_stress(stiffness, edge, f);
+  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume}) {
+    const Eigen::Matrix3d stress = msm::lattice_stress(stiffness, cell_edge, f);
     const double h = 1e-5;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         Eigen::Matrix3d above = f, below = f;
         above(i, j) += h;
         below(i, j) -= h;
-        const double slope = (msm::lattice_energy_density(stiffness, edge, above) -
-                              msm::lattice_energy_density(stiffness, edge, below)) /
+        const double slope = (msm::lattice_energy_density(stiffness, cell_edge, above) -
+                              msm::lattice_energy_density(stiffness, cell_edge, below)) /
                              (2 * h);
         CHECK(slope == Approx(stress(i, j)).margin(1e-8)); // h² and round-off / h of energies near 0.1 MPa
       }
@@ -53,9 +53,9 @@ TEST_CASE("the lattice's stress is the derivative of its energy", "[verification
 }
 
 TEST_CASE("sides are free of stress at the free lateral stretch") {
-  const double lateral = msm::free_lateral_stretch(hybrid, edge, 1.3);
+  const double lateral = msm::free_lateral_stretch(springs_and_volume, cell_edge, 1.3);
   const Eigen::Matrix3d f = Eigen::Vector3d(lateral, lateral, 1.3).asDiagonal();
-  CHECK(std::abs(msm::lattice_stress(hybrid, edge, f)(0, 0)) <=
+  CHECK(std::abs(msm::lattice_stress(springs_and_volume, cell_edge, f)(0, 0)) <=
         1e-12); // MPa, of stresses near 0.1: bisected to round-off
 }
 
@@ -82,13 +82,14 @@ TEST_CASE("a lattice without diagonals has waves without stiffness, and none of 
 }
 
 TEST_CASE("at the end of the stability range a wave has just no stiffness left") {
-  const msm::StabilityRange range = msm::stability_range(springs, 1);
+  const msm::StabilityRange range = msm::stability_range(plain_springs, 1);
   CHECK(range.stretch > 1);
   CHECK(range.compression < 1);
   CHECK(range.shear > 0);
   const auto smallest = [](double stretch) {
-    const double lateral = msm::free_lateral_stretch(springs, 1, stretch);
-    return msm::smallest_wave_stiffness(springs, 1, Eigen::Vector3d(lateral, lateral, stretch).asDiagonal());
+    const double lateral = msm::free_lateral_stretch(plain_springs, 1, stretch);
+    return msm::smallest_wave_stiffness(plain_springs, 1,
+                                        Eigen::Vector3d(lateral, lateral, stretch).asDiagonal());
   };
   if (range.compression > msm::search_ends.compression) {
     CHECK(smallest(range.compression + 2e-4) > 0); // bisected to 1e-4
