@@ -34,8 +34,8 @@ std::optional<int> negative_pivots_of_symmetric_part(Mat tangent) {
 
 } // namespace
 
-LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
-    : tangent_(d.tangent), symmetry_(symmetry) {
+LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry symmetry)
+    : tangent_(tangent), symmetry_(symmetry) {
   KSP solver = nullptr;
   PC preconditioner = nullptr;
   check(KSPCreate(d.communicator, &solver));
@@ -48,10 +48,10 @@ LinearSolver::LinearSolver(const Discretisation& d, TangentSymmetry symmetry)
   // diagonal, which is a fifth faster, and still counts the negative ones; a factorisation gone bad would
   // show in the residual.
   if (symmetric) check(MatSetOption(tangent_, MAT_SPD, PETSC_TRUE));
-  mechanics::petsc::attach_rigid_motions(tangent_, d.node_point);
+  mechanics::petsc::attach_rigid_motions(tangent, d.nodes.point);
   // an iterative solve leaves Newton a factor of 1e5 a step, hardly less than its quadratic convergence
   check(KSPSetTolerances(solver, 1e-5, PETSC_DEFAULT, PETSC_DEFAULT, 500));
-  if (d.n_unknowns <= direct_solver_limit) {
+  if (d.constraints.n_unknowns <= direct_solver_limit) {
     check(KSPSetType(solver, KSPPREONLY));
     check(PCSetType(preconditioner, symmetric ? PCCHOLESKY : PCLU));
     check(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));

@@ -15,13 +15,13 @@ constexpr long direct_solver_limit = 120000;
 /// Newton's linear systems. PETSc's options database overrides every choice under the prefix "fem_".
 class LinearSolver {
  public:
-  LinearSolver(const Discretisation& discretisation, TangentSymmetry symmetry);
+  LinearSolver(const Discretisation& discretisation, Mat tangent, TangentSymmetry symmetry);
 
   struct Outcome {
     bool solved;
     int iterations; ///< of the Krylov method; 0 for a direct solve
   };
-  /// Solves with the discretisation's tangent as it is now; one that has not changed stays factorised.
+  /// Solves with the tangent as it is now; one that has not changed stays factorised.
   /// @param tangent_number  from 1, another one whenever the tangent has been assembled: for the count of
   /// factorisations
   Outcome solve(Vec right_hand_side, Vec solution, long tangent_number);

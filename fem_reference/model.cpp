@@ -32,7 +32,8 @@ struct Model::Implementation {
       : scene(the_scene), formulations(formulations_of(scene)),
         discretisation(cases::refine(scene, scene.definition.fem.refine),
                        element_type(scene.definition.fem, formulations.front()), {}, communicator),
-        equilibrium(discretisation, formulations), solver(discretisation, formulations.front().symmetry),
+        equilibrium(discretisation, formulations),
+        solver(discretisation, equilibrium.tangent(), formulations.front().symmetry),
         last(equilibrium.rest()) {}
 
   std::vector<Eigen::Vector3d> body_displacement(const State& state) const;
@@ -54,8 +55,8 @@ std::vector<Eigen::Vector3d> Model::Implementation::body_displacement(const Stat
   std::vector<double> values(3 * n, 0.);
   const PetscScalar* owned = nullptr;
   check(VecGetArrayRead(state.displacement.get(), &owned));
-  for (std::size_t node = 0; node < index(discretisation.n_owned_nodes); ++node) {
-    const int number = discretisation.mesh_node[node];
+  for (std::size_t node = 0; node < index(discretisation.nodes.n_owned); ++node) {
+    const int number = discretisation.nodes.mesh_node[node];
     if (number >= 0 && index(number) < n) std::copy_n(owned + 3 * node, 3, values.begin() + 3 * number);
   }
   check(VecRestoreArrayRead(state.displacement.get(), &owned));
@@ -72,7 +73,7 @@ std::vector<double> Model::Implementation::body_cell_volumes(const State& state)
   const std::vector<double> own = equilibrium.cell_volumes(state);
   const int shift = 3 * scene.definition.fem.refine;
   for (std::size_t cell = 0; cell < own.size(); ++cell)
-    volumes[index(discretisation.mesh_cell[cell] >> shift)] += own[cell];
+    volumes[index(discretisation.nodes.mesh_cell[cell] >> shift)] += own[cell];
   sum_over_ranks(volumes, discretisation.communicator);
   return volumes;
 }
@@ -106,7 +107,7 @@ cases::Solution Model::Implementation::solve(const LoadSteps& steps, Stability s
   solution.status = cases::Status::converged;
   solution.displacement = body_displacement(state);
   solution.cell_volume = body_cell_volumes(state);
-  solution.unknowns = static_cast<std::size_t>(discretisation.n_unknowns);
+  solution.unknowns = static_cast<std::size_t>(discretisation.constraints.n_unknowns);
   solution.residual = report.residual;
   solution.load_reached = steps.to;
   solution.newton_iterations = report.iterations;
@@ -129,8 +130,8 @@ std::vector<NodeDisplacement> Model::node_displacements() const {
   std::vector<double> own;
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(m.last.displacement.get(), &values));
-  for (std::size_t node = 0; node < index(d.n_owned_nodes); ++node) {
-    own.insert(own.end(), d.node_point[node].data(), d.node_point[node].data() + 3);
+  for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node) {
+    own.insert(own.end(), d.nodes.point[node].data(), d.nodes.point[node].data() + 3);
     own.insert(own.end(), values + 3 * node, values + 3 * node + 3);
   }
   check(VecRestoreArrayRead(m.last.displacement.get(), &values));

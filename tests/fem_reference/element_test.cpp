@@ -40,14 +40,14 @@ struct OneCell {
           0.1 * Eigen::Vector3d(std::sin(5. * double(n)), std::sin(9. * double(n)), std::cos(7. * double(n)));
     return make_formulation(scene.definition.fem, scene.definition.material);
   }
-  Eigen::Index n_dofs() const { return 3 * discretisation.nodes_per_cell; }
+  Eigen::Index n_dofs() const { return 3 * discretisation.nodes.per_cell; }
 
   /// Displacement of the nodes by a map, plus a little that is no affine map.
   Eigen::VectorXd displacement(const Eigen::Matrix3d& gradient, double roughness) const {
     Eigen::VectorXd u(n_dofs());
-    for (int a = 0; a < discretisation.nodes_per_cell; ++a) {
-      const int node = discretisation.cell_nodes[static_cast<std::size_t>(a)];
-      const Eigen::Vector3d x = discretisation.node_point[static_cast<std::size_t>(node)];
+    for (int a = 0; a < discretisation.nodes.per_cell; ++a) {
+      const int node = discretisation.nodes.of_cell[static_cast<std::size_t>(a)];
+      const Eigen::Vector3d x = discretisation.nodes.point[static_cast<std::size_t>(node)];
       u.segment<3>(3 * a) =
           gradient * x + roughness * Eigen::Vector3d(std::sin(3. * a), std::sin(7. * a), std::cos(5. * a));
     }
@@ -56,19 +56,20 @@ struct OneCell {
   /// At the pressures that balance the cell's volume, found by Newton's method at fixed displacement.
   const CellResult& balanced(const Eigen::VectorXd& u) {
     for (int i = 0; i < 30; ++i) {
-      const CellResult& r =
-          kernel.evaluate(discretisation.geometry(0), u.data(), pressure.data(), Wanted::stress_and_tangent);
+      const CellResult& r = kernel.evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),
+                                            Wanted::stress_and_tangent);
       REQUIRE(r.valid);
       if (r.volume_mismatch <= 1e-15) break;
       for (std::size_t m = 0; m < r.pressure_residual.size(); ++m)
         pressure(static_cast<Eigen::Index>(m)) += r.pressure_residual[m];
     }
-    return kernel.evaluate(discretisation.geometry(0), u.data(), pressure.data(), Wanted::stress_and_tangent);
+    return kernel.evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),
+                           Wanted::stress_and_tangent);
   }
   /// Internal force with its degrees of freedom in the order of the displacement.
   Eigen::VectorXd force(const Eigen::VectorXd& u) {
     const CellResult& r = balanced(u);
-    const Eigen::Index n = discretisation.nodes_per_cell;
+    const Eigen::Index n = discretisation.nodes.per_cell;
     Eigen::VectorXd f(n_dofs());
     for (Eigen::Index k = 0; k < n_dofs(); ++k)
       f(3 * (k % n) + k / n) = r.plain_force[static_cast<std::size_t>(k)];
@@ -76,7 +77,7 @@ struct OneCell {
   }
   Eigen::MatrixXd tangent(const Eigen::VectorXd& u) {
     const CellResult& r = balanced(u);
-    const Eigen::Index n = discretisation.nodes_per_cell;
+    const Eigen::Index n = discretisation.nodes.per_cell;
     Eigen::MatrixXd k(n_dofs(), n_dofs());
     for (Eigen::Index row = 0; row < n_dofs(); ++row)
       for (Eigen::Index column = 0; column < n_dofs(); ++column)
@@ -144,14 +145,14 @@ TEST_CASE("a cell that is turned after it was deformed turns its forces with it"
       OneCell cell(formulation, element, material_of(formulation));
       const Eigen::VectorXd u = cell.displacement(gradient, 0.02);
       Eigen::VectorXd turned = u;
-      for (int a = 0; a < cell.discretisation.nodes_per_cell; ++a) {
-        const int node = cell.discretisation.cell_nodes[static_cast<std::size_t>(a)];
-        const Eigen::Vector3d x = cell.discretisation.node_point[static_cast<std::size_t>(node)];
+      for (int a = 0; a < cell.discretisation.nodes.per_cell; ++a) {
+        const int node = cell.discretisation.nodes.of_cell[static_cast<std::size_t>(a)];
+        const Eigen::Vector3d x = cell.discretisation.nodes.point[static_cast<std::size_t>(node)];
         turned.segment<3>(3 * a) = turn * (x + u.segment<3>(3 * a)) - x;
       }
       const Eigen::VectorXd before = cell.force(u), after = cell.force(turned);
       double error = 0;
-      for (Eigen::Index a = 0; a < cell.discretisation.nodes_per_cell; ++a)
+      for (Eigen::Index a = 0; a < cell.discretisation.nodes.per_cell; ++a)
         error = larger(error, (after.segment<3>(3 * a) - turn * before.segment<3>(3 * a)).norm());
       CAPTURE(cases::name_of(formulation), cases::name_of(element));
       CHECK(error <= 1e-12 * before.norm()); // rounding error of a few hundred additions
@@ -184,7 +185,7 @@ TEST_CASE("in small strain a condensed constant pressure is B-bar, computed from
 TEST_CASE("an inverted cell is refused, and so is a state that is not a number") {
   OneCell cell(cases::Formulation::hyperelastic, Element::q1, material_of(cases::Formulation::hyperelastic));
   const auto valid = [&](const Eigen::VectorXd& u) {
-    return cell.kernel.evaluate(cell.discretisation.geometry(0), u.data(), nullptr, Wanted::stress).valid;
+    return cell.kernel.evaluate(cell.discretisation.geometry.of(0), u.data(), nullptr, Wanted::stress).valid;
   };
   CHECK(valid(cell.displacement(Eigen::Matrix3d::Zero(), 0)));
   CHECK_FALSE(valid(cell.displacement(Eigen::Vector3d(-1.5, 0, 0).asDiagonal(), 0)));

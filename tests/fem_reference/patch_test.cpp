@@ -51,10 +51,10 @@ TEST_CASE("an unsupported cell of rest shape has six motions without force and n
   const Discretisation discretisation(scene, element_type(scene.definition.fem, formulation), {},
                                       MPI_COMM_WORLD);
   CellKernel kernel(discretisation.element, formulation);
-  const std::vector<double> rest(3 * static_cast<std::size_t>(discretisation.nodes_per_cell), 0.),
+  const std::vector<double> rest(3 * static_cast<std::size_t>(discretisation.nodes.per_cell), 0.),
       pressure(4, 0.);
-  const CellResult& cell =
-      kernel.evaluate(discretisation.geometry(0), rest.data(), pressure.data(), Wanted::stress_and_tangent);
+  const CellResult& cell = kernel.evaluate(discretisation.geometry.of(0), rest.data(), pressure.data(),
+                                           Wanted::stress_and_tangent);
   const auto n = static_cast<Eigen::Index>(rest.size());
   const Eigen::MatrixXd stiffness = Eigen::Map<const Eigen::MatrixXd>(cell.tangent.data(), n, n);
   const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();

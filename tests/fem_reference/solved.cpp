@@ -10,12 +10,12 @@ Solved::Solved(const cases::Scene& scene, const Prescribed& prescribed)
     : formulation(make_formulation(scene.definition.fem, scene.definition.material)),
       discretisation(scene, element_type(scene.definition.fem, formulation), prescribed, MPI_COMM_SELF),
       equilibrium(discretisation, formulation), state(equilibrium.rest()) {
-  LinearSolver solver(discretisation, formulation.symmetry);
+  LinearSolver solver(discretisation, equilibrium.tangent(), formulation.symmetry);
   report = carry_load(equilibrium, solver, state);
 }
 
 std::vector<Vector3d> Solved::displacement() const {
-  std::vector<Vector3d> nodes(discretisation.node_point.size());
+  std::vector<Vector3d> nodes(discretisation.nodes.point.size());
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(state.displacement.get(), &values));
   for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] = Eigen::Map<const Vector3d>(values + 3 * n);
@@ -27,22 +27,22 @@ double Solved::largest_error(const Field& exact) const {
   const auto u = displacement();
   double largest = 0;
   for (std::size_t n = 0; n < u.size(); ++n)
-    largest = larger(largest, (u[n] - exact(discretisation.node_point[n])).norm());
+    largest = larger(largest, (u[n] - exact(discretisation.nodes.point[n])).norm());
   return largest;
 }
 
 double Solved::l2_error(const Field& exact) const {
   const auto& d = discretisation;
   const auto u = displacement();
-  const auto n = static_cast<std::size_t>(d.nodes_per_cell);
+  const auto n = static_cast<std::size_t>(d.nodes.per_cell);
   double squared = 0;
-  for (int cell = 0; cell < d.n_cells; ++cell)
-    for (int q = 0; q < d.points_per_cell; ++q) {
-      Vector3d error = -exact(d.quadrature_point(cell, q));
+  for (int cell = 0; cell < d.nodes.n_cells; ++cell)
+    for (int q = 0; q < d.geometry.n_points; ++q) {
+      Vector3d error = -exact(d.geometry.point(cell, q));
       for (std::size_t a = 0; a < n; ++a)
-        error += d.shape_values[static_cast<std::size_t>(q) * n + a] *
-                 u[static_cast<std::size_t>(d.cell_nodes[static_cast<std::size_t>(cell) * n + a])];
-      squared += d.geometry(cell).weights[q] * error.squaredNorm();
+        error += d.geometry.shape_values[static_cast<std::size_t>(q) * n + a] *
+                 u[static_cast<std::size_t>(d.nodes.of_cell[static_cast<std::size_t>(cell) * n + a])];
+      squared += d.geometry.of(cell).weights[q] * error.squaredNorm();
     }
   return std::sqrt(squared);
 }
@@ -50,21 +50,21 @@ double Solved::l2_error(const Field& exact) const {
 Vector3d Solved::force_on(const std::function<bool(const Vector3d&)>& selected) const {
   const auto& d = discretisation;
   const auto u = displacement();
-  const auto n = static_cast<std::size_t>(d.nodes_per_cell);
+  const auto n = static_cast<std::size_t>(d.nodes.per_cell);
   CellKernel kernel(d.element, formulation);
   Vector3d sum = Vector3d::Zero();
-  for (std::size_t cell = 0; cell < static_cast<std::size_t>(d.n_cells); ++cell) {
+  for (std::size_t cell = 0; cell < static_cast<std::size_t>(d.nodes.n_cells); ++cell) {
     std::vector<double> own;
     for (std::size_t a = 0; a < n; ++a) {
-      const Vector3d& node = u[static_cast<std::size_t>(d.cell_nodes[cell * n + a])];
+      const Vector3d& node = u[static_cast<std::size_t>(d.nodes.of_cell[cell * n + a])];
       own.insert(own.end(), node.data(), node.data() + 3);
     }
     const double* pressure =
         state.pressure.data() + cell * static_cast<std::size_t>(d.element.n_pressure_modes);
     const CellResult& result =
-        kernel.evaluate(d.geometry(static_cast<int>(cell)), own.data(), pressure, Wanted::stress);
+        kernel.evaluate(d.geometry.of(static_cast<int>(cell)), own.data(), pressure, Wanted::stress);
     for (std::size_t a = 0; a < n; ++a)
-      if (selected(d.node_point[static_cast<std::size_t>(d.cell_nodes[cell * n + a])]))
+      if (selected(d.nodes.point[static_cast<std::size_t>(d.nodes.of_cell[cell * n + a])]))
         sum += Vector3d(result.plain_force[a], result.plain_force[n + a], result.plain_force[2 * n + a]);
   }
   return sum;

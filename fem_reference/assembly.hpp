@@ -1,0 +1,61 @@
+#pragma once
+
+#include "fem_reference/discretisation.hpp"
+#include "fem_reference/ghosts.hpp"
+
+namespace springproof::fem_reference {
+
+/// Displacement of every degree of freedom (ghosts current) and the pressures of this rank's cells.
+struct State {
+  Vector displacement;          ///< mm
+  std::vector<double> pressure; ///< MPa, n_pressure_modes per cell; empty without modes
+};
+
+/// The loop over cells: internal forces, the assembled tangent, and what the condensed pressures need.
+class Assembly {
+ public:
+  /// @param formulations  of each of the discretisation's materials
+  Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
+
+  /// Of this rank's cells.
+  struct CellChecks {
+    bool valid =
+        true; ///< false: a cell is inverted at a quadrature point, or not a number; sums are incomplete
+    double volume_mismatch = 0; ///< the largest
+  };
+  /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
+  /// @param force      becomes the internal force, N
+  /// @param condensed  when a tangent is wanted, becomes the internal force with the pressures' imbalance and
+  ///                   what the gap will add to it, N
+  CellChecks assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
+                      Vec condensed);
+
+  /// The pressures that belong to a correction's displacement (ghosts current).
+  void complete_correction(State& correction) const;
+  /// For a linear body's next correction: the pressures of the state it starts from are balanced.
+  void pressures_are_balanced();
+  /// Work of this rank's volume residuals on a correction's pressures, N mm.
+  double pressure_work(const State& correction) const;
+  /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
+  std::vector<double> cell_volumes(const State& state);
+
+  std::size_t n_pressures() const { return volume_residual_.size(); }
+  Mat tangent() const { return tangent_.get(); }
+
+ private:
+  const CellResult& evaluate(int cell, const LocalForm& displacement, const State& state, Wanted wanted);
+  void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
+                   const LocalForm& condensed);
+  /// Local degree of freedom k of a cell, in the order of its forces.
+  std::size_t dof(int cell, std::size_t k) const;
+
+  const Discretisation& discretisation_;
+  std::vector<CellKernel> kernels_; ///< one for each material
+  Matrix tangent_;
+  std::vector<double> pressure_residual_, pressure_slope_; ///< C^-1 R and C^-1 B of every cell
+  std::vector<double> volume_residual_;                    ///< R of every cell, mm³
+  std::vector<double> cell_displacement_;
+  std::vector<PetscInt> rows_;
+};
+
+} // namespace springproof::fem_reference

@@ -1,0 +1,90 @@
+#include "fem_reference/loads.hpp"
+
+#include "cases/case/index.hpp"
+#include "fem_reference/space.hpp"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <set>
+
+namespace springproof::fem_reference {
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+
+void add(Vec load, int local_node, const Vector3d& force) {
+  check(VecSetValuesBlockedLocal(load, 1, &local_node, force.data(), ADD_VALUES));
+}
+
+void add_point_forces(const cases::Scene& scene, const Nodes& nodes, Vec load) {
+  const std::vector<Vector3d> forces = cases::point_forces(scene);
+  for (int node = 0; node < nodes.n_owned; ++node)
+    if (nodes.mesh_node[index(node)] >= 0) add(load, node, forces[index(nodes.mesh_node[index(node)])]);
+}
+
+std::array<int, 4> sorted(std::array<int, 4> face) {
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+/// Integrates a traction or torque over the faces of its region with the element's own shape functions.
+void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& applied, const Space& space,
+                  const Nodes& nodes, Vec load) {
+  const double moment =
+      applied.load.kind == cases::LoadKind::torque ? cases::polar_moment(scene.mesh, applied) : 1;
+  std::set<std::array<int, 4>> faces;
+  for (const auto& face : applied.selection.faces) faces.insert(sorted(face));
+  const dealii::QGauss<2> quadrature(space.node_element.degree + 2);
+  dealii::FEFaceValues<3> values(space.mapping, space.node_element, quadrature,
+                                 dealii::update_values | dealii::update_quadrature_points |
+                                     dealii::update_JxW_values);
+  const int* node = nodes.of_cell.data();
+  for (const auto& cell : space.own_cells()) {
+    for (const auto& face : cell->face_iterators()) {
+      std::array<int, 4> vertices{};
+      for (unsigned v = 0; v < 4; ++v) vertices[v] = static_cast<int>(face->vertex_index(v));
+      if (!face->at_boundary() || faces.count(sorted(vertices)) == 0) continue;
+      values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
+      for (const unsigned q : values.quadrature_point_indices()) {
+        const auto& at = values.quadrature_point(q);
+        const Vector3d traction = cases::surface_traction(applied, {at[0], at[1], at[2]}, moment);
+        for (const unsigned a : values.dof_indices())
+          add(load, node[a], values.JxW(q) * values.shape_value(a, q) * traction);
+      }
+    }
+    node += nodes.per_cell;
+  }
+}
+
+void add_body_force(const Nodes& nodes, const Geometry& geometry, const Prescribed& prescribed, Vec load) {
+  for (int cell = 0; cell < nodes.n_cells; ++cell)
+    for (int q = 0; q < geometry.n_points; ++q) {
+      const Vector3d force = geometry.of(cell).weights[q] * prescribed.body_force(geometry.point(cell, q));
+      for (int a = 0; a < nodes.per_cell; ++a)
+        add(load, nodes.of_cell[index(cell * nodes.per_cell + a)],
+            geometry.shape_values[index(q * nodes.per_cell + a)] * force);
+    }
+}
+
+} // namespace
+
+std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
+                                   const Geometry& geometry, const Prescribed& prescribed) {
+  const Vector load = nodes.make_vector(space.mesh.get_communicator());
+  add_point_forces(scene, nodes, load.get());
+  for (const auto& applied : scene.loads)
+    if (applied.load.kind == cases::LoadKind::traction || applied.load.kind == cases::LoadKind::torque)
+      add_traction(scene, applied, space, nodes, load.get());
+  if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
+  check(VecAssemblyBegin(load.get()));
+  check(VecAssemblyEnd(load.get()));
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(load.get(), &values));
+  std::vector<double> owned(values, values + 3 * nodes.n_owned);
+  check(VecRestoreArrayRead(load.get(), &values));
+  return owned;
+}
+
+} // namespace springproof::fem_reference
