@@ -3,8 +3,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <deal.II/base/mpi.h>
+#include <fcntl.h>
 #include <iostream>
+#include <petscsys.h>
 #include <thread>
+#include <unistd.h>
 
 namespace springproof::fem_reference {
 
@@ -19,18 +22,29 @@ void start_alone() {
   setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
+/// A closed standard stream's number would be given to the next file that is opened, which would then get
+/// what is printed. Instead, writing to it fails.
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);
+}
+
 } // namespace
 
 struct Session::Implementation {
-  int argc = 1;
+  int argc = 3;
   char name[12] = "springproof";
-  char* arguments[2] = {name, nullptr};
+  // The working folder may be a stranger's: its .petscrc is not read. Signals keep their default actions.
+  char no_options_file[14] = "-skip_petscrc", no_signal_handler[19] = "-no_signal_handler";
+  char* arguments[4] = {name, no_options_file, no_signal_handler, nullptr};
   char** argv = arguments;
   dealii::Utilities::MPI::MPI_InitFinalize mpi{argc, argv,
                                                1}; // one thread a rank: cases and ranks share the cores
 };
 
 Session::Session() {
+  reserve_standard_streams();
+  PETSC_STDOUT = stderr; // standard output is the results' alone
   start_alone();
   implementation_ = std::make_unique<Implementation>();
 }

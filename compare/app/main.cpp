@@ -22,7 +22,11 @@ int run_action(const compare::Action& action, BlasWarning warning) {
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";
   try {
-    return action();
+    const int status = action();
+    std::cout.flush();
+    if (std::cout) return status;
+    session.give_up("springproof: standard output cannot be written", wrong_input);
+    return wrong_input;
   } catch (const cases::InputError& error) {
     session.give_up(error.what(), wrong_input);
     return wrong_input;
