@@ -63,9 +63,8 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
 }
 
 double largest(const std::vector<Vector3d>& field) {
-  double norm = 0;
-  for (const Vector3d& value : field) norm = std::max(norm, value.norm());
-  return norm;
+  const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
+  return vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
 }
 
 double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {

@@ -1,20 +1,21 @@
 #include "compare/peers/calculix.hpp"
 #include "compare/solve/comparison.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 namespace springproof::compare {
 
 namespace {
 
+/// Largest difference of two displacements over the largest displacement of the first; NaN if a number is.
 double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  double difference = 0, size = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n) {
-    difference = std::max(difference, (a.displacement[n] - b.displacement[n]).norm());
-    size = std::max(size, a.displacement[n].norm());
-  }
-  return difference / size;
+  using Field = Eigen::Map<const Eigen::Matrix3Xd>;
+  const Field u(a.displacement[0].data(), 3, Eigen::Index(a.displacement.size()));
+  const Field v(b.displacement[0].data(), 3, Eigen::Index(b.displacement.size()));
+  const auto largest = [](const auto& field) {
+    return field.colwise().norm().template maxCoeff<Eigen::PropagateNaN>();
+  };
+  return largest(u - v) / largest(u);
 }
 
 } // namespace

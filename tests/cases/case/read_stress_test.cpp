@@ -46,7 +46,7 @@ inverted_cells = 0
 outcome = "stable equilibrium"
 )";
 
-HardCase read_text(const std::string& text) {
+HardCase read_hard_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_hard_case(folder.write("case.toml", text));
 }
@@ -54,7 +54,7 @@ HardCase read_text(const std::string& text) {
 } // namespace
 
 TEST_CASE("a complete hard case is read to the last key") {
-  const HardCase hard = read_text(good_stress);
+  const HardCase hard = read_hard_text(good_stress);
   CHECK(hard.definition.name == "cube");
   CHECK_FALSE(hard.is_heavy);
   CHECK(hard.start == Start::perturbed);
@@ -79,8 +79,8 @@ TEST_CASE("a complete hard case is read to the last key") {
 }
 
 TEST_CASE("springs of any sign may be given to a hard case") {
-  const HardCase hard =
-      read_text(case_text::replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
+  const HardCase hard = read_hard_text(
+      case_text::replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
   CHECK(hard.stiffness == std::array<double, 3>{31, -20, 33});
 }
 

@@ -1,0 +1,51 @@
+#include "cases/case/override.hpp"
+
+#include "tests/cases/case/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace springproof;
+
+using namespace cases;
+using namespace case_text;
+
+TEST_CASE("settings of the command line replace and add values") {
+  const Case c =
+      read_text(good_case, {"load[0].value=[0, 0, 0.01]", "fem.element=q1", "fem.refine = 0",
+                            "measure[0].top=z+ x+ y-", "measure[0].bottom = \"z- x+ y-\"", "name=a b",
+                            "msm={design=\"given\", stiffness=[1,2,3]}", "expect[0].error_percent=[-1,1]"});
+  CHECK(c.loads[0].value == Eigen::Vector3d(0, 0, 0.01));
+  CHECK(c.fem.element == Element::q1);
+  CHECK(c.fem.refine == 0);
+  CHECK(c.measures[0].top.name == "z+ x+ y-");
+  CHECK(c.measures[0].bottom.name == "z- x+ y-");
+  CHECK(c.name == "a b");
+  CHECK(c.msm.design == Design::given);
+  CHECK(c.expectations[0].interval == std::array<double, 2>{-1, 1});
+  const Case single = read_text(good_case, {"load[0].value[2]=0.5"});
+  CHECK(single.loads[0].value == Eigen::Vector3d(0.002, 0, 0.5));
+}
+
+TEST_CASE("a mistake in a setting of the command line is told as such") {
+  const std::vector<std::pair<std::string, std::string>> settings{
+      {"fem.element=q9", "command line: fem.element: is \"q9\", must be \"q1\""},
+      {"fem.elment=q1", "command line: fem.elment: is not a key here"},
+      {"fem.refine=1e", "command line: fem.refine: is \"1e\", must be a whole number"},
+      {"fem.refine=2\nname='x'", "command line: fem.refine: is"},
+      {"load[1].value=[0,0,1]", "command line: load[1].value: there is no load[1], load has 1 elements"},
+      {"load[0].value=[0,0", "command line: load[0].value: is \"[0,0\", must be"},
+      {"load[x].value=1", "command line: load[x].value: is not a key"},
+      {"name.first=1", "command line: name.first: name is not a table"},
+      {"fem..refine=1", "command line: fem..refine: is not a key"},
+      {"fem.refine", "command line: fem.refine: is not KEY=VALUE"},
+      {"fem.refine=", "command line: fem.refine: has no value"},
+      {"=1", "command line: is not a key"},
+      {"material.poissons_ratio=0.5", "command line: material.poissons_ratio: is 0.5, must be"},
+      {"schema=nan", "command line: schema: is nan, must be 1"},
+  };
+  for (const auto& [setting, message] : settings) {
+    INFO(setting);
+    CHECK_THROWS_WITH(read_text(good_case, {setting}), Catch::StartsWith(message));
+  }
+}

@@ -1,0 +1,170 @@
+#include "cases/case/read_boundary.hpp"
+
+#include "tests/cases/case/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace springproof;
+
+using namespace cases;
+using namespace case_text;
+
+TEST_CASE("a region that is moved along or turned about an axis takes the place of a load") {
+  const std::string load = "[[load]]\nregion = 'z+'\nkind = 'nodal_force'\nvalue = [0.002, 0, 0.0]\n";
+  SECTION("moved along") {
+    const Case c = read_text(replaced(
+        good_case, load, "[[moved]]\nregion = 'z+'\ncomponents = ['z']\ndisplacement = [0, 0, -5]\n"));
+    CHECK(c.loads.empty());
+    REQUIRE(c.moved.size() == 1);
+    CHECK(c.moved[0].components == std::array<bool, 3>{false, false, true});
+    CHECK(c.moved[0].displacement == Eigen::Vector3d(0, 0, -5));
+    CHECK(c.moved[0].angle == 0);
+  }
+  SECTION("turned") {
+    const Case c = read_text(
+        replaced(good_case, load, "[[moved]]\nregion = 'z+'\nangle = 90\naxis = 'z'\ncentre = [5, 5, 10]\n"));
+    REQUIRE(c.moved.size() == 1);
+    CHECK(c.moved[0].angle == 90);
+    CHECK(c.moved[0].axis == Eigen::Vector3d::UnitZ());
+    CHECK(c.moved[0].centre == Eigen::Vector3d(5, 5, 10));
+  }
+}
+
+TEST_CASE("a patch around a point is read") {
+  const Case c = read_text(replaced(good_case, "region = 'z+'", "near = [5, 5, 10]\nradius = 2.5"));
+  CHECK(c.loads[0].region.near == Eigen::Vector3d(5, 5, 10));
+  CHECK(c.loads[0].region.radius == 2.5);
+}
+
+TEST_CASE("a mistake in [[fixed]] or [[symmetry]] is refused where it is made") {
+  check_mistakes({
+      {"[[fixed]]\nregion = 'z-'\n", "", 1, "fixed", {"is missing", "nothing holds the body"}},
+      {"[[fixed]]", "[fixed]", 12, "fixed", {"is a table", "one or more tables [[fixed]]"}},
+      {"[[fixed]]", "[[fixd]]", 12, "fixd", {"did you mean \"fixed\"?"}},
+      {"region = 'z-'", "region = 'w-'", 13, "fixed[0].region", {"is \"w-\"", "a face \"x-\""}},
+      {"region = 'z-'", "region = 'z- z+'", 13, "fixed[0].region", {"z- and z+ do not"}},
+      {"region = 'z-'", "region = 'z- z-'", 13, "fixed[0].region", {"faces that meet"}},
+      {"region = 'z-'", "region = 'near 1 2'", 13, "fixed[0].region", {"near x y z"}},
+      {"region = 'z-'", "region = 'near 1 2 nan'", 13, "fixed[0].region", {"near x y z"}},
+      {"region = 'z-'", "near = [1, 2]", 13, "fixed[0].near", {"three finite numbers"}},
+      {"region = 'z-'", "region = 'z-'\nnear = [1, 2, 3]", 14, "fixed[0].near", {"left out beside region"}},
+      {"region = 'z-'", "", 12, "fixed[0].region", {"is missing"}},
+      {"region = 'z-'", "region = 'z-'\ncomponents = ['x', 'x']", 14, "fixed[0].components", {"each once"}},
+      {"region = 'z-'", "region = 'z-'\ncomponents = 'x'", 14, "fixed[0].components", {"one to three of"}},
+      {"[[fixed]]\nregion = 'z-'",
+       "[[symmetry]]\nplane = 'z'",
+       13,
+       "symmetry[0].plane",
+       {"is \"z\"", "\"x-\" | \"x+\""}},
+      {"[[fixed]]\nregion = 'z-'",
+       "[[symmetry]]\nplane = 'z-'\n[[symmetry]]\nplane = 'z-'",
+       15,
+       "symmetry[1].plane",
+       {"another plane than symmetry[0]"}},
+  });
+}
+
+TEST_CASE("a mistake in [[load]] is refused where it is made") {
+  const std::string load = "region = 'z+'\nkind = 'nodal_force'\nvalue = [0.002, 0, 0.0]\n";
+  check_mistakes({
+      {"[[load]]\n" + load, "", 1, "load", {"is missing", "[[load]]"}},
+      {"kind = 'nodal_force'",
+       "kind = 'nodal_farce'",
+       16,
+       "load[0].kind",
+       {"total_force", "did you mean \"nodal_force\"?"}},
+      {"value = [0.002, 0, 0.0]",
+       "value = [0.002, '0', 0.0]",
+       17,
+       "load[0].value",
+       {"three finite numbers (N)"}},
+      {"value = [0.002, 0, 0.0]",
+       "value = [0.002, 0, -inf]",
+       17,
+       "load[0].value",
+       {"-inf", "three finite numbers (N)"}},
+      {"value = [0.002, 0, 0.0]", "value = [0, 0, 0]", 17, "load[0].value", {"other than 0"}},
+      {"value = [0.002, 0, 0.0]",
+       "vlaue = [0.002, 0, 0.0]",
+       17,
+       "load[0].vlaue",
+       {"did you mean \"value\"?"}},
+      {"value = [0.002, 0, 0.0]",
+       "value = [0.002, 0, 0.0]\naxis = 'z'",
+       18,
+       "load[0].axis",
+       {"is not a key here"}},
+      {load,
+       "region = 'z+ x+'\nkind = 'traction'\nvalue = [1, 0, 0]\n",
+       15,
+       "load[0].region",
+       {"no area", "traction"}},
+      {load, "near = [10, 10, 10]\nkind = 'traction'\nvalue = [1, 0, 0]\n", 15, "load[0].near", {"no area"}},
+      {load,
+       "region = 'z+'\nkind = 'torque'\nvalue = [1, 0, 0]\n",
+       17,
+       "load[0].value",
+       {"one finite number", "N mm"}},
+      {load,
+       "region = 'z+'\nkind = 'torque'\nvalue = 1\naxis = 'w'\n",
+       18,
+       "load[0].axis",
+       {"\"x\" | \"y\" | \"z\""}},
+      {load,
+       "region = 'z+'\nkind = 'torque'\nvalue = 1\naxis = [0,0,0]\n",
+       18,
+       "load[0].axis",
+       {"not all 0"}},
+      {load, "region = 'z+'\nkind = 'torque'\nvalue = 1\naxis = 'z'\n", 14, "load[0].centre", {"is missing"}},
+      // patches
+      {"region = 'z+'", "region = 'z+'\nradius = 1", 16, "load[0].radius", {"left out without near"}},
+      {"region = 'z+'", "near = [5, 5, 10]\nradius = 0", 16, "load[0].radius", {"a number above 0"}},
+  });
+}
+
+TEST_CASE("a mistake in [[moved]] is refused where it is made") {
+  const std::string load = "region = 'z+'\nkind = 'nodal_force'\nvalue = [0.002, 0, 0.0]\n";
+  check_mistakes({
+      {load,
+       "region = 'z+'\nkind = 'nodal_force'\nvalue = [1, 0, 0]\n[[moved]]\nregion = 'z+'\n",
+       18,
+       "moved[0].displacement",
+       {"is missing", "angle"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\ndisplacement = [1, 0]\n",
+       20,
+       "moved[0].displacement",
+       {"three finite numbers"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\ncomponents = ['z']\ndisplacement = [1, 0, 2]\n",
+       21,
+       "moved[0].displacement",
+       {"0 in the components that are not moved"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\ndisplacement = [1, 0, 0]\naxis = 'z'\n",
+       21,
+       "moved[0].axis",
+       {"left out without angle"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\ndisplacement = [1, 0, 0]\nangle = 90\n",
+       20,
+       "moved[0].displacement",
+       {"left out beside angle"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\nangle = 90\naxis = 'z'\n",
+       18,
+       "moved[0].centre",
+       {"is missing"}},
+      {load,
+       load + "[[moved]]\nregion = 'z+'\nangle = 0\naxis = 'z'\ncentre = [0, 0, 0]\n",
+       20,
+       "moved[0].angle",
+       {"other than 0"}},
+      {"[[load]]\n" + load,
+       "[[moved]]\nregion = 'z+'\ndisplacement = [0, 0, 0]\n",
+       1,
+       "load",
+       {"is missing", "[[moved]]"}},
+  });
+}

@@ -1,0 +1,168 @@
+#include "cases/case/read_models.hpp"
+
+#include "tests/cases/case/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace springproof;
+
+using namespace cases;
+using namespace case_text;
+
+TEST_CASE("a nearly incompressible material is refused for elements that lock and for the linear method") {
+  const std::string ogden = R"(schema = 1
+name = "bar"
+[body]
+shape = "box"
+size = [4, 4, 16]
+cells = [4, 4, 16]
+[material]
+model = "ogden"
+mu = [0.04]
+alpha = [5.7]
+[[fixed]]
+region = "z-"
+[[load]]
+region = "z+"
+kind = "traction"
+value = [0, 0, 0.01]
+)";
+  check_case_refused(ogden + "[fem]\nelement = \"q1\"\n", {"", "", 18, "fem.element", {"q1_p0", "locks"}});
+  check_case_refused(ogden + "[fem]\nformulation = 'log_strain'\n",
+                     {"", "", 18, "fem.formulation", {"hyperelastic"}});
+  check_case_refused(ogden + "[msm]\ndesign = 'linear_method'\n",
+                     {"", "", 18, "msm.design", {"Poisson's ratio below 0.5"}});
+  CHECK_NOTHROW(read_text(ogden + "[msm]\ndesign = 'linear_method'\npoissons_ratio = 0.35\n"));
+  CHECK_NOTHROW(read_text(ogden + "[fem]\nelement = 'q1_bbar'\n"));
+}
+
+TEST_CASE(
+    "what is left open in the finite elements needs an expectation that says how accurate they must be") {
+  const std::string text =
+      replaced(replaced(good_case, "refine = 1", "accuracy = 'auto'"), "'log_strain'", "'auto'");
+  const Case c = read_text(text);
+  CHECK(c.fem.has_auto_accuracy);
+  CHECK(c.fem.has_auto_formulation);
+  CHECK(c.fem.formulation == Formulation::log_strain);
+  CHECK(c.fem.refine == 0);
+  CHECK_THROWS_WITH(read_text(replaced(text, "error_percent", "msm")),
+                    Catch::Contains("expect") && Catch::Contains("error_percent or fem"));
+  const std::string linear = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n";
+  CHECK_THROWS_WITH(read_text(replaced(text, linear, "model = 'ogden'\nmu = [1]\nalpha = [2]\n")),
+                    Catch::Contains("fem.formulation") && Catch::Contains("hyperelastic"));
+}
+
+TEST_CASE("a mistake in [fem] is refused where it is made") {
+  const std::string fem = "formulation = 'log_strain'\nelement = 'q1_bbar'\nrefine = 1\n";
+  check_mistakes({
+      {"formulation = 'log_strain'",
+       "formulation = 'log-strain'",
+       19,
+       "fem.formulation",
+       {"did you mean \"log_strain\"?"}},
+      {"element = 'q1_bbar'", "element = 'q3'", 20, "fem.element", {"is \"q3\"", "q2_p1"}},
+      {"element = 'q1_bbar'", "elment = 'q1_bbar'", 20, "fem.elment", {"did you mean \"element\"?"}},
+      {"refine = 1", "refine = -1", 21, "fem.refine", {"is -1", "from 0 to 8"}},
+      {"refine = 1", "refine = 1.0", 21, "fem.refine", {"is 1.0", "whole number"}},
+      {"refine = 1", "refine = true", 21, "fem.refine", {"is true", "whole number"}},
+      {"refine = 1", "refine = 8", 21, "fem.refine", {"is 8", "fewer"}},
+      {fem, "formulation = 'hyperelastic'\n", 19, "fem.formulation", {"ogden"}},
+      {fem,
+       "formulation = 'saint_venant_kirchhoff'\nelement = 'q1_bbar'\n",
+       20,
+       "fem.element",
+       {"\"q1\" | \"q2\""}},
+      {fem,
+       "formulation = 'saint_venant_kirchhoff'\nelement = 'q2_p1'\n",
+       20,
+       "fem.element",
+       {"\"q1\" | \"q2\""}},
+      {"[fem]", "fem = 3\n[fim]", 18, "load[0].fem", {"is not a key here"}}, // it belongs to the load above
+                                                                             // it
+      // what is left open
+      {"formulation = 'log_strain'",
+       "formulation = 'autom'",
+       19,
+       "fem.formulation",
+       {"is \"autom\"", "did you mean \"auto\"?"}},
+      {"refine = 1", "accuracy = 'fine'", 21, "fem.accuracy", {"\"auto\""}},
+      {"refine = 1", "refine = 1\naccuracy = 'auto'", 21, "fem.refine", {"accuracy = \"auto\" finds it"}},
+  });
+}
+
+TEST_CASE("a mistake in [msm] is refused where it is made") {
+  const std::string msm = "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8\n";
+  check_mistakes({
+      {"design = 'moduli'",
+       "design = 'modulus'",
+       23,
+       "msm.design",
+       {"linear_method", "did you mean \"moduli\"?"}},
+      {"poissons_ratio = 0.3\nsplit",
+       "poissons_ratio = 0.7\nsplit",
+       24,
+       "msm.poissons_ratio",
+       {"is 0.7", "below 0.5"}},
+      {"split = 0.8", "split = 1.2", 25, "msm.split", {"is 1.2", "from 0 to 1"}},
+      {"design = 'moduli'",
+       "design = 'linear_method'",
+       25,
+       "msm.split",
+       {"left out", "\"moduli\" | \"hybrid\""}},
+      {"split = 0.8", "paths = ['uniaxial']", 25, "msm.paths", {"left out", "\"multi_load\""}},
+      {"split = 0.8",
+       "strain_range = [0, 0.1]",
+       25,
+       "msm.strain_range",
+       {"left out", "\"nonlinear_method\""}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\npaths = ['uniaxal']",
+       24,
+       "msm.paths[0]",
+       {"did you mean \"uniaxial\"?"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\npaths = ['uniaxial', 'uniaxial']",
+       24,
+       "msm.paths[1]",
+       {"not in the list yet"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\npaths = ['uniaxial']\nweights = [1, 2]",
+       25,
+       "msm.weights",
+       {"is [1, 2]", "1 numbers"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\nweights = [0, 0, 0, 0]",
+       24,
+       "msm.weights",
+       {"not all 0"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\nstrain_range = [0.2, 0.1]",
+       24,
+       "msm.strain_range",
+       {"the smaller first"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\nvolume_term = 'fited'",
+       24,
+       "msm.volume_term",
+       {"did you mean \"fitted\"?"}},
+      {"split = 0.8", "solver = 'newtn'", 25, "msm.solver", {"\"fire\"", "did you mean \"newton\"?"}},
+      {"split = 0.8", "stiffness = [1, 2, 3]", 25, "msm.stiffness", {"left out", "\"given\""}},
+      {"split = 0.8", "volume_stiffness = 0.1", 25, "msm.volume_stiffness", {"left out", "\"given\""}},
+      {msm, "design = 'given'\n", 22, "msm.stiffness", {"is missing", "k_e, k_f, k_d"}},
+      {msm, "design = 'given'\nstiffness = [1, 2]\n", 24, "msm.stiffness", {"is [1, 2]", "three numbers"}},
+      {msm, "design = 'given'\nstiffness = [1, -2, 3]\n", 24, "msm.stiffness", {"none below 0"}},
+      {msm, "design = 'given'\nstiffness = [0, 0, 0]\n", 24, "msm.stiffness", {"one is above 0"}},
+      {msm,
+       "design = 'given'\nstiffness = [1, 2, 3]\nvolume_stiffness = -1\n",
+       25,
+       "msm.volume_stiffness",
+       {"is -1"}},
+      {msm,
+       "design = 'given'\nstiffness = [1, 2, 3]\npoissons_ratio = 0.3\n",
+       25,
+       "msm.poissons_ratio",
+       {"left out"}},
+      {msm, "design = 'hybrid'\npoissons_ratio = 0.2\n", 23, "msm.design", {"0.25 and more", "0.2"}},
+  });
+}
