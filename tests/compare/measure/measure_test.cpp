@@ -111,6 +111,14 @@ TEST_CASE("field norms: a stretch along z has the root mean square of a linear f
   CHECK_FALSE(compare::measure_error_percent(l2, scene, rest, msm));
 }
 
+TEST_CASE("the norm of a field one of whose displacements is not a number is none") {
+  const cases::Scene scene = cube();
+  auto solution = moved(scene, [](const Vector3d& x) { return Vector3d(2 * x); });
+  solution.displacement[1].y() = std::numeric_limits<double>::quiet_NaN();
+  for (const MeasureKind norm : {MeasureKind::displacement_field_l2, MeasureKind::displacement_field_max})
+    CHECK(std::isnan(compare::evaluate(measure(norm), scene, solution)));
+}
+
 TEST_CASE("the relative error has no value where the reference is zero or a side is not a number") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
