@@ -37,7 +37,7 @@ struct Model::Implementation {
   int n_threads;
   Problem problem;
   std::optional<grid::GridProblem> grid;
-  std::unique_ptr<EquilibriumSystem> system;
+  std::unique_ptr<SpringSystem> system;
 
   Implementation(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                  const ModelOptions& options)
@@ -59,14 +59,14 @@ struct Model::Implementation {
     return grid ? grid::to_points(problem, grid->body, vector) : msm::to_points(problem, vector);
   }
 
-  Equilibrium solve(EquilibriumSettings settings, const Points& start) {
+  mechanics::Equilibrium solve(mechanics::EquilibriumSettings settings, const Points& start) {
     const Points rest(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
     Vector from = to_vector(start.empty() ? rest : start);
     if (grid) grid::clear_still(grid->body, from);
     if (solver != cases::Solver::newton) return relax(*system, from, solver, settings);
     if (grid && !grid->supports && start.empty() && settings.first_load_step == 1)
       settings.guess = grid::coarse_guess(*grid, n_threads);
-    return find_equilibrium(*system, from, settings);
+    return mechanics::find_equilibrium(*system, from, "mass-spring equilibrium", settings);
   }
 };
 
@@ -81,25 +81,12 @@ Path Model::path() const {
   return implementation_->path;
 }
 
-cases::Solution Model::solve(const EquilibriumSettings& settings, const Points& start) {
-  const EquilibriumSystem::Work before = implementation_->system->work();
-  const Equilibrium equilibrium = implementation_->solve(settings, start);
-  const EquilibriumSystem::Work after = implementation_->system->work();
+cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, const Points& start) {
+  const mechanics::Equilibrium equilibrium = implementation_->solve(settings, start);
   const std::vector<bool>& is_fixed = implementation_->problem.is_fixed;
-  cases::Solution solution;
-  solution.status = cases::Status::converged;
-  solution.outcome =
-      equilibrium.is_stable ? cases::Outcome::stable_equilibrium : cases::Outcome::unstable_equilibrium;
+  cases::Solution solution = mechanics::to_solution(equilibrium);
   solution.unknowns = static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), false));
-  solution.residual = equilibrium.residual;
-  solution.load_reached = equilibrium.load_reached;
-  solution.newton_iterations = equilibrium.newton_iterations;
-  solution.relaxation_iterations = equilibrium.relaxation_iterations;
-  solution.linear_iterations = after.linear_iterations - before.linear_iterations;
-  solution.factorisations = after.factorisations - before.factorisations;
-  solution.force_evaluations = after.force_evaluations - before.force_evaluations;
-  solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
-  solution.displacement = implementation_->to_points(equilibrium.displacement);
+  solution.displacement = implementation_->to_points(equilibrium.state);
   measure_cells(implementation_->problem.mesh, solution);
   return solution;
 }

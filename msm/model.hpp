@@ -2,7 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
-#include "msm/equilibrium.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/lattice.hpp"
 
 #include <memory>
@@ -35,7 +35,7 @@ class Model {
   /// Static equilibrium under the scene's loads.
   /// @param start  displacement (mm) to start from, one per node; empty: rest
   /// @throws cases::SolveError with the load reached and the outcome when the load cannot be carried
-  cases::Solution solve(const EquilibriumSettings& settings = {}, const Points& start = {});
+  cases::Solution solve(const mechanics::EquilibriumSettings& settings = {}, const Points& start = {});
 
   /// The path in use: never automatic.
   Path path() const;

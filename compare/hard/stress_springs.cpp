@@ -59,11 +59,11 @@ msm::Points start_points(const cases::HardCase& hard_case, const cases::HexMesh&
   return start;
 }
 
-msm::EquilibriumSettings settings_of(const cases::HardCase& hard_case, const Stopwatch& stopwatch) {
-  msm::EquilibriumSettings settings;
+mechanics::EquilibriumSettings settings_of(const cases::HardCase& hard_case, const Stopwatch& stopwatch) {
+  mechanics::EquilibriumSettings settings;
   settings.first_load_step = settings.largest_load_step = 1.0 / hard_case.least_load_steps;
   settings.max_newton_iterations = hard_case.max_iterations;
-  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   settings.should_stop = [&hard_case, &stopwatch] { return stopwatch.seconds() > hard_case.max_seconds; };
   return settings;
 }

@@ -67,9 +67,9 @@ Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Poin
   Stopwatch stopwatch;
   msm::Model model = make_springs(scene);
   round.setup_seconds = stopwatch.lap();
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;
-  settings.stability = msm::Stability::ignore;
+  settings.stability = mechanics::Stability::ignore;
   round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
   if (round.first_seconds)
     round.again_seconds = timed(round.again, [&] { return model.solve(settings, before); });
@@ -78,7 +78,7 @@ Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Poin
 
 /// The displacement under the smaller load, where the equilibrium has to be stable.  @throws SolveError
 msm::Points springs_before(const cases::Scene& scene, double tolerance) {
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;
   return make_springs(with_load(scene, 1 - load_change)).solve(settings).displacement;
 }

@@ -20,4 +20,14 @@ Vector like(const Vector& vector) {
   return owned;
 }
 
+void update_ghosts(Vec vector) {
+  check(VecGhostUpdateBegin(vector, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecGhostUpdateEnd(vector, INSERT_VALUES, SCATTER_FORWARD));
+}
+
+void add_ghosts(Vec vector) {
+  check(VecGhostUpdateBegin(vector, ADD_VALUES, SCATTER_REVERSE));
+  check(VecGhostUpdateEnd(vector, ADD_VALUES, SCATTER_REVERSE));
+}
+
 } // namespace springproof::mechanics::petsc

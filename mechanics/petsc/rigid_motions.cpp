@@ -4,15 +4,15 @@ namespace springproof::mechanics::petsc {
 
 void attach_rigid_motions(Mat matrix, const std::vector<Eigen::Vector3d>& points) {
   Vec coordinates = nullptr;
-  PetscScalar* values = nullptr;
   PetscInt n = 0;
   check(MatCreateVecs(matrix, &coordinates, nullptr));
   const Vector owned(coordinates);
   check(VecSetBlockSize(coordinates, 3));
   check(VecGetLocalSize(coordinates, &n));
-  check(VecGetArray(coordinates, &values));
-  for (PetscInt i = 0; i < n; ++i) values[i] = points[static_cast<std::size_t>(i / 3)][i % 3];
-  check(VecRestoreArray(coordinates, &values));
+  {
+    const WriteEntries entries(coordinates);
+    for (PetscInt i = 0; i < n; ++i) entries[i] = points[static_cast<std::size_t>(i / 3)][i % 3];
+  }
   MatNullSpace rigid = nullptr;
   check(MatNullSpaceCreateRigidBody(coordinates, &rigid));
   const NullSpace owned_space(rigid);

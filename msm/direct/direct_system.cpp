@@ -70,7 +70,9 @@ class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower>
   }
 };
 
-class DirectSystem : public EquilibriumSystem {
+using mechanics::Convexity;
+
+class DirectSystem : public SpringSystem {
  public:
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_fixed),
@@ -80,48 +82,52 @@ class DirectSystem : public EquilibriumSystem {
 
   const Vector& load() const override { return load_; }
 
-  Vector imbalance(const Vector& displacement, double load_factor) override {
+  Vector residual(const Vector& displacement, double load_factor, mechanics::Expect) override {
     ++work_.force_evaluations;
     return load_factor * load_ +
            on_free(to_vector(problem_, internal_force(problem_.lattice, positions(displacement))));
   }
 
-  double potential(const Vector& displacement, double load_factor) override {
-    return energy(problem_.lattice, positions(displacement)) - load_factor * load_.dot(displacement);
+  double energy(const Vector& displacement, double load_factor) override {
+    return msm::energy(problem_.lattice, positions(displacement)) - load_factor * load_.dot(displacement);
   }
 
-  std::optional<Vector> direction(const Vector& displacement, const Vector& imbalance, double,
+  std::optional<Vector> direction(const Vector& displacement, const Vector& residual, double, double,
                                   Convexity convexity) override {
     const TransverseTerm term =
         convexity == Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
     const double shift =
-        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
+        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement)->eigenvalue) : 0;
     if (!factorise(displacement, term, shift)) return std::nullopt;
-    const Vector step = with_supports(factorisation_.solution(imbalance.head(tangent_.n_free())));
-    if (!step.allFinite() || !(step.dot(imbalance) > 0)) return std::nullopt;
+    const Vector step = with_supports(factorisation_.solution(residual.head(tangent_.n_free())));
+    if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
     return step;
   }
 
-  bool is_stable(const Vector& displacement) override {
+  std::optional<bool> is_stable(const Vector& displacement) override {
     return factorise(displacement, TransverseTerm::exact, 0);
   }
 
   /// Lanczos on the inverse, shifted until the tangent is positive definite.
-  Mode lowest_mode(const Vector& displacement) override {
+  std::optional<Mode> lowest_mode(const Vector& displacement) override {
     double shift = 0;
     while (!factorise(displacement, TransverseTerm::exact, shift))
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
     const auto apply = [&](const Vector& v) { return factorisation_.solution(v); };
     mechanics::LargestMode mode = mechanics::largest_mode(apply, tangent_.n_free());
-    return {1 / mode.eigenvalue - shift, with_supports(mode.shape)};
+    return Mode{1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
 
-  bool is_mechanism() override {
+  /// A mechanism's lowest pivot is lost in rounding.
+  mechanics::RestState rest_state() override {
+    using mechanics::RestState;
     const Vector rest = Vector::Zero(load_.size());
     if (factorise(rest, TransverseTerm::exact, 0))
-      return !(factorisation_.smallest_pivot_ratio(diagonal_) > rounding);
+      return factorisation_.smallest_pivot_ratio(diagonal_) > rounding ? RestState::sound
+                                                                       : RestState::mechanism;
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
-    return factorise(rest, TransverseTerm::exact, rounding * diagonal_.cwiseAbs().maxCoeff());
+    const double shift = rounding * diagonal_.cwiseAbs().maxCoeff();
+    return factorise(rest, TransverseTerm::exact, shift) ? RestState::mechanism : RestState::unstable;
   }
 
   int n_inverted(const Vector& displacement) override {
@@ -148,8 +154,6 @@ class DirectSystem : public EquilibriumSystem {
     return std::sqrt(squared);
   }
 
-  Work work() const override { return work_; }
-
  private:
   static constexpr double rounding = 1e-12; ///< far above 1e-16, far below 1e-8, the least honest pivot seen
 
@@ -161,7 +165,6 @@ class DirectSystem : public EquilibriumSystem {
   TransverseTerm factorised_term_{};
   double factorised_shift_ = 0;
   bool is_definite_ = false;
-  Work work_;
 
   /// A vector of forces: 0 on supports.
   Vector on_free(Vector all) const {
@@ -200,7 +203,7 @@ class DirectSystem : public EquilibriumSystem {
 
 } // namespace
 
-std::unique_ptr<EquilibriumSystem> make_direct_system(const Problem& problem) {
+std::unique_ptr<SpringSystem> make_direct_system(const Problem& problem) {
   return std::make_unique<DirectSystem>(problem);
 }
 
@@ -210,10 +213,10 @@ namespace {
 template<class Action>
 void for_each_entry(const Problem& problem, const Action& action) {
   Eigen::Index next = 0;
-  for (const bool held : {false, true}) {
-    if (held && !problem.supports) return;
+  for (const bool constrained : {false, true}) {
+    if (constrained && !problem.supports) return;
     for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
-      if (problem.is_fixed[d] == held) action(d, next++);
+      if (problem.is_fixed[d] == constrained) action(d, next++);
   }
 }
 

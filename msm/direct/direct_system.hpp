@@ -1,16 +1,16 @@
 #pragma once
 
-#include "msm/equilibrium.hpp"
 #include "msm/problem.hpp"
+#include "msm/spring_system.hpp"
 
 #include <memory>
 
 namespace springproof::msm {
 
-/// Any lattice as Newton's method sees it: assembled sparse tangent, factorised by CHOLMOD. Vectors have one
+/// The equations of any lattice: assembled sparse tangent, factorised by CHOLMOD. Vectors have one
 /// entry per free degree of freedom, points in order and components together.
 /// @param problem  must outlive the system
-std::unique_ptr<EquilibriumSystem> make_direct_system(const Problem& problem);
+std::unique_ptr<SpringSystem> make_direct_system(const Problem& problem);
 
 /// Between vectors of a direct system and one displacement (mm) per point.
 Points to_points(const Problem& problem, const Vector& free);

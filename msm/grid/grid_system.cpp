@@ -1,6 +1,7 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/grid/conjugate_gradients.hpp"
 
 #include <Eigen/Cholesky>
@@ -34,7 +35,9 @@ void for_each_node(const Problem& problem, const Action& action) {
   }
 }
 
-class GridSystem : public EquilibriumSystem {
+using mechanics::Convexity;
+
+class GridSystem : public SpringSystem {
  public:
   GridSystem(const GridProblem& problem, int n_threads)
       : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
@@ -44,7 +47,7 @@ class GridSystem : public EquilibriumSystem {
 
   const Vector& load() const override { return problem_.load; }
 
-  Vector imbalance(const Vector& displacement, double load_factor) override {
+  Vector residual(const Vector& displacement, double load_factor, mechanics::Expect) override {
     ++work_.force_evaluations;
     Vector force = Vector::Zero(displacement.size());
     springs_.force(displacement, force);
@@ -52,40 +55,42 @@ class GridSystem : public EquilibriumSystem {
     return force;
   }
 
-  double potential(const Vector& displacement, double load_factor) override {
-    return springs_.energy(displacement) - load_factor * dot(problem_.load, displacement, n_threads_);
+  double energy(const Vector& displacement, double load_factor) override {
+    return springs_.energy(displacement) - load_factor * grid::dot(problem_.load, displacement, n_threads_);
   }
 
-  std::optional<Vector> direction(const Vector& displacement, const Vector& imbalance, double forcing,
+  std::optional<Vector> direction(const Vector& displacement, const Vector& residual, double, double forcing,
                                   Convexity convexity) override {
     const Clamp clamp = convexity == Convexity::clamped ? Clamp::yes : Clamp::no;
     const double shift =
-        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement).eigenvalue) : 0;
-    return solve(displacement, imbalance, forcing, clamp, shift);
+        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement)->eigenvalue) : 0;
+    return solve(displacement, residual, forcing, clamp, shift);
   }
 
-  bool is_stable(const Vector& displacement) override {
+  std::optional<bool> is_stable(const Vector& displacement) override {
     if (displacement.isZero(0)) return true; // a sum of squares
-    return lowest_mode(displacement).eigenvalue > 0;
+    return lowest_mode(displacement)->eigenvalue > 0;
   }
 
   /// The tangent at rest has no negative eigenvalue; that it has no zero one shows
   /// in conjugate gradients reaching every part of a random right side, and by a motion that it resists:
   /// where rounding alone resists, the answer is a huge motion, whose Rayleigh quotient tells.
-  bool is_mechanism() override {
+  mechanics::RestState rest_state() override {
+    using mechanics::RestState;
     const Vector rest = Vector::Zero(problem_.load.size());
     const auto motion = solve(rest, probe(), 1e-6, Clamp::no);
-    if (!motion) return true;
+    if (!motion) return RestState::mechanism;
     Vector image = rest;
     springs_.product(Clamp::no, rest, probe(), image);
     const double typical = probe().dot(image) / probe().squaredNorm();
     const double lowest = motion->dot(probe()) / motion->squaredNorm();
-    return !(lowest > 1e-12 * typical); // rounding leaves 1e-16, the softest honest lattice seen 1e-8
+    // Rounding leaves 1e-16, the softest lattice seen 1e-8.
+    return lowest > 1e-12 * typical ? RestState::sound : RestState::mechanism;
   }
 
   /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
   /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
-  Mode lowest_mode(const Vector& displacement) override {
+  std::optional<Mode> lowest_mode(const Vector& displacement) override {
     if (mode_at_.size() > 0 && mode_at_ == displacement) return mode_;
     linearise(displacement);
     const Eigen::Index size = problem_.load.size();
@@ -98,7 +103,7 @@ class GridSystem : public EquilibriumSystem {
       springs_.product(Clamp::no, displacement, basis[c], image[c]);
     };
     examine(0, probe()); // rich in low modes
-    double eigenvalue = dot(basis[0], image[0], n_threads_);
+    double eigenvalue = grid::dot(basis[0], image[0], n_threads_);
     std::size_t n = 2;
     for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
       Vector residual = image[0];
@@ -109,7 +114,7 @@ class GridSystem : public EquilibriumSystem {
         for (std::size_t r = 0; r < n; ++r)
           for (std::size_t c = 0; c < n; ++c)
             all(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-                dot(left[r], right[c], n_threads_);
+                grid::dot(left[r], right[c], n_threads_);
         return all;
       };
       const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
@@ -135,7 +140,7 @@ class GridSystem : public EquilibriumSystem {
       }
       if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
     }
-    mode_ = {eigenvalue, basis[0]};
+    mode_ = Mode{eigenvalue, basis[0]};
     mode_at_ = displacement;
     return mode_;
   }
@@ -185,10 +190,6 @@ class GridSystem : public EquilibriumSystem {
     return std::sqrt(squared);
   }
 
-  Work work() const override {
-    return work_;
-  }
-
  private:
   static constexpr int max_iterations = 300; ///< healthy lattices take less than 30
   static constexpr int max_mode_iterations = 100;
@@ -202,10 +203,9 @@ class GridSystem : public EquilibriumSystem {
   std::optional<SpringField<double>> loose_springs_;
   Vector linearised_at_, probe_, mode_at_;
   Mode mode_{};
-  Work work_;
 
   double norm(const Vector& v) const {
-    return std::sqrt(dot(v, v, n_threads_));
+    return std::sqrt(grid::dot(v, v, n_threads_));
   }
   void scale(Vector& v, double factor) const {
     for_each_piece(v.size(), n_threads_,
@@ -309,7 +309,7 @@ std::optional<GridProblem> make_grid_problem(const Problem& problem,
   return result;
 }
 
-std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, int n_threads) {
+std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n_threads) {
   return std::make_unique<GridSystem>(problem, n_threads);
 }
 
@@ -323,16 +323,16 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   coarse.load.setZero(3 * layout.size);
   transfer.restrict(problem.load, coarse.load);
   const auto system = make_grid_system(coarse, n_threads);
-  EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = 1e-3; // a guess
   settings.smallest_load_step = 0.25;
   settings.max_convexified_per_step = 0; // nor may it leave the path from rest
-  settings.stability = Stability::ignore;
+  settings.stability = mechanics::Stability::ignore;
   settings.guess = coarse_guess(coarse, n_threads);
   try {
-    const Vector found = find_equilibrium(*system, Vector::Zero(coarse.load.size()), settings).displacement;
+    const Vector rest = Vector::Zero(coarse.load.size());
     Vector guess = Vector::Zero(problem.load.size());
-    transfer.prolong(found, guess);
+    transfer.prolong(mechanics::find_equilibrium(*system, rest, "coarse lattice", settings).state, guess);
     return guess;
   } catch (const cases::SolveError&) {
     return std::nullopt; // the fine lattice has to find its own way

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "msm/equilibrium.hpp"
 #include "msm/grid/multigrid.hpp"
 #include "msm/problem.hpp"
+#include "msm/spring_system.hpp"
 
 #include <functional>
 #include <memory>
@@ -23,10 +23,10 @@ struct GridProblem {
 std::optional<GridProblem> make_grid_problem(const Problem& problem,
                                              const std::vector<CellStiffness>& stiffness);
 
-/// The lattice as Newton's method sees it, without a matrix: conjugate gradients with the multigrid cycle.
+/// The lattice's equations without a matrix: conjugate gradients with the multigrid cycle.
 /// Vectors are fields of the layout.
 /// @param problem  must outlive the system
-std::unique_ptr<EquilibriumSystem> make_grid_system(const GridProblem& problem, int n_threads);
+std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n_threads);
 
 /// Displacement at full load of the same body in coarser cells, interpolated: what Newton's method may start
 /// from. Nothing when the coarse body does not carry the load, or there is none.

@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
-#include "msm/line_search.hpp"
+#include "mechanics/equilibrium/line_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +14,24 @@ namespace springproof::msm {
 
 namespace {
 
+using mechanics::NonlinearProblem;
+using mechanics::Vector;
+
 /// One explicit iteration after the other, at full load.
 class Method {
  public:
+  explicit Method(NonlinearProblem& problem) : problem_(problem) {}
   virtual ~Method() = default;
-  /// Moves `at`, where the imbalance is `force`.  @return false when there is no way on
-  virtual bool step(Vector& at, const Vector& force) = 0;
+  /// Moves `at`, where the residual is `force`, and evaluates the next.  @return false when there is no way
+  /// on
+  virtual bool step(Vector& at, Vector& force) = 0;
+
+ protected:
+  NonlinearProblem& problem_;
 };
 
 /// Largest eigenvalue of the tangent (N/mm), by the power method on differences of forces.
-double largest_eigenvalue(EquilibriumSystem& system, const Vector& at, const Vector& force) {
+double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vector& force) {
   constexpr int n_iterations = 40;
   constexpr double small = 1e-6; // mm
   std::mt19937 generator(5);
@@ -33,7 +41,7 @@ double largest_eigenvalue(EquilibriumSystem& system, const Vector& at, const Vec
   double eigenvalue = 0;
   for (int n = 0; n < n_iterations; ++n) {
     // What the first image leaves out are the entries that are not free.
-    const Vector image = (force - system.imbalance(at + (small / mode.norm()) * mode, 1)) / small;
+    const Vector image = (force - problem.residual(at + (small / mode.norm()) * mode, 1)) / small;
     eigenvalue = image.norm();
     if (!(eigenvalue > 0)) return 1;
     mode = image;
@@ -43,9 +51,10 @@ double largest_eigenvalue(EquilibriumSystem& system, const Vector& at, const Vec
 
 class ForceScaling : public Method {
  public:
-  explicit ForceScaling(double eigenvalue) : alpha_(1 / eigenvalue) {}
-  bool step(Vector& at, const Vector& force) override {
+  ForceScaling(NonlinearProblem& problem, double eigenvalue) : Method(problem), alpha_(1 / eigenvalue) {}
+  bool step(Vector& at, Vector& force) override {
     at += alpha_ * force;
+    force = problem_.residual(at, 1);
     return true;
   }
 
@@ -55,10 +64,10 @@ class ForceScaling : public Method {
 
 class Fire : public Method {
  public:
-  explicit Fire(double eigenvalue)
-      : longest_(1 / std::sqrt(eigenvalue)), time_step_(0.1 * longest_) {} // all masses 1
+  Fire(NonlinearProblem& problem, double eigenvalue)
+      : Method(problem), longest_(1 / std::sqrt(eigenvalue)), time_step_(0.1 * longest_) {} // all masses 1
 
-  bool step(Vector& at, const Vector& force) override {
+  bool step(Vector& at, Vector& force) override {
     if (velocity_.size() == 0) velocity_ = Vector::Zero(at.size());
     const double power = force.dot(velocity_);
     if (power > 0) {
@@ -75,6 +84,7 @@ class Fire : public Method {
     }
     velocity_ += time_step_ * force;
     at += time_step_ * velocity_;
+    force = problem_.residual(at, 1);
     return true;
   }
 
@@ -87,15 +97,15 @@ class Fire : public Method {
 
 class Lbfgs : public Method {
  public:
-  Lbfgs(EquilibriumSystem& system, double eigenvalue) : system_(system), scale_(1 / eigenvalue) {}
+  Lbfgs(NonlinearProblem& problem, double eigenvalue) : Method(problem), scale_(1 / eigenvalue) {}
 
-  bool step(Vector& at, const Vector& force) override {
+  bool step(Vector& at, Vector& force) override {
     if (last_at_.size() > 0) remember(at - last_at_, last_force_ - force);
     last_at_ = at;
     last_force_ = force;
-    if (line_search(system_, at, direction(force), force, 1)) return true;
+    if (line_search(problem_, at, force, direction(force), 1)) return true;
     pairs_.clear(); // what was learnt here misleads: once more along the force alone
-    return line_search(system_, at, scale_ * force, force, 1);
+    return line_search(problem_, at, force, scale_ * force, 1);
   }
 
  private:
@@ -104,7 +114,6 @@ class Lbfgs : public Method {
     Vector move, change; ///< mm; of the potential's gradient, N
     double product;
   };
-  EquilibriumSystem& system_;
   double scale_; ///< mm/N
   Vector last_at_, last_force_;
   std::deque<Pair> pairs_;
@@ -133,32 +142,33 @@ class Lbfgs : public Method {
   }
 };
 
-std::unique_ptr<Method> make_method(cases::Solver method, EquilibriumSystem& system, double eigenvalue) {
+std::unique_ptr<Method> make_method(cases::Solver method, NonlinearProblem& problem, double eigenvalue) {
   switch (method) {
   case cases::Solver::force_scaling:
-    return std::make_unique<ForceScaling>(eigenvalue);
+    return std::make_unique<ForceScaling>(problem, eigenvalue);
   case cases::Solver::fire:
-    return std::make_unique<Fire>(eigenvalue);
+    return std::make_unique<Fire>(problem, eigenvalue);
   default:
-    return std::make_unique<Lbfgs>(system, eigenvalue);
+    return std::make_unique<Lbfgs>(problem, eigenvalue);
   }
 }
 
 } // namespace
 
-Equilibrium relax(EquilibriumSystem& system, const Vector& start, cases::Solver method,
-                  const EquilibriumSettings& settings) {
-  Equilibrium result;
+mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cases::Solver method,
+                             const mechanics::EquilibriumSettings& settings) {
+  const NonlinearProblem::Work before = problem.work();
+  mechanics::Equilibrium result;
   Vector at = start;
-  system.move_supports(at, 1);
-  Vector force = system.imbalance(at, 1);
-  const auto iteration = make_method(method, system, largest_eigenvalue(system, at, force));
+  problem.move_supports(at, 1);
+  Vector force = problem.residual(at, 1);
+  const auto iteration = make_method(method, problem, largest_eigenvalue(problem, at, force));
   const auto give_up = [&](const std::string& reason) {
     throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason, 0,
                             result.residual);
   };
   for (;; ++result.relaxation_iterations) {
-    result.residual = relative_imbalance(system, force, at);
+    result.residual = problem.size(force, at).relative;
     if (!std::isfinite(result.residual)) give_up("it diverges");
     if (result.residual <= settings.tolerance) break;
     if (result.relaxation_iterations == settings.max_relaxation_iterations)
@@ -166,13 +176,13 @@ Equilibrium relax(EquilibriumSystem& system, const Vector& start, cases::Solver 
               " iterations was reached");
     if (settings.should_stop && settings.should_stop()) give_up("it was stopped");
     if (!iteration->step(at, force)) give_up("no step lowers the potential");
-    force = system.imbalance(at, 1);
   }
   result.load_reached = 1;
-  result.is_stable = settings.stability == Stability::require && system.is_stable(at);
-  if (settings.lowest_eigenvalue == LowestEigenvalue::report)
-    result.lowest_eigenvalue = system.lowest_mode(at).eigenvalue;
-  result.displacement = std::move(at);
+  if (settings.stability != mechanics::Stability::ignore) result.is_stable = problem.is_stable(at);
+  if (settings.lowest_eigenvalue == mechanics::LowestEigenvalue::report)
+    result.lowest_eigenvalue = problem.lowest_mode(at)->eigenvalue;
+  result.state = std::move(at);
+  result.work = problem.work() - before;
   return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
-#include "msm/equilibrium.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 namespace springproof::msm {
 
@@ -13,7 +13,7 @@ namespace springproof::msm {
 ///  - lbfgs: ten pairs, two-loop recursion (Nocedal 1980), Armijo's rule
 /// @param settings  tolerance, max_relaxation_iterations, should_stop, lowest_eigenvalue and stability count
 /// @throws cases::SolveError with the residual when the iterations are used up, or they lead nowhere
-Equilibrium relax(EquilibriumSystem& system, const Vector& start, cases::Solver method,
-                  const EquilibriumSettings& settings = {});
+mechanics::Equilibrium relax(mechanics::NonlinearProblem& problem, const mechanics::Vector& start,
+                             cases::Solver method, const mechanics::EquilibriumSettings& settings = {});
 
 } // namespace springproof::msm

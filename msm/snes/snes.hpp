@@ -2,7 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
-#include "msm/equilibrium.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/lattice.hpp"
 
 #include <mpi.h>
@@ -18,7 +18,7 @@ namespace springproof::msm {
 /// @param start      displacement (mm) to start from, one per node; empty: rest
 /// @throws cases::SolveError with the load reached when the load cannot be carried
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                              MPI_Comm communicator, const EquilibriumSettings& settings = {},
+                              MPI_Comm communicator, const mechanics::EquilibriumSettings& settings = {},
                               const Points& start = {});
 
 } // namespace springproof::msm

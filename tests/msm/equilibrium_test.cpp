@@ -1,4 +1,4 @@
-#include "msm/equilibrium.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include "cases/case/error.hpp"
 #include "msm/direct/direct_system.hpp"
@@ -51,12 +51,12 @@ TEST_CASE("one cell pulled along z takes the shape of thesis eqs 5.3 and 5.4", "
                   {bodies::region("y-"), {false, true, false}},
                   {bodies::region("z-"), {false, false, true}}};
     const Problem problem = make_problem(cell, k);
-    msm::EquilibriumSettings settings;
+    mechanics::EquilibriumSettings settings;
     settings.tolerance = 1e-12;
     const auto system = msm::make_direct_system(problem);
     const msm::Vector rest = msm::Vector::Zero(system->load().size());
     const Eigen::Vector3d corner =
-        msm::to_points(problem, find_equilibrium(*system, rest, settings).displacement).back();
+        msm::to_points(problem, mechanics::find_equilibrium(*system, rest, "springs", settings).state).back();
     CHECK(1 + corner.x() == Approx(width).epsilon(1e-10)); // as asked; residual 1e-12
     CHECK(1 + corner.y() == Approx(width).epsilon(1e-10));
     CHECK(1 + corner.z() == Approx(height).epsilon(1e-10));

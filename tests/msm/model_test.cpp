@@ -114,8 +114,8 @@ TEST_CASE(
   REQUIRE(error.outcome() == cases::Outcome::limit_point);
   const double limit = full * error.load_reached();
   CHECK(error.residual() <= 1e-9);
-  msm::EquilibriumSettings settings;
-  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  mechanics::EquilibriumSettings settings;
+  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   const auto lowest = [&](double load) {
     const cases::Solution found =
         msm::Model(box_scene({4, 4, 4}, bodies::shear(load)), {soft}).solve(settings);
@@ -131,8 +131,8 @@ TEST_CASE(
 
 TEST_CASE("a straight bar pressed past its buckling load is found bent, and stable") {
   const cases::Scene scene = box_scene({2, 2, 24}, {bodies::nodal_force("z+", {0, 0, -0.0004})});
-  msm::EquilibriumSettings settings;
-  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  mechanics::EquilibriumSettings settings;
+  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   const cases::Solution found = msm::Model(scene, {thesis_cell}).solve(settings);
   CHECK(found.outcome == cases::Outcome::stable_equilibrium);
   CHECK(found.lowest_eigenvalue.value() > 0);

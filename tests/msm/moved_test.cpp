@@ -69,7 +69,7 @@ TEST_CASE("a body pressed by its top takes the shape that the load of the same h
   loaded.fixed = {{bodies::region("x-"), {true, false, false}},
                   {bodies::region("y-"), {false, true, false}},
                   {bodies::region("z-"), {false, false, true}}};
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = 1e-12;
   const cases::Solution by_load = Model(cases::make_scene(loaded), {bodies::hybrid_cell}).solve(settings);
   cases::Case moved = loaded;
@@ -82,9 +82,9 @@ TEST_CASE("a body pressed by its top takes the shape that the load of the same h
 
 TEST_CASE("the multigrid path and the direct path carry a moved top to the same equilibrium",
           "[verification]") {
-  msm::EquilibriumSettings tight;
+  mechanics::EquilibriumSettings tight;
   tight.tolerance = 1e-11; // so that what differs is not the residual
-  tight.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  tight.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   const std::vector<cases::Moved> motions = {shifted("z+", {0.5, 0, -1}),
                                              turned("z+", 60, Vector3d::UnitZ(), {3, 3, 6})};
   for (const cases::Moved& motion : motions)
@@ -121,7 +121,7 @@ TEST_CASE("a node that one region holds and another moves is refused") {
 
 TEST_CASE("a solve that is told to stop ends at once, with the load it has reached") {
   const cases::Scene scene = moved_scene({3, 3, 3}, {shifted("z+", {0, 0, -0.5})});
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.largest_load_step = settings.first_load_step = 0.25;
   int asked = 0;
   settings.should_stop = [&] { return ++asked > 5; };

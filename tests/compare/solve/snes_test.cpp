@@ -14,8 +14,8 @@ using namespace springproof;
 
 namespace {
 
-msm::EquilibriumSettings tight() {
-  msm::EquilibriumSettings settings;
+mechanics::EquilibriumSettings tight() {
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = 1e-11; // so that what is compared is the answers, not where the solvers stop
   return settings;
 }
@@ -55,7 +55,7 @@ TEST_CASE("SNES refuses a load beyond the limit point that the fast path finds",
   // large shear load on each node; on fewer cells than the thesis's.
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({6, 6, 6}, bodies::shear(0.01)));
   const msm::CellStiffness soft = bodies::cell(23.3, 6.5, 22.7);
-  msm::EquilibriumSettings coarse;
+  mechanics::EquilibriumSettings coarse;
   coarse.smallest_load_step = 2e-3; // every halving of it costs as many factorisations again
   const auto limit = [](const auto& solve) {
     try {

@@ -13,10 +13,10 @@ using msm::Path;
 
 namespace {
 
-msm::EquilibriumSettings tight() {
-  msm::EquilibriumSettings settings;
+mechanics::EquilibriumSettings tight() {
+  mechanics::EquilibriumSettings settings;
   settings.tolerance = 1e-11; // so that what differs is not the residual
-  settings.lowest_eigenvalue = msm::LowestEigenvalue::report;
+  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   return settings;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("the multigrid path and the direct path find the same equilibrium", "[
 TEST_CASE("an equilibrium does not depend on the number of threads") {
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({14, 30, 40}, bodies::tensile(0.02)));
   const auto solve = [&](int n_threads) {
-    msm::EquilibriumSettings settings;
+    mechanics::EquilibriumSettings settings;
     settings.tolerance = 1e-5; // all that differs is rounding, wherever Newton stops
     return Model(scene, {bodies::cell(31, 47, 33)}, {Path::multigrid, n_threads}).solve(settings);
   };
@@ -116,15 +116,15 @@ TEST_CASE("a displacement that is no body's spoils nothing that comes after it")
   const msm::grid::GridProblem grid = *msm::grid::make_grid_problem(problem, springs);
   const auto system = msm::grid::make_grid_system(grid, 1);
   const msm::Vector rest = msm::Vector::Zero(grid.load.size());
-  const auto before = system->direction(rest, grid.load, 1e-6, msm::Convexity::exact);
+  const auto before = system->direction(rest, grid.load, 1, 1e-6, mechanics::Convexity::exact);
   REQUIRE(before);
   msm::Points collapsed; // every point in one place
   for (const Eigen::Vector3d& node : scene.mesh.nodes) collapsed.push_back(-node);
   const msm::Vector nonsense = msm::grid::to_field(problem, grid.body, collapsed);
   for (const double size : {1.0, 1e30}) { // beyond single precision
     const msm::Vector there = size * nonsense;
-    system->direction(there, grid.load, 1e-6, msm::Convexity::clamped);
-    const auto after = system->direction(rest, grid.load, 1e-6, msm::Convexity::exact);
+    system->direction(there, grid.load, 1, 1e-6, mechanics::Convexity::clamped);
+    const auto after = system->direction(rest, grid.load, 1, 1e-6, mechanics::Convexity::exact);
     REQUIRE(after);
     CHECK((*after - *before).norm() <
           1e-4 * before->norm()); // 1e-6 of the forces, and how soft the softest is

@@ -17,7 +17,7 @@ const std::vector<cases::Solver> relaxations = {cases::Solver::force_scaling, ca
                                                 cases::Solver::lbfgs};
 
 cases::Solution solve(cases::Case definition, cases::Solver solver, const msm::CellStiffness& stiffness,
-                      const msm::EquilibriumSettings& settings = {}) {
+                      const mechanics::EquilibriumSettings& settings = {}) {
   definition.msm.solver = solver;
   return msm::Model(cases::make_scene(definition), {stiffness}).solve(settings);
 }
@@ -56,7 +56,7 @@ TEST_CASE("an explicit relaxation on a body whose top is moved ends where Newton
 
 TEST_CASE("an explicit relaxation that uses up its iterations says so, with the residual it has") {
   const cases::Case pulled = bodies::clamped_box({3, 3, 3}, bodies::tensile(0.05));
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   settings.max_relaxation_iterations = 5;
   for (const cases::Solver solver : relaxations) {
     INFO(cases::name_of(solver));
@@ -72,7 +72,7 @@ TEST_CASE("an explicit relaxation that uses up its iterations says so, with the 
 }
 
 TEST_CASE("an explicit relaxation can be stopped") {
-  msm::EquilibriumSettings settings;
+  mechanics::EquilibriumSettings settings;
   int asked = 0;
   settings.should_stop = [&] { return ++asked == 4; };
   CHECK_THROWS_AS(solve(bodies::clamped_box({3, 3, 3}, bodies::tensile(0.05)), cases::Solver::fire,

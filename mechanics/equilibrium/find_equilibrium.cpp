@@ -1,0 +1,209 @@
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+#include "cases/case/error.hpp"
+#include "mechanics/equilibrium/newton.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace springproof::mechanics {
+
+namespace {
+
+class PathFollower {
+ public:
+  PathFollower(NonlinearProblem& problem, const std::string& name, const EquilibriumSettings& settings)
+      : problem_(problem), name_(name), settings_(settings), newton_(problem, settings) {}
+
+  Equilibrium follow(const Vector& start) {
+    const NonlinearProblem::Work before = problem_.work();
+    try {
+      go(start);
+    } catch (const Newton::Stopped& stopped) {
+      give_up(stopped.reason);
+    }
+    return finish(before);
+  }
+
+ private:
+  static constexpr double small_step = 1.0 / 32;
+  static constexpr int guess_factor = 10; ///< on iterations from a start that is no equilibrium
+
+  NonlinearProblem& problem_;
+  const std::string& name_;
+  const EquilibriumSettings& settings_;
+  Newton newton_;
+  Equilibrium result_;
+  double reached_ = 0;       ///< of the way
+  Vector now_, previous_;    ///< the last two equilibria on the path
+  double previous_step_ = 0; ///< between them; 0: there is one alone
+  int inverted_ = 0;         ///< cells, now
+
+  double load(double way) const { return settings_.from + way * (settings_.to - settings_.from); }
+
+  void go(const Vector& start) {
+    now_ = previous_ = start;
+    problem_.move_supports(now_, load(0));
+    inverted_ = problem_.n_inverted(now_);
+    double step = settings_.first_load_step;
+    if (settings_.from == 0) {
+      const bool is_rest = problem_.dot(start, start) == 0;
+      if (is_rest && settings_.stability == Stability::require) check_rest();
+      if (!is_rest && attempt(now_, std::min(1.0, step), Convexity::clamped, guess_factor))
+        step = settings_.largest_load_step;
+    }
+    if (step == 1 && settings_.guess && !problem_.moves_supports())
+      attempt(*settings_.guess, 1, Convexity::exact);
+    for (int n = 0; reached_ < 1; ++n) {
+      if (n == settings_.max_load_steps) give_up("the limit on load steps was reached");
+      if (step < settings_.smallest_load_step) give_up_path();
+      // A remainder too small for a step of its own is taken along.
+      const double target = 1 - reached_ - step < settings_.smallest_load_step ? 1 : reached_ + step;
+      const int iterations_before = newton_.iterations();
+      // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
+      // step would leave the path.
+      const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
+      if (!attempt(predicted(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
+        step /= 2;
+      else if (newton_.iterations() - iterations_before <= settings_.easy_newton_per_step)
+        step = std::min(2 * step, settings_.largest_load_step);
+    }
+  }
+
+  Vector extrapolated(double target) const {
+    if (!(previous_step_ > 0)) return now_;
+    return now_ + ((target - reached_) / previous_step_) * (now_ - previous_);
+  }
+
+  /// What a load step starts from. Supports that move take the body along as far as the tangent knows: moved
+  /// alone, they would turn the cells next to them inside out.
+  Vector predicted(double target) {
+    Vector trial = extrapolated(target);
+    if (!problem_.moves_supports()) return trial;
+    const double at_load = load(target);
+    Vector there = trial;
+    problem_.move_supports(there, at_load);
+    const Vector gap = there - trial;
+    const double largest = gap.cwiseAbs().maxCoeff();
+    if (!(largest > 0)) return there;
+    constexpr double small = 1e-7; // mm: differences of forces then keep half of their digits
+    const Vector pull = (largest / small) * (problem_.residual(trial + (small / largest) * gap, at_load) -
+                                             problem_.residual(trial, at_load));
+    if (const auto step = problem_.direction(trial, pull, at_load, 1e-3, Convexity::exact)) there += *step;
+    return there;
+  }
+
+  /// One load step. On success the path goes on from its end.
+  bool attempt(Vector trial, double target, Convexity fallback, int iteration_factor = 1) {
+    const int left_convexity = result_.escapes + newton_.convexified_steps();
+    if (!newton_.solve(trial, load(target), fallback, iteration_factor)) return false;
+    if (settings_.stability == Stability::require && !settle(trial, load(target))) return false;
+    const double residual = newton_.residual();
+    const int inverted = problem_.n_inverted(trial);
+    const bool may_have_jumped = result_.escapes + newton_.convexified_steps() > left_convexity;
+    if (inverted > inverted_ && may_have_jumped) return false;
+    previous_ = std::exchange(now_, std::move(trial));
+    previous_step_ = target - reached_;
+    inverted_ = inverted;
+    reached_ = target;
+    result_.residual = residual;
+    ++result_.load_steps;
+    return true;
+  }
+
+  /// Without load the body must resist every motion.
+  void check_rest() {
+    const RestState rest = problem_.rest_state();
+    if (rest == RestState::mechanism)
+      give_up("some motion of the lattice at rest meets no stiffness", cases::Outcome::mechanism);
+    if (rest == RestState::unstable)
+      give_up("the lattice is unstable at rest, because of springs of negative stiffness",
+              cases::Outcome::unstable_equilibrium);
+  }
+
+  /// Leaves an unstable equilibrium for a stable one: a push along the lowest mode, whichever way its first
+  /// large entry says, as far as the energy falls, and Newton from there.
+  bool settle(Vector& at, double load_factor) {
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      result_.is_stable = problem_.is_stable(at);
+      if (result_.is_stable.value_or(true)) return true;
+      const auto mode = problem_.lowest_mode(at);
+      if (!mode) return false;
+      result_.is_stable = true;
+      if (!(mode->eigenvalue < 0)) return true;
+      ++result_.escapes;
+      const double unit = 1 / mode->shape.cwiseAbs().maxCoeff(); // to 1 mm at most
+      double lowest = problem_.energy(at, load_factor);
+      Vector best;
+      for (double size = 1e-3; size <= 10; size *= 2) {
+        Vector trial = at + (size * unit) * mode->shape;
+        const double energy = problem_.energy(trial, load_factor);
+        if (!(energy < lowest)) break;
+        lowest = energy;
+        best = std::move(trial);
+      }
+      if (best.size() == 0 || !newton_.solve(best, load_factor, Convexity::shifted)) return false;
+      at = std::move(best);
+    }
+    result_.is_stable = problem_.is_stable(at);
+    return result_.is_stable.value_or(true);
+  }
+
+  Equilibrium finish(const NonlinearProblem::Work& before) {
+    if (settings_.stability == Stability::report) result_.is_stable = problem_.is_stable(now_);
+    result_.lowest_eigenvalue = lowest_eigenvalue();
+    result_.newton_iterations = newton_.iterations();
+    result_.convexified_steps = newton_.convexified_steps();
+    result_.load_reached = load(reached_);
+    result_.state = std::move(now_);
+    result_.work = problem_.work() - before;
+    return result_;
+  }
+
+  std::optional<double> lowest_eigenvalue() {
+    if (settings_.lowest_eigenvalue == LowestEigenvalue::skip) return std::nullopt;
+    const auto mode = problem_.lowest_mode(now_);
+    return mode ? std::optional(mode->eigenvalue) : std::nullopt;
+  }
+
+  /// Where every equilibrium was stable, the path ends at a limit point; otherwise that is not known.
+  [[noreturn]] void give_up_path() {
+    const std::string reason = "no equilibrium was found beyond this load";
+    if (settings_.stability == Stability::require) give_up(reason, cases::Outcome::limit_point);
+    give_up(reason + ": " + newton_.failure());
+  }
+
+  [[noreturn]] void give_up(const std::string& reason, cases::Outcome outcome = cases::Outcome::unknown) {
+    const double load_factor = load(reached_);
+    const double residual = problem_.size(problem_.residual(now_, load_factor), now_).relative;
+    throw cases::SolveError(name_ + ": " + reason, load_factor, residual, outcome,
+                            {newton_.iterations(), lowest_eigenvalue(), inverted_});
+  }
+};
+
+} // namespace
+
+Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, const std::string& name,
+                             const EquilibriumSettings& settings) {
+  return PathFollower(problem, name, settings).follow(start);
+}
+
+cases::Solution to_solution(const Equilibrium& equilibrium) {
+  cases::Solution solution;
+  solution.status = cases::Status::converged;
+  if (equilibrium.is_stable)
+    solution.outcome =
+        *equilibrium.is_stable ? cases::Outcome::stable_equilibrium : cases::Outcome::unstable_equilibrium;
+  solution.residual = equilibrium.residual;
+  solution.load_reached = equilibrium.load_reached;
+  solution.newton_iterations = equilibrium.newton_iterations;
+  solution.relaxation_iterations = equilibrium.relaxation_iterations;
+  solution.linear_iterations = equilibrium.work.linear_iterations;
+  solution.force_evaluations = equilibrium.work.force_evaluations;
+  solution.factorisations = equilibrium.work.factorisations;
+  solution.lowest_eigenvalue = equilibrium.lowest_eigenvalue;
+  return solution;
+}
+
+} // namespace springproof::mechanics

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "cases/case/solution.hpp"
+#include "mechanics/equilibrium/nonlinear_problem.hpp"
+
+#include <functional>
+
+namespace springproof::mechanics {
+
+enum class LowestEigenvalue { skip, report };
+enum class Stability {
+  require, ///< of every equilibrium on the path
+  report,  ///< of the last one
+  ignore   ///< for a guess, or where it is known
+};
+
+/// What a path is asked for, and its limits. A path goes from a state of equilibrium at one load factor to
+/// another; load steps are fractions of that way.
+struct EquilibriumSettings {
+  double tolerance = 1e-9; ///< on |residual on free degrees of freedom| / |applied load|
+  double from = 0, to = 1; ///< load factors
+  double first_load_step = 1;
+  double largest_load_step = 1;
+  double smallest_load_step = 1e-4;
+  int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
+  int easy_newton_per_step = 8;      ///< a load step that took no more is followed by one of twice the length
+  int max_convexified_per_step = 12; ///< of these; what has not converged by then will not
+  int max_load_steps = 400;
+  int max_newton_iterations = 4000;         ///< in all
+  long max_relaxation_iterations = 1000000; ///< of an explicit relaxation
+  std::function<bool()> should_stop = {};   ///< asked before every iteration; empty: never
+  LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
+  Stability stability = Stability::require;
+  std::optional<Vector> guess = {}; ///< state at full load to try first
+};
+
+struct Equilibrium {
+  Vector state;
+  double residual = 0;     ///< relative
+  double load_reached = 0; ///< load factor
+  int load_steps = 0;      ///< those that succeeded
+  int newton_iterations = 0;
+  long relaxation_iterations = 0;
+  int convexified_steps = 0;               ///< Newton steps for which the exact tangent would not do
+  int escapes = 0;                         ///< from unstable equilibria met on the way
+  std::optional<bool> is_stable;           ///< when required or reported, and known
+  std::optional<double> lowest_eigenvalue; ///< N/mm
+  NonlinearProblem::Work work;             ///< of finding it
+};
+
+/// Static equilibrium at the end of a path of equilibria: Newton's method with load steps that adapt, each
+/// starting from the last increment extrapolated. The tangent is clamped only where the exact one is not
+/// positive definite. An unstable equilibrium met on the way (a bifurcation) is left along its lowest mode,
+/// where stability is required. The path has to stay connected: a step that left the exact tangent and turned
+/// cells inside out is halved rather than taken.
+/// @param start  state in equilibrium at settings.from; from load factor 0, where rest is in equilibrium, any
+///               other one is a guess
+/// @param name   of the method, for messages
+/// @throws cases::SolveError with the load reached and the outcome (limit point, mechanism, ...)
+Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, const std::string& name,
+                             const EquilibriumSettings& settings = {});
+
+/// A model's answer, but for displacements and what follows from them.
+cases::Solution to_solution(const Equilibrium& equilibrium);
+
+} // namespace springproof::mechanics

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace springproof::mechanics {
+
+using Vector = Eigen::VectorXd;
+
+/// Which symmetric matrix Newton's direction comes from.
+enum class Convexity {
+  exact,   ///< the tangent itself
+  clamped, ///< without the springs' negative transverse terms: positive semidefinite, keeps every symmetry
+  shifted  ///< the tangent plus twice its lowest eigenvalue on the diagonal: long steps along that mode
+};
+
+/// What a line search goes by.
+enum class Merit {
+  energy, ///< it has to fall (Armijo)
+  work,   ///< of the residual on the step: its size has to fall, or its sign to stay
+  none    ///< any state with a finite residual: saddle points, linear problems
+};
+
+/// What will probably be asked of a state after its residual: a problem that assembles both together saves
+/// an assembly.
+enum class Expect { residual, direction };
+
+enum class RestState { sound, mechanism, unstable };
+
+/// Nonlinear equations r(u, load factor) = 0 of a supported and loaded body. Any path parameter may be the
+/// load factor; any terms (inertia too) may be in r, as long as direction() knows their tangent. Vectors are
+/// in whatever order the problem keeps them; with several ranks each has its own part. Of residuals and
+/// directions the entries of constrained degrees of freedom are 0; of states they are where the supports are.
+class NonlinearProblem {
+ public:
+  virtual ~NonlinearProblem() = default;
+
+  /// Minus the gradient of the energy, where there is one: N.
+  /// @return not finite for a state that is not admissible (a cell turned inside out)
+  virtual Vector residual(const Vector& at, double load_factor, Expect expect = Expect::residual) = 0;
+
+  struct Size {
+    double relative;              ///< |residual| over the norm of what acts on the body: loads or reactions
+    bool constraints_hold = true; ///< whatever else has to hold of an equilibrium
+  };
+  /// @param residual  the last that was evaluated, at this state
+  virtual Size size(const Vector& residual, const Vector& at) = 0;
+
+  /// Newton's direction: solves tangent * step = residual.
+  /// @param residual  the last that was evaluated, at this state
+  /// @param forcing   allowed |residual - tangent step| / |residual|; a direct solver does better
+  /// @return nothing when the solver fails, or an energy would not fall along the step
+  virtual std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
+                                          double forcing, Convexity convexity) = 0;
+
+  /// For the next line search.
+  virtual Merit merit() const = 0;
+  /// Energy less the work of the dead loads, N mm; asked of problems whose merit it is.
+  virtual double energy(const Vector& /*at*/, double /*load_factor*/) { return 0; }
+
+  struct Solved {
+    bool converged;
+    int newton_iterations;
+    double residual; ///< relative
+  };
+  /// A problem's own solver in place of Newton's method here.
+  /// @param at  where to start; on success the solution
+  virtual std::optional<Solved> solve_at(Vector& /*at*/, double /*load_factor*/) { return std::nullopt; }
+
+  /// Whether the exact tangent is positive definite; nothing when that is not known.
+  virtual std::optional<bool> is_stable(const Vector& at) = 0;
+  /// What the tangent at rest says of the body; mechanism: some motion meets (almost) no stiffness.
+  virtual RestState rest_state() { return RestState::sound; }
+  struct Mode {
+    double eigenvalue; ///< N/mm
+    Vector shape;      ///< of length 1
+  };
+  /// The lowest eigenvalue of the exact tangent on the free degrees of freedom, and its eigenvector, to about
+  /// three digits.
+  virtual std::optional<Mode> lowest_mode(const Vector& /*at*/) { return std::nullopt; }
+  /// Cells with a corner Jacobian <= 0.
+  virtual int n_inverted(const Vector& /*at*/) { return 0; }
+
+  /// Whether the path has to move supports with the load factor; not where residual and direction do.
+  virtual bool moves_supports() const { return false; }
+  virtual void move_supports(Vector& /*at*/, double /*load_factor*/) const {}
+
+  /// Over all ranks.
+  virtual double dot(const Vector& left, const Vector& right) const { return left.dot(right); }
+  virtual bool any_rank(bool here) const { return here; }
+
+  struct Work {
+    long linear_iterations = 0; ///< of the iterative linear solver
+    long factorisations = 0;    ///< of the tangent
+    long force_evaluations = 0; ///< with or without their tangent
+    Work operator-(const Work& before) const {
+      return {linear_iterations - before.linear_iterations, factorisations - before.factorisations,
+              force_evaluations - before.force_evaluations};
+    }
+  };
+  /// Since the problem was made; what a kind of problem does not count is 0.
+  virtual Work work() const { return {}; }
+};
+
+} // namespace springproof::mechanics

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "mechanics/petsc/handles.hpp"
+#include "msm/problem.hpp"
+#include "msm/spring_system.hpp"
+
+namespace springproof::msm {
+
+/// A rank's part of the lattice: its points, and the springs and cells whose first point is among them.
+/// Points of others that these touch are ghosts at the end of the rank's own.
+class Part {
+ public:
+  Part(const Problem& problem, MPI_Comm communicator);
+
+  mechanics::petsc::Vector make_vector() const;
+  mechanics::petsc::Matrix make_matrix() const;
+
+  /// Owned entries of a vector from values of all points.
+  void put(Vec vector, const Points& values) const;
+  /// Values of all points, on every rank.
+  Points gather(Vec vector) const;
+  /// Between PETSc's vectors and the driver's: owned entries.
+  void put(Vec vector, const Vector& own) const;
+  Vector own(Vec vector) const;
+
+  /// Minus the forces on the points at a displacement, N; of constrained degrees of freedom how far they are
+  /// from where they should be, mm. SNES' function: it has the tangent as its derivative.
+  void residual(Vec displacement, double load_factor, Vec out) const;
+  void tangent(Vec displacement, Mat matrix) const;
+  /// Sets the constrained degrees of freedom.
+  void move_supports(Vec displacement, double load_factor) const;
+
+  /// What residuals are measured against: the norm of the applied forces, N; 1 when there are none.
+  double reference_force() const;
+
+ private:
+  const Problem& problem_;
+  MPI_Comm communicator_;
+  PetscInt first_ = 0, n_own_ = 0;
+  std::vector<PetscInt> ghosts_;      ///< ascending
+  std::vector<PetscInt> constrained_; ///< owned degrees of freedom
+  Lattice lattice_;                   ///< in local numbers
+  mechanics::petsc::Vector moved_, force_, applied_;
+
+  bool owns(int point) const { return point >= first_ && point < first_ + n_own_; }
+  PetscInt global(std::size_t local) const;
+  int local(int point) const;
+  void deal_out();
+  void count_neighbours(std::vector<PetscInt>& on_diagonal, std::vector<PetscInt>& elsewhere) const;
+  Points local_positions(Vec displacement) const;
+  /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.
+  template<class Action>
+  void for_each_constrained(double load_factor, const Action& action) const;
+};
+
+} // namespace springproof::msm
