@@ -1,11 +1,12 @@
-"""Runs every springproof command of a page's ```sh blocks.
+"""Runs every springproof command of a page's ```sh and ```yaml blocks.
 
 run_commands.py PROGRAM SOURCE PAGE FOLDER
 
 Commands are what a reader types in the project's folder: lines that begin with springproof, build/springproof or mpirun. They
 are run in FOLDER, where cases and build/springproof are what they are in the project and nothing else is. Each must end with
 status 0, or with N where a comment behind it says "exits N". One that takes too long has a comment that begins with "not run by
-the tests"; it is shown, so that nobody takes it for tested. Other lines (./do, ctest, awk) are shown as such too.
+the tests"; it is shown, so that nobody takes it for tested. Other lines (./do, ctest, awk) are shown as such too. CTest counts a page
+without commands as skipped.
 """
 
 import pathlib
@@ -17,10 +18,10 @@ import time
 
 
 def commands(page):
-    """The lines of the page's sh blocks, continued ones joined."""
-    for block in re.findall(r"^ *```sh\n(.*?)^ *```", page.read_text(), re.DOTALL | re.MULTILINE):
+    """The lines of the page's sh blocks, continued ones joined, and of its yaml blocks (a workflow's `- run: COMMAND`)."""
+    for block in re.findall(r"^ *```(?:sh|yaml)\n(.*?)^ *```", page.read_text(), re.DOTALL | re.MULTILINE):
         for line in block.replace("\\\n", " ").splitlines():
-            line = line.strip()
+            line = line.strip().removeprefix("- run: ")
             if line and not line.startswith("#"):
                 yield line
 
@@ -55,7 +56,7 @@ def main():
         if done.returncode != expected:
             failures += 1
             print(f"  FAILED, must be {expected}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    print(f"{page.name}: {n_run} commands run, {failures} failed")
+    print(f"{page.name}: {n_run} commands run, {failures} failed" if n_run else f"{page.name} has no commands: nothing was compared")
     return 1 if failures else 0
 
 

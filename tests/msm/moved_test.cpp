@@ -106,6 +106,7 @@ TEST_CASE("what is moved arrives, whether the body turns by a quarter turn or is
   definition.moved = motion;
   const cases::Scene scene = cases::make_scene(definition);
   const cases::Solution found = Model(scene, {thesis_cell}).solve();
+  REQUIRE(scene.moved[0].selection.nodes.size() == 25);
   for (const int n : scene.moved[0].selection.nodes) {
     const auto node = static_cast<std::size_t>(n);
     const Vector3d rest = scene.mesh.nodes[node];

@@ -2,14 +2,13 @@
 
 usage: gate_command_test.py SPRINGPROOF SOURCE_FOLDER
 
-Exit states, JUnit, annotations, blessing, kill -9 in the midst of --out, two MPI ranks, and the commands of
-docs/gates.md. Only Python's standard library and xmllint are used.
+Exit states, JUnit, annotations, blessing, kill -9 in the midst of --out, and two MPI ranks. Only Python's standard library and
+xmllint are used.
 """
 
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -25,7 +24,7 @@ EXACT, CUBE = CASES / "gates/uniaxial_exact.toml", CASES / "gates/sheared_cube.t
 def springproof(*words, launcher=(), **options):
     """Runs the program; its words may be paths and numbers."""
     command = [*launcher, PROGRAM, *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=280, **options)
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, **options)
 
 
 def test_exit_states(folder):
@@ -71,10 +70,10 @@ def test_converged(folder):
     case = CASES / "gates/sheared_block.toml"
     coarse = ["--set", "fem.refine=0", "--set", "expect[1].error_percent=[-9,1]", "--set", "expect[2].error_percent=[-4,-3.9]"]
     gates = json.loads(springproof("gate", case, *coarse, "--json").stdout)["gates"]
-    assert all(gate["reference_uncertainty"] > 0 for gate in gates), gates
+    assert gates and all(gate["reference_uncertainty"] > 0 for gate in gates), gates
     assert "narrower" in gates[2]["warning"] and not gates[2]["met"], gates[2]
     plain = json.loads(springproof("gate", CUBE, "--json").stdout)["gates"]
-    assert all(gate["reference_uncertainty"] is None for gate in plain)
+    assert plain and all(gate["reference_uncertainty"] is None for gate in plain)
 
 
 def test_blessing(folder):
@@ -176,7 +175,7 @@ def test_two_ranks(folder):
         both = springproof(command, EXACT, CUBE, "--out", folder / command, launcher=launcher, env=environment)
         assert both.returncode == 0, both
         names = [line.split(",")[0].split("converged")[0] for line in alone.stdout.splitlines()]
-        assert [line.split(",")[0].split("converged")[0] for line in both.stdout.splitlines()] == names, (alone, both)
+        assert names and [line.split(",")[0].split("converged")[0] for line in both.stdout.splitlines()] == names, (alone, both)
         again = springproof(command, EXACT, CUBE, "--out", folder / command, launcher=launcher, env=environment)
         assert again.returncode == 0 and again.stderr.count("solved already") == 2, again
     assert springproof("gate", CUBE, "--set", "fem.element=q1", launcher=launcher, env=environment).returncode == 1
@@ -187,21 +186,6 @@ def test_two_ranks(folder):
     for words in (sweep, ["run", EXACT, "--out", file / "below"], ["run", "no-such.toml"]):
         stuck = springproof(*words, launcher=launcher, env=environment)
         assert stuck.returncode == 2 and stuck.stderr.count(str(words[-1])) >= 1, (words, stuck)
-
-
-def test_documented_commands(folder):
-    """The commands of docs/gates.md and of the README's gates, the workflow's among them, do what they are shown for."""
-    text = "\n".join((Path(SOURCE) / page).read_text() for page in ("docs/gates.md", "README.md"))
-    blocks = re.findall(r"^```(?:sh|yaml)\n(.*?)^```", text, re.M | re.S)
-    commands = [line.strip().removeprefix("- run: ") for block in blocks for line in block.splitlines() if "build/springproof gate" in line]
-    assert len(commands) >= 5, commands
-    shutil.copytree(CASES, folder / "cases")
-    (folder / "build").mkdir()
-    (folder / "build/springproof").symlink_to(PROGRAM)
-    for command in commands:
-        done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True, text=True, timeout=280)
-        assert done.returncode == 0, (command, done)
-    assert (folder / "gates.xml").is_file()
 
 
 def main():

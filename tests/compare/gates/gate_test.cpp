@@ -24,6 +24,7 @@ TEST_CASE("a case that expects nothing does not pass its gates") {
 TEST_CASE("a gate has the unit of what it bounds, and says in words where the value lies") {
   const auto result = judge_gates(
       comparison({expectation(Quantity::error_percent, {-10, 0}), expectation(Quantity::msm, {9.5, 10})}));
+  REQUIRE(result.gates.size() == 2);
   CHECK(result.gates[0].met());
   CHECK(result.gates[0].unit == "%");
   CHECK(describe(result.gates[0]) == "L error_percent = -10 %, in [-10, 0]");
@@ -65,8 +66,8 @@ TEST_CASE("the reference's error bar is shown in the gate's unit and moves neith
       comparison({expectation(Quantity::fem, {9, 9.99}), expectation(Quantity::error_percent, {-9.9, 0}),
                   expectation(Quantity::msm, {8, 10})}),
       2));
-  CHECK(*sure.gates[0].uncertainty == Approx(0.2).epsilon(1e-12)); // rounding
-  CHECK(*sure.gates[1].uncertainty == Approx(1.8).epsilon(1e-12));
+  CHECK(sure.gates[0].uncertainty.value() == Approx(0.2).epsilon(1e-12)); // rounding
+  CHECK(sure.gates[1].uncertainty.value() == Approx(1.8).epsilon(1e-12));
   CHECK_FALSE(sure.gates[2].uncertainty); // the springs' value needs no reference
   CHECK_FALSE(sure.gates[0].met());       // 10 lies outside, though within the error bar
   CHECK_FALSE(sure.gates[1].met());

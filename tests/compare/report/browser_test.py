@@ -31,7 +31,7 @@ def run_chromium(chromium, page, *options):
                    "--host-resolver-rules=MAP * ~NOTFOUND",  # nothing may be fetched
                    "--use-angle=swiftshader", "--enable-unsafe-swiftshader",  # WebGL without a graphics card
                    "--enable-logging=stderr", "--hide-scrollbars", f"--force-device-scale-factor={SCALE}", *options, page.as_uri()]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=200)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     messages = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     assert done.returncode == 0, done.stderr[-2000:]
     assert not messages, "\n".join(messages)

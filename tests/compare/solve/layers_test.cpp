@@ -54,7 +54,9 @@ TEST_CASE("layers in a row stretch by the sum of theirs, in finite elements refi
     definition.fem.refine = refine;
     const Comparison comparison = compare_case(definition, Only::fem);
     // Without lateral strains the solution is linear in each layer, which the elements have exactly.
-    for (const MeasuredValue& value : comparison.measures) CHECK(*value.fem == Approx(exact).epsilon(1e-9));
+    REQUIRE(comparison.measures.size() == 2);
+    for (const MeasuredValue& value : comparison.measures)
+      CHECK(value.fem.value() == Approx(exact).epsilon(1e-9));
   }
 }
 
