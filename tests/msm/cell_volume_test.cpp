@@ -1,7 +1,7 @@
 #include "msm/cell_volume.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "msm/lattice.hpp"
 
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "msm/model.hpp"
 
 #include "cases/case/error.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "msm/tangent.hpp"
 
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

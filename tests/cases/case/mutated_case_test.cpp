@@ -3,8 +3,8 @@
 
 #include "cases/case/hard_case.hpp"
 #include "cases/case/read_case.hpp"
-#include "tests/cases/case/case_text.hpp"
 #include "tests/fuzz/mutate.hpp"
+#include "tests/support/case_text.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 
 #include "cases/case/hard_case.hpp"
 #include "cases/scene/scene.hpp"
-#include "tests/cases/case/case_text.hpp"
+#include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 #include "cases/case/read_material.hpp"
 
-#include "tests/cases/case/case_text.hpp"
+#include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>

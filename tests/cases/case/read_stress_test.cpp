@@ -1,6 +1,6 @@
 #include "cases/case/hard_case.hpp"
 #include "cases/case/read_case.hpp"
-#include "tests/cases/case/case_text.hpp"
+#include "tests/support/case_text.hpp"
 
 using namespace springproof;
 

@@ -1,8 +1,8 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "tests/cases/case/case_text.hpp"
 #include "tests/compare/gates/judged.hpp"
+#include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "msm/model.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/largest.hpp"
 
 #include <algorithm>

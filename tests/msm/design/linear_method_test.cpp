@@ -1,7 +1,7 @@
 #include "msm/design/linear_method.hpp"
 
 #include "msm/tangent.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

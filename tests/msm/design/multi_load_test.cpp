@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "msm/design/lattice_moduli.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

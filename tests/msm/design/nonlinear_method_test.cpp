@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "msm/lattice.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 

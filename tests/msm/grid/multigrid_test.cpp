@@ -1,6 +1,6 @@
 #include "msm/grid/multigrid.hpp"
 
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -3,7 +3,7 @@
 #include "msm/direct/direct_system.hpp"
 #include "msm/grid/grid_system.hpp"
 #include "msm/tangent.hpp"
-#include "tests/msm/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 
