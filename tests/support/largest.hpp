@@ -13,6 +13,12 @@ inline double larger(double a, double b) {
   return std::isnan(a) || a > b ? a : b;
 }
 
+/// Largest absolute entry, and NaN if one is. (Eigen's maxCoeff() may drop it.)
+template<class Derived>
+double largest_entry(const Eigen::MatrixBase<Derived>& matrix) {
+  return matrix.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>();
+}
+
 /// Largest norm of the differences of two lists as long as each other; NaN if a number is.
 template<class Value, class Norm>
 double largest_difference(const std::vector<Value>& a, const std::vector<Value>& b, const Norm& norm) {
