@@ -3,11 +3,9 @@
 #include "cases/case/case.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/outcome.hpp"
+#include "cases/case/side.hpp"
 
 namespace springproof::cases {
-
-/// Which model a hard case is put to.
-enum class Side { msm, hybrid, fem };
 
 /// Where the springs' search for equilibrium begins.
 enum class Start {

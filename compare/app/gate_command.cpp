@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/gates/write.hpp"
 #include "compare/peers/external_side.hpp"
@@ -60,53 +61,49 @@ void check_blessing(const GateOptions& options, const std::vector<cases::Case>& 
   }
 }
 
-/// All cases solved, side by side; what an earlier command left in the folder of results is taken up.
-std::vector<Comparison> solve_all(const std::vector<cases::Case>& definitions, const Request& request,
-                                  const FinishedCases& finished, int n_workers) {
+/// All cases solved, side by side; what an earlier command left in the folder of results is taken up. The
+/// reference's own error bar comes with it where the user or the case asks for it.
+std::vector<Solved> solve_all(const std::vector<cases::Case>& definitions, const GateOptions& options,
+                              bool is_external) {
   const int rank = mpi_rank();
-  std::vector<Comparison> solved(definitions.size());
+  const FinishedCases finished(options.out);
+  std::vector<Solved> solved(definitions.size());
   std::vector<SolveJob> jobs;
+  std::vector<Request> requests;
   std::vector<std::size_t> missing;
   for (std::size_t c = 0; c < definitions.size(); ++c) {
+    const bool is_studied = options.converge || asks_for_mesh_study(definitions[c]);
+    const Request request{options.settings, is_external ? std::optional(cases::Side::fem) : std::nullopt,
+                          is_studied ? meshes_of_a_study : 0, ""};
     if (auto earlier = finished.find(definitions[c], request)) {
-      solved[c] = std::move(*earlier);
+      solved[c] = {cases::make_scene(definitions[c]), std::move(*earlier)};
       if (rank == 0)
         std::cerr << definitions[c].name
                   << ": solved already, taken from the earlier results in the same folder\n";
       continue;
     }
     missing.push_back(c);
-    jobs.push_back({definitions[c].file, request.settings, request.only});
+    requests.push_back(request);
+    jobs.push_back({definitions[c].file, request.settings, request.only, request.meshes});
   }
-  SolveOptions options;
-  options.n_workers = n_workers;
-  options.on_solved = [&](std::size_t, const Comparison& comparison) {
-    if (rank == 0) finished.keep(comparison, request);
+  SolveOptions solving;
+  solving.n_workers = options.workers;
+  solving.on_solved = [&](std::size_t j, const Solved& fresh) {
+    if (rank == 0) finished.keep(definitions[missing[j]], requests[j], fresh.answers);
   };
-  std::vector<Comparison> fresh = solve_jobs(jobs, options, [](int, int) {});
+  std::vector<Solved> fresh = solve_jobs(jobs, solve_fem, solving, [](int, int) {});
   for (std::size_t j = 0; j < jobs.size(); ++j) solved[missing[j]] = std::move(fresh[j]);
   return solved;
 }
 
-/// Adds the reference's own error bar where the user or the case asks for it, unless it is there. Collective.
-void study(Comparison& comparison, const GateOptions& options, const FinishedCases& finished,
-           const Request& request) {
-  const bool is_asked = options.converge || asks_for_mesh_study(comparison.scene.definition);
-  if (!is_asked || comparison.mesh_study) return;
-  comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, meshes_of_a_study);
-  const int rank = mpi_rank();
-  if (rank == 0) finished.keep(comparison, request);
-}
-
 /// Blesses the case if it was named, prints what that changes, and judges it by its new intervals.
-GatedCase judge_or_bless(Comparison& comparison, const GateOptions& options, std::ostream& differences) {
-  GatedCase judged = judge_gates(comparison);
-  if (std::find(options.bless.begin(), options.bless.end(), judged.name) == options.bless.end())
-    return judged;
-  differences << bless(judged);
-  comparison.scene.definition.expectations = cases::read_case(judged.file).expectations;
-  measure_sides(comparison);
-  return judge_gates(comparison);
+Comparison judge_or_bless(Solved solved, const GateOptions& options, std::ostream& differences) {
+  Comparison comparison = comparison_of(std::move(solved.scene), std::move(solved.answers));
+  const std::string& name = comparison.scene.definition.name;
+  if (std::find(options.bless.begin(), options.bless.end(), name) == options.bless.end()) return comparison;
+  differences << bless(judge_gates(comparison));
+  comparison.scene.definition.expectations = cases::read_case(comparison.scene.definition.file).expectations;
+  return comparison_of(std::move(comparison.scene), std::move(comparison.answers));
 }
 
 void write(const GateOptions& options, const std::vector<GatedCase>& judged) {
@@ -124,19 +121,14 @@ int gate(const GateOptions& options) {
   const std::vector<cases::Case> definitions = read_all(options);
   check_blessing(options, definitions);
   const auto external = read_external(definitions, options.displacements);
-  const Request request{options.settings, external ? Only::fem : Only::both, 0, ""};
-  const FinishedCases finished(options.out);
-  std::vector<Comparison> solved = solve_all(definitions, request, finished, options.workers);
-  for (Comparison& comparison : solved) {
-    study(comparison, options, finished, request);
-    if (external) take_displacements(comparison, *external);
-  }
+  std::vector<Solved> solved = solve_all(definitions, options, external.has_value());
   if (rank != 0) return 0; // the springs' side is on rank 0 alone
   std::vector<Comparison> done;
   std::vector<GatedCase> judged;
-  for (Comparison& comparison : solved) {
-    judged.push_back(judge_or_bless(comparison, options, options.json ? std::cerr : std::cout));
-    done.push_back(std::move(comparison));
+  for (Solved& next : solved) {
+    if (external) next.answers = with_displacements(std::move(next.answers), next.scene.mesh, *external);
+    done.push_back(judge_or_bless(std::move(next), options, options.json ? std::cerr : std::cout));
+    judged.push_back(judge_gates(done.back()));
     if (!options.out.empty()) write_results(options.out, done);
   }
   write(options, judged);

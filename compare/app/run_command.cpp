@@ -1,9 +1,13 @@
 #include "compare/app/commands.hpp"
 
+#include "cases/case/hard_case.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
+#include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/finished.hpp"
+#include "compare/solve/refined_meshes.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_results.hpp"
 
@@ -26,26 +30,20 @@ struct RunOptions {
   bool json = false;
 };
 
-Only parse_only(const std::string& word) {
-  if (word == "fem") return Only::fem;
-  if (word == "msm") return Only::msm;
-  return Only::both;
-}
-
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
-Comparison answer(const cases::Case& definition, const Request& request, const FinishedCases& finished) {
+Answers answer(const cases::Scene& scene, const Request& request, const FinishedCases& finished) {
+  const cases::Case& definition = scene.definition;
   const int rank = mpi_rank();
   if (auto earlier = finished.find(definition, request)) {
     if (rank == 0)
       std::cerr << definition.name << ": solved already, taken from the earlier results in the same folder\n";
     return *earlier;
   }
-  Comparison comparison = compare_case(definition, request.only);
-  if (request.meshes > 0)
-    comparison.mesh_study = study_meshes(comparison.scene, comparison.fem.solution, request.meshes);
-  if (!request.peer.empty() && rank == 0) ask_calculix(comparison);
-  if (rank == 0) finished.keep(comparison, request);
-  return comparison;
+  Answers answers = solve(scene, request, solve_fem);
+  if (!request.peer.empty() && rank == 0)
+    answers.peer = ask_calculix(with_fem(scene, answers.resolved), answers.fem.solution);
+  if (rank == 0) finished.keep(definition, request, answers);
+  return answers;
 }
 
 int run(const RunOptions& options) {
@@ -55,15 +53,17 @@ int run(const RunOptions& options) {
     definitions.push_back(cases::read_case(file, options.settings));
   const int rank = mpi_rank();
   const auto external = read_external(definitions, options.displacements);
-  const Request request{options.settings, external ? Only::fem : parse_only(options.only), options.meshes,
-                        options.peer};
+  const auto only = external ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
+  const Request request{options.settings, only, options.meshes, options.peer};
   const FinishedCases finished(options.out);
   std::vector<Comparison> done;
   bool failed = false;
   for (const cases::Case& definition : definitions) {
-    done.push_back(answer(definition, request, finished));
-    if (external) take_displacements(done.back(), *external);
-    failed = failed || done.back().failed();
+    cases::Scene scene = cases::make_scene(definition);
+    Answers answers = answer(scene, request, finished);
+    if (external) answers = with_displacements(std::move(answers), scene.mesh, *external);
+    failed = failed || answers.failed();
+    done.push_back(comparison_of(std::move(scene), std::move(answers)));
     if (rank != 0) continue;
     if (!options.json) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);

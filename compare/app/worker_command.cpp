@@ -1,4 +1,5 @@
 #include "compare/app/commands.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/sweep/time_variant.hpp"
@@ -15,7 +16,10 @@ void add_worker_command(CLI::App& program, Action& chosen) {
   command->callback([is_timing, &chosen] {
     end_with_parent();
     chosen = [is_timing] {
-      serve_jobs(*is_timing ? answer_timing_job : answer_job);
+      if (*is_timing)
+        serve_jobs(answer_timing_job);
+      else
+        serve_jobs([](const std::string& line) { return answer_job(line, solve_fem); });
       return 0;
     };
   });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/comparison.hpp"
+#include "compare/gates/comparison.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
 #include "compare/error_bars/convergence.hpp"
+#include "compare/solve/answers.hpp"
 
 #include <optional>
 #include <string>
@@ -28,16 +28,8 @@ struct MeshStudy {
       measures; ///< all of the case's, in its order; without values when nothing was solved
 };
 
-/// Why refining the mesh of this scene leads nowhere, if it does not: forces on points or edges have no
-/// continuum limit, because the displacement under them grows without bound (thesis.md section 7 says which
-/// cases).
-std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);
-
-/// Solves the finite elements on n_meshes meshes, from the body's own on, or on the finest of them around the
-/// case's own when that is refined further. Nothing is solved when there is no continuum limit. A solve that
-/// fails leaves its reason with every measure. Collective over MPI_COMM_WORLD.
-/// @param own       the solution at the case's own refinement, used again
-/// @param n_meshes  at least 3
-MeshStudy study_meshes(const cases::Scene& scene, const cases::Solution& own, int n_meshes);
+/// What the answers on refined meshes tell of the finite elements' own error, measure by measure.
+/// @param answers  with refined meshes
+MeshStudy study_meshes(const cases::Scene& scene, const Answers& answers);
 
 } // namespace springproof::compare

@@ -31,8 +31,8 @@ std::string why_without_value(const Comparison& comparison, Quantity quantity) {
     return fmt::format("{} failed at {:.4g} of the load: {}", side, solution.load_reached, solution.message);
   };
   std::string reason;
-  if (quantity != Quantity::msm) reason = why("fem", comparison.fem.solution);
-  if (quantity != Quantity::fem && reason.empty()) reason = why("msm", comparison.msm.solution);
+  if (quantity != Quantity::msm) reason = why("fem", comparison.answers.fem.solution);
+  if (quantity != Quantity::fem && reason.empty()) reason = why("msm", comparison.answers.msm.solution);
   return reason.empty() ? "it has no finite value" : reason;
 }
 
@@ -116,8 +116,8 @@ GatedCase judge_gates(const Comparison& comparison) {
   for (const cases::Expectation& expected : definition.expectations)
     judged.gates.push_back(make_gate(comparison, expected));
   if (judged.gates.empty()) judged.failures.push_back("it expects nothing: there is no [[expect]]");
-  add_failure(judged, "fem", comparison.fem.solution);
-  add_failure(judged, "msm", comparison.msm.solution);
+  add_failure(judged, "fem", comparison.answers.fem.solution);
+  add_failure(judged, "msm", comparison.answers.msm.solution);
   return judged;
 }
 

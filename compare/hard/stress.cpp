@@ -12,7 +12,7 @@ namespace springproof::compare {
 
 namespace {
 
-Side solve_fem(const cases::HardCase& hard_case) {
+Answer solve_fem(const cases::HardCase& hard_case) {
   return or_refused([&] {
     const cases::Scene scene = cases::make_scene(hard_case.definition);
     return solve_side(
@@ -21,9 +21,10 @@ Side solve_fem(const cases::HardCase& hard_case) {
   });
 }
 
-const Side* find(const StressResult& result, cases::Side side) {
+const Answer* find(const StressResult& result, cases::Side side) {
   for (const StressRow& row : result.rows)
-    if (row.expected.side == side && row.side.solution.status == cases::Status::converged) return &row.side;
+    if (row.expected.side == side && row.answer.solution.status == cases::Status::converged)
+      return &row.answer;
   return nullptr;
 }
 
@@ -34,7 +35,7 @@ bool StressResult::met() const {
 }
 
 std::optional<double> StressResult::hybrid_over_springs() const {
-  const Side *springs = find(*this, cases::Side::msm), *hybrid = find(*this, cases::Side::hybrid);
+  const Answer *springs = find(*this, cases::Side::msm), *hybrid = find(*this, cases::Side::hybrid);
   if (!springs || !hybrid || !(springs->solve_seconds > 0)) return std::nullopt;
   return hybrid->solve_seconds / springs->solve_seconds;
 }
@@ -49,7 +50,7 @@ StressResult stress(const cases::HardCase& hard_case, int n_threads) {
     if (!is_fem && rank != 0) continue;
     StressRow row{
         expected, is_fem ? solve_fem(hard_case) : solve_springs(expected.side, hard_case, n_threads), {}};
-    row.misses = misses(hard_case, expected, row.side);
+    row.misses = misses(hard_case, expected, row.answer);
     result.rows.push_back(std::move(row));
   }
   return result;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/hard_case.hpp"
-#include "compare/solve/comparison.hpp"
+#include "compare/solve/answers.hpp"
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace springproof::compare {
 /// One model's way through a hard case.
 struct StressRow {
   cases::ExpectedOutcome expected;
-  Side side;                       ///< its solution has an outcome even when it failed
+  Answer answer;                   ///< its solution has an outcome even when it failed
   std::vector<std::string> misses; ///< what differs from what was expected; empty: nothing
 };
 

@@ -77,11 +77,11 @@ bool is_finite(const cases::Solution& s) {
 
 } // namespace
 
-Side or_refused(const std::function<Side()>& solve) {
+Answer or_refused(const std::function<Answer()>& solve) {
   try {
     return solve();
   } catch (const cases::InputError& error) {
-    Side refused;
+    Answer refused;
     refused.solution.status = cases::Status::failed;
     refused.solution.outcome = cases::Outcome::refused;
     refused.solution.message = error.what();
@@ -89,7 +89,7 @@ Side or_refused(const std::function<Side()>& solve) {
   }
 }
 
-Side solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_threads) {
+Answer solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_threads) {
   const Stopwatch stopwatch;
   return or_refused([&] {
     cases::Scene scene = cases::make_scene(hard_case.definition);
@@ -110,8 +110,8 @@ Side solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_th
 }
 
 std::vector<std::string> misses(const cases::HardCase& hard_case, const cases::ExpectedOutcome& expected,
-                                const Side& side) {
-  const cases::Solution& s = side.solution;
+                                const Answer& answer) {
+  const cases::Solution& s = answer.solution;
   std::vector<std::string> found;
   if (s.outcome != expected.outcome)
     found.push_back(fmt::format("outcome {}, expected {}", name_of(s.outcome), name_of(expected.outcome)));
@@ -124,7 +124,7 @@ std::vector<std::string> misses(const cases::HardCase& hard_case, const cases::E
   if (expected.inverted_cells && s.inverted_cells != *expected.inverted_cells)
     found.push_back(
         fmt::format("{} inverted cells, expected {}", s.inverted_cells, *expected.inverted_cells));
-  const double seconds = side.setup_seconds + side.solve_seconds;
+  const double seconds = answer.setup_seconds + answer.solve_seconds;
   if (!(seconds <= hard_case.max_seconds))
     found.push_back(fmt::format("{:.1f} s, above the limit of {:.1f} s", seconds, hard_case.max_seconds));
   if (!(s.newton_iterations <= hard_case.max_iterations))

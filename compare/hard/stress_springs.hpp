@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/hard_case.hpp"
-#include "compare/solve/comparison.hpp"
+#include "compare/solve/answers.hpp"
 
 #include <functional>
 #include <string>
@@ -11,14 +11,14 @@
 namespace springproof::compare {
 
 /// A side's answer, or that no model can be made of the case, with the reason.
-Side or_refused(const std::function<Side()>& solve);
+Answer or_refused(const std::function<Answer()>& solve);
 
 /// @param which      msm, or hybrid: that design in place of the case's own
 /// @param n_threads  of the multigrid path
-Side solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_threads);
+Answer solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_threads);
 
 /// What a side differs in from what the case expects and allows.
 std::vector<std::string> misses(const cases::HardCase& hard_case, const cases::ExpectedOutcome& expected,
-                                const Side& side);
+                                const Answer& answer);
 
 } // namespace springproof::compare

@@ -2,6 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "compare/solve/answers.hpp"
 
 #include <optional>
 #include <ostream>
@@ -36,5 +37,9 @@ CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes);
 /// print them.
 /// @throws SolveError when it stops before the full load
 cases::Solution solve_with_calculix(const cases::Scene& scene);
+
+/// The same with the time it took, held against our finite elements. A solve that fails is a failed answer.
+/// @param fem  our solution of the same scene
+Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem);
 
 } // namespace springproof::compare

@@ -94,12 +94,12 @@ std::optional<ExternalDisplacements> read_external(const std::vector<cases::Case
   return ExternalDisplacements{path, match_nodes(scene.mesh, read_displacements(path), path)};
 }
 
-void take_displacements(Comparison& comparison, const ExternalDisplacements& external) {
-  const cases::HexMesh& mesh = comparison.scene.mesh;
-  comparison.msm = {};
-  comparison.design.reset();
-  comparison.msm_source = external.path;
-  cases::Solution& solution = comparison.msm.solution;
+Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
+                           const ExternalDisplacements& external) {
+  answers.msm = {};
+  answers.design.reset();
+  answers.msm_source = external.path;
+  cases::Solution& solution = answers.msm.solution;
   solution.status = cases::Status::converged;
   solution.message = "displacements of " + external.path;
   solution.displacement = external.displacement;
@@ -109,7 +109,7 @@ void take_displacements(Comparison& comparison, const ExternalDisplacements& ext
     solution.cell_volume.push_back(cases::cell_volume(vertices));
     if (cases::smallest_corner_jacobian(vertices) <= 0) ++solution.inverted_cells;
   }
-  measure_sides(comparison);
+  return answers;
 }
 
 } // namespace springproof::compare

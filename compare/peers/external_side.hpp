@@ -1,7 +1,8 @@
 #pragma once
 
+#include "cases/scene/scene.hpp"
 #include "compare/peers/displacement_file.hpp"
-#include "compare/solve/comparison.hpp"
+#include "compare/solve/answers.hpp"
 
 namespace springproof::compare {
 
@@ -26,8 +27,9 @@ struct ExternalDisplacements {
 std::optional<ExternalDisplacements> read_external(const std::vector<cases::Case>& definitions,
                                                    const std::string& path);
 
-/// Puts them in place of a comparison's springs, and measures and judges anew. The side then has no stiffness
-/// and no counts of iterations, for none are known.
-void take_displacements(Comparison& comparison, const ExternalDisplacements& external);
+/// The answers with another simulator's in place of our springs'. They have no stiffness and no counts of
+/// iterations, for none are known.
+Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
+                           const ExternalDisplacements& external);
 
 } // namespace springproof::compare

@@ -1,7 +1,5 @@
 #include "compare/peers/calculix.hpp"
-#include "compare/solve/comparison.hpp"
-
-#include <chrono>
+#include "compare/solve/solve_side.hpp"
 
 namespace springproof::compare {
 
@@ -20,23 +18,18 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
 
 } // namespace
 
-void ask_calculix(Comparison& comparison) {
+Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem) {
   Peer peer{"CalculiX", {}, std::nullopt};
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   try {
-    peer.side.solution = solve_with_calculix(comparison.scene);
+    peer.answer.solution = solve_with_calculix(scene);
   } catch (const cases::SolveError& error) {
-    peer.side.solution.status = cases::Status::failed;
-    peer.side.solution.message = error.what();
-    peer.side.solution.load_reached = error.load_reached();
+    peer.answer.solution = failed_solution(error);
   }
-  peer.side.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-  if (peer.side.solution.status == cases::Status::converged &&
-      comparison.fem.solution.status == cases::Status::converged)
-    peer.largest_difference = largest_difference(comparison.fem.solution, peer.side.solution);
-  comparison.peer = peer;
-  measure_sides(comparison);
+  peer.answer.solve_seconds = stopwatch.lap();
+  if (peer.answer.solution.status == cases::Status::converged && fem.status == cases::Status::converged)
+    peer.largest_difference = largest_difference(fem, peer.answer.solution);
+  return peer;
 }
 
 } // namespace springproof::compare

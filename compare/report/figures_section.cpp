@@ -14,7 +14,7 @@ std::string measures(const Comparison& comparison) {
     html += fmt::format("<br>{}: FEM {}, MSM {} {}{}", escape(m.name), number(m.fem), number(m.msm),
                         escape(m.unit),
                         m.error_percent ? fmt::format(", error {:+.2f} %", *m.error_percent) : "");
-  for (const Side* side : {&comparison.fem, &comparison.msm})
+  for (const Answer* side : {&comparison.answers.fem, &comparison.answers.msm})
     if (side->solution.status == cases::Status::failed)
       html += "<br>failed: " + escape(side->solution.message);
   return html;

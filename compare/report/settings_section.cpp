@@ -15,7 +15,7 @@ std::string fact(const std::string& name, const std::string& value) {
   return "<tr><th class='text'>" + escape(name) + "</th><td class='long'>" + escape(value) + "</td></tr>\n";
 }
 
-std::string outcome(const Side& side) {
+std::string outcome(const Answer& side) {
   const cases::Solution& s = side.solution;
   if (s.status != cases::Status::converged)
     return fmt::format("<td class='long' colspan='3'>{}</td>", escape(s.message));
@@ -24,17 +24,17 @@ std::string outcome(const Side& side) {
 }
 
 std::string case_row(const Comparison& comparison, const Trace& trace) {
-  const cases::Fem& fem = comparison.scene.definition.fem;
+  const cases::Fem& fem = comparison.answers.resolved;
   std::string stiffness = "–";
-  if (comparison.design) {
-    const msm::CellStiffness& k = comparison.design->stiffness;
+  if (comparison.answers.design) {
+    const msm::CellStiffness& k = comparison.answers.design->stiffness;
     stiffness =
         fmt::format("{:.4g}, {:.4g}, {:.4g}", 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
   }
   return fmt::format("<tr><td class='text'>{}</td><td class='text'>{} {}</td>{}<td>{}</td>{}</tr>\n",
                      traced(trace.case_file, trace), cases::name_of(fem.formulation),
-                     cases::name_of(fem.element), outcome(comparison.fem), stiffness,
-                     outcome(comparison.msm));
+                     cases::name_of(fem.element), outcome(comparison.answers.fem), stiffness,
+                     outcome(comparison.answers.msm));
 }
 
 } // namespace

@@ -25,9 +25,9 @@ const std::string& this_program() {
 /// All that a case's answers depend on, as a text that is compared whole.
 std::string identity_of(const cases::Case& definition, const Request& request) {
   const char* petsc = std::getenv("PETSC_OPTIONS");
-  std::string text =
-      fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
-                  static_cast<int>(request.only), request.meshes, request.peer, petsc ? petsc : "");
+  std::string text = fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
+                                 request.only ? static_cast<int>(*request.only) : -1, request.meshes,
+                                 request.peer, petsc ? petsc : "");
   for (const std::string& setting : request.settings) text += "set " + setting + "\n";
   text += read_file(definition.file);
   if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += read_file(mesh->path);
@@ -52,7 +52,7 @@ std::string FinishedCases::path_of(const cases::Case& definition) const {
   return folder_ + "/solved/" + definition.name;
 }
 
-std::optional<Comparison> FinishedCases::find(const cases::Case& definition, const Request& request) const {
+std::optional<Answers> FinishedCases::find(const cases::Case& definition, const Request& request) const {
   if (folder_.empty()) return std::nullopt;
   const int rank = mpi_rank();
   std::string bytes;
@@ -62,18 +62,14 @@ std::optional<Comparison> FinishedCases::find(const cases::Case& definition, con
   }
   bytes = from_rank_0(bytes);
   if (bytes.empty()) return std::nullopt;
-  Comparison comparison;
-  comparison.scene = cases::make_scene(definition);
-  from_bytes(bytes, comparison);
-  measure_sides(comparison);
-  return comparison;
+  return from_bytes(bytes);
 }
 
-void FinishedCases::keep(const Comparison& comparison, const Request& request) const {
-  if (folder_.empty() || comparison.failed()) return;
-  const cases::Case& definition = comparison.scene.definition;
+void FinishedCases::keep(const cases::Case& definition, const Request& request,
+                         const Answers& answers) const {
+  if (folder_.empty() || answers.failed()) return;
   write_file(path_of(definition),
-             [&](std::ostream& out) { out << identity_of(definition, request) << to_bytes(comparison); });
+             [&](std::ostream& out) { out << identity_of(definition, request) << to_bytes(answers); });
 }
 
 } // namespace springproof::compare

@@ -4,27 +4,24 @@
 
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::compare::Side, solution, setup_seconds, solve_seconds)
-SPRINGPROOF_FIELDS(springproof::compare::MeshLimit, order, extrapolated, index_percent)
-SPRINGPROOF_FIELDS(springproof::compare::StudiedMeasure, name, values, limit, discretisation_error_percent,
-                   reason)
-SPRINGPROOF_FIELDS(springproof::compare::MeshStudy, refine, unknowns, measures)
-SPRINGPROOF_FIELDS(springproof::compare::Peer, program, side, largest_difference)
+SPRINGPROOF_FIELDS(springproof::compare::Answer, solution, setup_seconds, solve_seconds)
+SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reason)
+SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)
+SPRINGPROOF_FIELDS(springproof::compare::Answers, resolved, choices, fem, msm, msm_source, design, refined,
+                   peer)
 
 } // namespace cereal
 
 namespace springproof::compare {
 
-std::string to_bytes(const Comparison& comparison) {
-  const cases::Fem& fem = comparison.scene.definition.fem; // what "auto" was taken to mean
-  return to_bytes(comparison.fem, comparison.msm, comparison.design, comparison.mesh_study, comparison.peer,
-                  comparison.choices, fem.formulation, fem.refine);
+std::string to_bytes(const Answers& answers) {
+  return to_bytes<cereal::PortableBinaryOutputArchive>(answers);
 }
 
-void from_bytes(const std::string& bytes, Comparison& comparison) {
-  cases::Fem& fem = comparison.scene.definition.fem;
-  from_bytes(bytes, comparison.fem, comparison.msm, comparison.design, comparison.mesh_study, comparison.peer,
-             comparison.choices, fem.formulation, fem.refine);
+Answers from_bytes(const std::string& bytes) {
+  Answers answers;
+  from_bytes(bytes, answers);
+  return answers;
 }
 
 } // namespace springproof::compare

@@ -1,5 +1,6 @@
 #include "compare/solve/solve_jobs.hpp"
 
+#include "cases/case/hard_case.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
@@ -24,7 +25,7 @@ void check_one_line(const std::string& text) {
 }
 
 std::string to_line(const SolveJob& job) {
-  std::string line = job.side == Only::both ? "both" : job.side == Only::fem ? "fem" : "msm";
+  std::string line = (job.only ? cases::name_of(*job.only) : "both") + separator + std::to_string(job.meshes);
   check_one_line(job.case_file);
   line += separator + job.case_file;
   for (const std::string& setting : job.settings) {
@@ -36,52 +37,59 @@ std::string to_line(const SolveJob& job) {
 
 SolveJob from_line(const std::string& line) {
   std::istringstream stream(line);
-  std::string side;
+  std::string only, meshes;
   SolveJob job;
-  std::getline(stream, side, separator);
-  job.side = side == "fem" ? Only::fem : side == "msm" ? Only::msm : Only::both;
+  std::getline(stream, only, separator);
+  std::getline(stream, meshes, separator);
+  job.only = cases::value_of<cases::Side>(only);
   if (!std::getline(stream, job.case_file, separator)) throw std::runtime_error("'" + line + "' is no job");
+  job.meshes = std::stoi(meshes);
   for (std::string setting; std::getline(stream, setting, separator);) job.settings.push_back(setting);
   return job;
 }
 
+Request request_of(const SolveJob& job) {
+  return {job.settings, job.only, job.meshes, ""};
+}
+
 /// A guess of the time a job takes, to start long ones first; nothing else depends on it. Unknowns times the
 /// steps and the cost of an element, as measured on the thesis's cases.
-double dearness(const cases::Scene& scene, Only side) {
+double dearness(const cases::Scene& scene, const Request& request) {
   const double n_nodes = static_cast<double>(scene.mesh.nodes.size());
   const cases::Fem& fem = scene.definition.fem;
   double cost = 0;
-  if (side != Only::msm)
-    cost +=
-        n_nodes * std::pow(8, fem.refine) * (fem.formulation == cases::Formulation::small_strain ? 2 : 10);
-  if (side != Only::fem) cost += n_nodes;
+  const int refine = std::max(fem.refine, request.meshes - 1);
+  if (request.asks(cases::Side::fem))
+    cost += n_nodes * std::pow(8, refine) * (fem.formulation == cases::Formulation::small_strain ? 2 : 10);
+  if (request.asks(cases::Side::msm)) cost += n_nodes;
   return cost;
 }
 
-/// A job that gave no answer: the sides that it should have solved have failed.
-void fail(Comparison& comparison, Only side, const std::string& reason) {
-  const auto fail_side = [&](Side& failed) {
-    failed = {};
-    failed.solution.status = cases::Status::failed;
-    failed.solution.message = reason;
-  };
-  if (side != Only::msm) fail_side(comparison.fem);
-  if (side != Only::fem) fail_side(comparison.msm);
+/// Of a job that gave no answers: the sides that it should have solved have failed.
+Answers failed_answers(const Request& request, const std::string& reason) {
+  Answers answers;
+  for (auto& [side, answer] :
+       {std::pair(cases::Side::fem, &answers.fem), std::pair(cases::Side::msm, &answers.msm)}) {
+    if (!request.asks(side)) continue;
+    answer->solution.status = cases::Status::failed;
+    answer->solution.message = reason;
+  }
+  return answers;
 }
 
 /// Makes every job's scene, and fails the jobs that make none.
 /// @return the indices of the others, dearest first
-std::vector<std::size_t> prepare(const std::vector<SolveJob>& jobs, std::vector<Comparison>& solved) {
+std::vector<std::size_t> prepare(const std::vector<SolveJob>& jobs, std::vector<Solved>& solved) {
   std::vector<std::size_t> order;
   std::vector<double> cost(jobs.size());
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     try {
       solved[j].scene = cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings));
     } catch (const cases::InputError& error) {
-      fail(solved[j], jobs[j].side, error.what());
+      solved[j].answers = failed_answers(request_of(jobs[j]), error.what());
       continue;
     }
-    cost[j] = dearness(solved[j].scene, jobs[j].side);
+    cost[j] = dearness(solved[j].scene, request_of(jobs[j]));
     order.push_back(j);
   }
   std::stable_sort(order.begin(), order.end(),
@@ -89,34 +97,35 @@ std::vector<std::size_t> prepare(const std::vector<SolveJob>& jobs, std::vector<
   return order;
 }
 
-void solve_in_this_process(const SolveJob& job, Comparison& comparison) {
-  const cases::Scene scene = comparison.scene;
+Answers solve_in_this_process(const SolveJob& job, const cases::Scene& scene, SolveFem solve_fem) {
   try {
-    comparison = compare_case(scene.definition, job.side);
+    return solve(scene, request_of(job), solve_fem);
   } catch (const std::exception& error) {
-    comparison.scene = scene;
-    fail(comparison, job.side, error.what());
+    return failed_answers(request_of(job), error.what());
   }
 }
 
 } // namespace
 
 bool SolveJob::operator<(const SolveJob& other) const {
-  return std::tie(case_file, settings, side) < std::tie(other.case_file, other.settings, other.side);
+  return std::tie(case_file, settings, only, meshes) <
+         std::tie(other.case_file, other.settings, other.only, other.meshes);
 }
 
 int cores() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-std::string answer_job(const std::string& line) {
+std::string answer_job(const std::string& line, SolveFem solve_fem) {
   const SolveJob job = from_line(line);
-  return to_bytes(compare_case(cases::read_case(job.case_file, job.settings), job.side));
+  const cases::Scene scene = cases::make_scene(cases::read_case(job.case_file, job.settings));
+  return to_bytes(solve(scene, request_of(job), solve_fem));
 }
 
-std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const SolveOptions& options,
-                                   const std::function<void(int done, int all)>& progress) {
-  std::vector<Comparison> solved(jobs.size());
+std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve_fem,
+                               const SolveOptions& options,
+                               const std::function<void(int done, int all)>& progress) {
+  std::vector<Solved> solved(jobs.size());
   const std::vector<std::size_t> order = prepare(jobs, solved);
   int n_done = 0, n_ranks = 1;
   const auto count = [&](std::size_t j) {
@@ -126,7 +135,7 @@ std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const Solv
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   if (n_ranks > 1 || is_under_mpi_launcher()) {
     for (const std::size_t j : order) {
-      solve_in_this_process(jobs[j], solved[j]);
+      solved[j].answers = solve_in_this_process(jobs[j], solved[j].scene, solve_fem);
       count(j);
     }
     return solved;
@@ -135,12 +144,8 @@ std::vector<Comparison> solve_jobs(const std::vector<SolveJob>& jobs, const Solv
   for (const std::size_t j : order) lines.push_back(to_line(jobs[j]));
   const ProcessPool pool{{options.program, "worker"}, options.n_workers > 0 ? options.n_workers : cores()};
   run_in_processes(pool, lines, [&](std::size_t k, const JobAnswer& answer) {
-    Comparison& comparison = solved[order[k]];
-    if (answer.bytes)
-      from_bytes(*answer.bytes, comparison);
-    else
-      fail(comparison, jobs[order[k]].side, answer.reason);
-    measure_sides(comparison);
+    solved[order[k]].answers =
+        answer.bytes ? from_bytes(*answer.bytes) : failed_answers(request_of(jobs[order[k]]), answer.reason);
     count(order[k]);
   });
   return solved;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "compare/provenance/stopwatch.hpp"
-#include "compare/solve/comparison.hpp"
+#include "compare/solve/answers.hpp"
 
 namespace springproof::compare {
 
-/// What is known of a solve that failed.
+/// Solution of a failed solve.
 inline cases::Solution failed_solution(const cases::SolveError& error) {
   cases::Solution solution;
   solution.status = cases::Status::failed;
@@ -19,21 +19,21 @@ inline cases::Solution failed_solution(const cases::SolveError& error) {
   return solution;
 }
 
-/// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed side.
+/// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed answer.
 /// @param make_model  answers a model   @param solve  answers the model's solution
 template<class MakeModel, class Solve>
-Side solve_side(const MakeModel& make_model, const Solve& solve) {
-  Side side;
+Answer solve_side(const MakeModel& make_model, const Solve& solve) {
+  Answer answer;
   Stopwatch stopwatch;
   try {
     auto model = make_model();
-    side.setup_seconds = stopwatch.lap();
-    side.solution = solve(model);
+    answer.setup_seconds = stopwatch.lap();
+    answer.solution = solve(model);
   } catch (const cases::SolveError& error) {
-    side.solution = failed_solution(error);
+    answer.solution = failed_solution(error);
   }
-  side.solve_seconds = stopwatch.lap();
-  return side;
+  answer.solve_seconds = stopwatch.lap();
+  return answer;
 }
 
 } // namespace springproof::compare

@@ -1,9 +1,9 @@
 #include "compare/sweep/sweep.hpp"
 
-#include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/refined_meshes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,9 +11,9 @@ namespace springproof::compare {
 namespace {
 
 bool is_sound(const Comparison& msm) {
-  return msm.msm.solution.status == cases::Status::converged &&
-         msm.msm.solution.outcome == cases::Outcome::stable_equilibrium &&
-         msm.msm.solution.inverted_cells == 0;
+  return msm.answers.msm.solution.status == cases::Status::converged &&
+         msm.answers.msm.solution.outcome == cases::Outcome::stable_equilibrium &&
+         msm.answers.msm.solution.inverted_cells == 0;
 }
 
 /// The case file's material and cell, which the stiffnesses are made independent of.
@@ -66,7 +66,8 @@ Advice::Errors errors_on_cube(PublishedFigure figure, const std::string& load_se
                    msm_side = designed_msm_job(figure, advice.design);
     const Comparison &fem = solves.get(fem_side), &msm = solves.get(msm_side);
     errors.is_stable = errors.is_stable && is_sound(msm);
-    if (msm.design) advice.stiffness = over_modulus_and_edge(msm.design->stiffness, msm.scene);
+    if (msm.answers.design)
+      advice.stiffness = over_modulus_and_edge(msm.answers.design->stiffness, msm.scene);
     for (const MeasuredValue& measure : fem.measures) {
       const MeasuredPair pair = measured_pair(fem, msm, measure.name);
       if (const std::optional<double> error = error_of(pair)) {

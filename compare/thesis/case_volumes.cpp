@@ -20,10 +20,10 @@ ModelVolumes volumes_of(const cases::Solution& solution) {
 
 /// The springs' case with the finite elements' answer put in.
 Comparison join(const Comparison& fem, const Comparison& msm) {
-  Comparison both = msm;
-  both.fem = fem.fem;
-  measure_sides(both);
-  return both;
+  Answers both = msm.answers;
+  both.fem = fem.answers.fem;
+  both.resolved = fem.answers.resolved;
+  return comparison_of(msm.scene, both);
 }
 
 /// Whether the figure is of the case file's own material, not of the file with another Poisson's ratio set.
@@ -63,8 +63,8 @@ CaseVolumes volumes_of(const Comparison& comparison) {
   return {comparison.scene.definition.name,
           sum(rest),
           sum(rest) / static_cast<double>(rest.size()),
-          volumes_of(comparison.fem.solution),
-          volumes_of(comparison.msm.solution),
+          volumes_of(comparison.answers.fem.solution),
+          volumes_of(comparison.answers.msm.solution),
           {}};
 }
 

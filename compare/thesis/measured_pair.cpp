@@ -22,7 +22,7 @@ std::string why(const cases::Solution& failed) {
 } // namespace
 
 MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure) {
-  const cases::Solution &on_fem = fem.fem.solution, &on_msm = msm.msm.solution;
+  const cases::Solution &on_fem = fem.answers.fem.solution, &on_msm = msm.answers.msm.solution;
   if (on_fem.status != cases::Status::converged) return {{}, {}, "finite elements: " + why(on_fem)};
   const MeasuredValue *of_fem = find_measure(fem, measure), *of_msm = find_measure(msm, measure);
   if (!of_fem) return {{}, {}, "the case has no measure " + measure};

@@ -135,8 +135,9 @@ std::string window(const std::vector<Drawing>& drawings, const View& view) {
 
 Overlay overlay_of(const Comparison& comparison, const std::string& title) {
   const cases::HexMesh* mesh = &comparison.scene.mesh;
-  return {
-      title, {mesh, &comparison.fem.solution.displacement}, {mesh, &comparison.msm.solution.displacement}};
+  return {title,
+          {mesh, &comparison.answers.fem.solution.displacement},
+          {mesh, &comparison.answers.msm.solution.displacement}};
 }
 
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,

@@ -74,8 +74,8 @@ ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOpti
   explain(results.entries);
   results.n_workers = options.n_workers > 0 ? options.n_workers : cores();
   results.times = {{fmt::format("{} solves on {} workers", solves.size(), results.n_workers), solving},
-                   {"  of which finite elements, all workers", solves.seconds(Only::fem)},
-                   {"  of which springs, all workers", solves.seconds(Only::msm)},
+                   {"  of which finite elements, all workers", solves.seconds(cases::Side::fem)},
+                   {"  of which springs, all workers", solves.seconds(cases::Side::msm)},
                    {"tables", collecting + stopwatch.lap()}};
   return results;
 }

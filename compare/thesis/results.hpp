@@ -1,8 +1,8 @@
 #pragma once
 
+#include "compare/gates/comparison.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/modes/eigenspaces.hpp"
-#include "compare/solve/comparison.hpp"
 #include "compare/thesis/published.hpp"
 
 #include <optional>

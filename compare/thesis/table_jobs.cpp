@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -60,7 +61,7 @@ SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
     settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
     settings.push_back("fem.element=" + cases::name_of(reference.element));
   }
-  return {path_of(figure), settings, Only::fem};
+  return {path_of(figure), settings, cases::Side::fem};
 }
 
 SolveJob designed_msm_job(const PublishedFigure& figure, const std::string& design) {
@@ -68,16 +69,16 @@ SolveJob designed_msm_job(const PublishedFigure& figure, const std::string& desi
   // The Ogden cases give their springs: the whole block goes, or the stiffnesses would contradict the design.
   settings.push_back(is_linear_elastic(figure) ? "msm.design=" + design
                                                : fmt::format("msm={{design=\"{}\"}}", design));
-  return {path_of(figure), settings, Only::msm};
+  return {path_of(figure), settings, cases::Side::msm};
 }
 
 SolveJob thesis_msm_job(const PublishedFigure& figure) {
-  if (figure.load_set.empty()) return {path_of(figure), {}, Only::msm};
+  if (figure.load_set.empty()) return {path_of(figure), {}, cases::Side::msm};
   const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio);
   if (k)
     return {path_of(figure),
             {"msm.design=given", fmt::format("msm.stiffness=[{},{},{}]", (*k)[0], (*k)[1], (*k)[2])},
-            Only::msm};
+            cases::Side::msm};
   SolveJob job = designed_msm_job(figure, figure.design);
   if (figure.design_poissons_ratio != figure.poissons_ratio)
     job.settings.push_back(fmt::format("msm.poissons_ratio={}", figure.design_poissons_ratio));
@@ -110,16 +111,17 @@ const Comparison& SolveSet::get(const SolveJob& job) {
 void SolveSet::solve(const SolveOptions& options, const std::function<void(int done, int all)>& progress) {
   std::vector<SolveJob> jobs;
   for (const auto& entry : solves_) jobs.push_back(entry.first);
-  std::vector<Comparison> solved = solve_jobs(jobs, options, progress);
-  for (std::size_t j = 0; j < jobs.size(); ++j) solves_[jobs[j]] = std::move(solved[j]);
+  std::vector<Solved> solved = solve_jobs(jobs, solve_fem, options, progress);
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    solves_[jobs[j]] = comparison_of(std::move(solved[j].scene), std::move(solved[j].answers));
   is_solved_ = true;
 }
 
-double SolveSet::seconds(Only side) const {
+double SolveSet::seconds(cases::Side side) const {
   double sum = 0;
   for (const auto& [job, comparison] : solves_) {
-    if (job.side != side) continue;
-    const Side& solved = side == Only::fem ? comparison.fem : comparison.msm;
+    if (job.only != side) continue;
+    const Answer& solved = side == cases::Side::fem ? comparison.answers.fem : comparison.answers.msm;
     sum += solved.setup_seconds + solved.solve_seconds;
   }
   return sum;

@@ -49,7 +49,7 @@ class SolveSet {
  public:
   const Comparison& get(const SolveJob& job);
   void solve(const SolveOptions& options, const std::function<void(int done, int all)>& progress);
-  double seconds(Only side) const; ///< summed over all solves of that side alone
+  double seconds(cases::Side side) const; ///< summed over all solves of that side alone
   std::size_t size() const { return solves_.size(); }
 
  private:

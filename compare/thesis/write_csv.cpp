@@ -60,7 +60,7 @@ void write_designs_csv(std::ostream& out, const std::vector<DesignRow>& rows) {
 void write_volumes_csv(std::ostream& out, const std::vector<Comparison>& cases) {
   fmt::print(out, "case,model,cell,rest_mm3,deformed_mm3\n");
   for (const Comparison& c : cases)
-    for (const auto& [model, side] : {std::pair("fem", &c.fem), std::pair("msm", &c.msm)})
+    for (const auto& [model, side] : {std::pair("fem", &c.answers.fem), std::pair("msm", &c.answers.msm)})
       for (std::size_t cell = 0; cell < side->solution.cell_volume.size(); ++cell)
         fmt::print(out, "{},{},{},{:.8g},{:.8g}\n", csv_text(c.scene.definition.name), model, cell,
                    cases::cell_volume(cases::cell_vertices(c.scene.mesh, cell)),

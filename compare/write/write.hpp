@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/comparison.hpp"
+#include "compare/gates/comparison.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
@@ -27,7 +27,7 @@ nlohmann::ordered_json to_json(const Peer& peer);
 nlohmann::ordered_json provenance();
 
 /// The solution of one side and what it took.
-nlohmann::ordered_json side_to_json(const Side& side);
+nlohmann::ordered_json side_to_json(const Answer& side);
 
 /// The document of `run --json`: schema, program, machine and the cases. Keys stay in the order written.
 nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);

@@ -10,7 +10,7 @@ namespace springproof::compare {
 
 namespace {
 
-std::string field(const std::optional<double>& value) {
+std::string ten_digits(const std::optional<double>& value) {
   return value ? fmt::format("{:.10g}", *value) : "";
 }
 
@@ -28,9 +28,9 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
     for (std::size_t i = 0; i < c.measures.size(); ++i) {
       const MeasuredValue& m = c.measures[i];
       fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", csv_text(c.scene.definition.name), csv_text(m.name),
-                 m.unit, field(m.fem), field(m.msm), field(m.error_percent),
-                 cases::name_of(c.fem.solution.status), cases::name_of(c.msm.solution.status),
-                 field(discretisation_error(c, i)), field(m.peer));
+                 m.unit, ten_digits(m.fem), ten_digits(m.msm), ten_digits(m.error_percent),
+                 cases::name_of(c.answers.fem.solution.status), cases::name_of(c.answers.msm.solution.status),
+                 ten_digits(discretisation_error(c, i)), ten_digits(m.peer));
     }
 }
 

@@ -18,26 +18,26 @@ Json or_null(const std::optional<Value>& value) {
 }
 
 Json fem_to_json(const Comparison& comparison) {
-  Json side = side_to_json(comparison.fem);
-  if (!comparison.choices.empty()) side["choices"] = comparison.choices;
+  Json side = side_to_json(comparison.answers.fem);
+  if (!comparison.answers.choices.empty()) side["choices"] = comparison.answers.choices;
   if (comparison.mesh_study) add_mesh_study(side, *comparison.mesh_study);
   return side;
 }
 
 Json msm_to_json(const Comparison& comparison) {
-  Json side = side_to_json(comparison.msm);
-  if (!comparison.msm_source.empty()) { // another program's: how it came by them is not known
-    side["source"] = comparison.msm_source;
+  Json side = side_to_json(comparison.answers.msm);
+  if (!comparison.answers.msm_source.empty()) { // another program's: how it came by them is not known
+    side["source"] = comparison.answers.msm_source;
     for (const char* key :
          {"unknowns", "residual", "newton_iterations", "linear_iterations", "relaxation_iterations"})
       side[key] = nullptr;
     side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
   }
-  if (comparison.design) {
-    const msm::CellStiffness& k = comparison.design->stiffness;
+  if (comparison.answers.design) {
+    const msm::CellStiffness& k = comparison.answers.design->stiffness;
     side["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
     side["volume_stiffness_MPa"] = k.volume;
-    side["warnings"] = comparison.design->warnings;
+    side["warnings"] = comparison.answers.design->warnings;
   }
   return side;
 }
@@ -50,7 +50,7 @@ Json comparison_to_json(const Comparison& comparison) {
                         {"fem", or_null(m.fem)},
                         {"msm", or_null(m.msm)},
                         {"error_percent", or_null(m.error_percent)}});
-    if (comparison.peer) measures.back()["peer"] = or_null(m.peer);
+    if (comparison.answers.peer) measures.back()["peer"] = or_null(m.peer);
   }
   Json expectations = Json::array();
   for (const Judgement& j : comparison.judgements)
@@ -68,14 +68,14 @@ Json comparison_to_json(const Comparison& comparison) {
                 {"msm", msm_to_json(comparison)},
                 {"measures", measures},
                 {"expectations", expectations},
-                {"status", comparison.failed() ? "failed" : "converged"}};
-  if (comparison.peer) document["peer"] = to_json(*comparison.peer);
+                {"status", comparison.answers.failed() ? "failed" : "converged"}};
+  if (comparison.answers.peer) document["peer"] = to_json(*comparison.answers.peer);
   return document;
 }
 
 } // namespace
 
-Json side_to_json(const Side& side) {
+Json side_to_json(const Answer& side) {
   const cases::Solution& s = side.solution;
   return {{"status", cases::name_of(s.status)},
           {"message", s.message},

@@ -21,19 +21,20 @@ std::string eigenvalue_text(const cases::Solution& s) {
 }
 
 void write_row(std::ostream& out, const StressRow& row) {
-  const cases::Solution& s = row.side.solution;
+  const cases::Solution& s = row.answer.solution;
   fmt::print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n",
              cases::name_of(row.expected.side), cases::name_of(s.outcome), s.load_reached, s.residual,
              s.newton_iterations, eigenvalue_text(s), s.inverted_cells,
-             row.side.setup_seconds + row.side.solve_seconds, row.misses.empty() ? "as expected" : "DIFFERS");
+             row.answer.setup_seconds + row.answer.solve_seconds,
+             row.misses.empty() ? "as expected" : "DIFFERS");
   for (const std::string& miss : row.misses) fmt::print(out, "         {}\n", miss);
   if (!s.message.empty()) fmt::print(out, "         {}\n", s.message);
 }
 
 Json row_to_json(const StressRow& row) {
-  Json json = side_to_json(row.side);
+  Json json = side_to_json(row.answer);
   json["side"] = cases::name_of(row.expected.side);
-  json["outcome"] = cases::name_of(row.side.solution.outcome);
+  json["outcome"] = cases::name_of(row.answer.solution.outcome);
   json["expected"] = cases::name_of(row.expected.outcome);
   json["met"] = row.misses.empty();
   json["misses"] = row.misses;

@@ -13,7 +13,7 @@ std::string number(const std::optional<double>& value, const char* format) {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
-void write_side(std::ostream& out, const char* label, const std::string& what, const Side& side) {
+void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side) {
   const cases::Solution& s = side.solution;
   if (s.status == cases::Status::skipped) return;
   fmt::print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
@@ -33,8 +33,9 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
 }
 
 void write_external(std::ostream& out, const Comparison& comparison) {
-  const cases::Solution& s = comparison.msm.solution;
-  fmt::print(out, "  msm  displacements of {} at {} nodes", comparison.msm_source, s.displacement.size());
+  const cases::Solution& s = comparison.answers.msm.solution;
+  fmt::print(out, "  msm  displacements of {} at {} nodes", comparison.answers.msm_source,
+             s.displacement.size());
   if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
   fmt::print(out, "\n");
 }
@@ -53,26 +54,29 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   const cases::Case& definition = comparison.scene.definition;
   fmt::print(out, "{}: {}\n", definition.name, definition.description);
   write_side(out, "fem",
-             cases::name_of(definition.fem.formulation) + " " + cases::name_of(definition.fem.element),
-             comparison.fem);
-  for (const std::string& choice : comparison.choices) fmt::print(out, "       {}\n", choice);
-  const std::string design = comparison.design ? describe(*comparison.design, definition.msm.design)
-                                               : cases::name_of(definition.msm.design);
-  if (comparison.msm_source.empty())
-    write_side(out, "msm", design, comparison.msm);
+             cases::name_of(comparison.answers.resolved.formulation) + " " +
+                 cases::name_of(definition.fem.element),
+             comparison.answers.fem);
+  for (const std::string& choice : comparison.answers.choices) fmt::print(out, "       {}\n", choice);
+  const std::string design = comparison.answers.design
+                                 ? describe(*comparison.answers.design, definition.msm.design)
+                                 : cases::name_of(definition.msm.design);
+  if (comparison.answers.msm_source.empty())
+    write_side(out, "msm", design, comparison.answers.msm);
   else
     write_external(out, comparison);
-  if (comparison.design)
-    for (const std::string& warning : comparison.design->warnings)
+  if (comparison.answers.design)
+    for (const std::string& warning : comparison.answers.design->warnings)
       fmt::print(out, "  warning: {}\n", warning);
-  if (comparison.peer) write_text(out, *comparison.peer);
-  const std::string peer = comparison.peer ? fmt::format(" {:>14}", comparison.peer->program) : "";
+  if (comparison.answers.peer) write_text(out, *comparison.answers.peer);
+  const std::string peer =
+      comparison.answers.peer ? fmt::format(" {:>14}", comparison.answers.peer->program) : "";
   fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", "measure", "unit", "fem", "msm", "error %",
              peer);
   for (const MeasuredValue& m : comparison.measures)
     fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", m.name, m.unit, number(m.fem, "{:.6g}"),
                number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"),
-               comparison.peer ? fmt::format(" {:>14}", number(m.peer, "{:.6g}")) : "");
+               comparison.answers.peer ? fmt::format(" {:>14}", number(m.peer, "{:.6g}")) : "");
   if (comparison.mesh_study) write_text(out, *comparison.mesh_study);
   for (const Judgement& j : comparison.judgements)
     fmt::print(out, "  {} {} ({}): {}\n", j.verdict == Verdict::met ? "met   " : "MISSED",

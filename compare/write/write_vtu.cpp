@@ -73,7 +73,7 @@ void write_grid(std::ostream& out, const cases::HexMesh& mesh, AppendedData& dat
 
 void write_vtu(std::ostream& out, const Comparison& comparison) {
   const cases::HexMesh& mesh = comparison.scene.mesh;
-  const cases::Solution &fem = comparison.fem.solution, &msm = comparison.msm.solution;
+  const cases::Solution &fem = comparison.answers.fem.solution, &msm = comparison.answers.msm.solution;
   AppendedData data;
   std::string points, cells;
   const auto add = [&](const char* side, const cases::Solution& solution) {

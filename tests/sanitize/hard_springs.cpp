@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     hard_case.max_seconds *= slower;
     for (const cases::ExpectedOutcome& expected : hard_case.expected) {
       if (expected.side == cases::Side::fem) continue;
-      const compare::Side side = compare::solve_springs(expected.side, hard_case, 1);
+      const compare::Answer side = compare::solve_springs(expected.side, hard_case, 1);
       const std::vector<std::string> found = compare::misses(hard_case, expected, side);
       std::cout << hard_case.definition.name << ' ' << cases::name_of(expected.side) << ": "
                 << cases::name_of(side.solution.outcome) << ", " << side.solve_seconds << " s" << std::endl;

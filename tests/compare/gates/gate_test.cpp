@@ -48,9 +48,9 @@ TEST_CASE("a measure that is not there, and a value that is not a number, are ne
 
 TEST_CASE("a solve that failed fails its case, even when nothing was expected of that side") {
   auto failed = comparison({expectation(Quantity::msm, {8, 10}), expectation(Quantity::fem, {9, 11})});
-  failed.fem.solution.status = cases::Status::failed;
-  failed.fem.solution.message = "limit point";
-  failed.fem.solution.load_reached = 0.25;
+  failed.answers.fem.solution.status = cases::Status::failed;
+  failed.answers.fem.solution.message = "limit point";
+  failed.answers.fem.solution.load_reached = 0.25;
   failed.measures[0].fem = failed.measures[0].error_percent = std::nullopt;
   const auto result = judge_gates(failed);
   CHECK(result.gates[0].met());

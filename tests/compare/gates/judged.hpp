@@ -25,7 +25,7 @@ inline compare::Comparison comparison(const std::vector<cases::Expectation>& exp
   measure.name = "L";
   measure.kind = cases::MeasureKind::coordinate;
   definition.measures = {measure};
-  result.fem.solution.status = result.msm.solution.status = cases::Status::converged;
+  result.answers.fem.solution.status = result.answers.msm.solution.status = cases::Status::converged;
   result.measures = {{"L", "mm", 10.0, 9.0, -10.0}};
   return result;
 }

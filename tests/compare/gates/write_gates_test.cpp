@@ -28,8 +28,8 @@ std::vector<GatedCase> mixed() {
       2);
   auto second = judged::comparison({});
   second.scene.definition.name = "second";
-  second.msm.solution.status = cases::Status::failed;
-  second.msm.solution.message = "a < b & \"c\"\x01\n50 %";
+  second.answers.msm.solution.status = cases::Status::failed;
+  second.answers.msm.solution.message = "a < b & \"c\"\x01\n50 %";
   return {compare::judge_gates(first), compare::judge_gates(second)};
 }
 

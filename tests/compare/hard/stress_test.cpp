@@ -21,8 +21,8 @@ cases::HardCase allowing(double seconds, int iterations) {
   return hard_case;
 }
 
-compare::Side as_expected() {
-  compare::Side side;
+compare::Answer as_expected() {
+  compare::Answer side;
   side.solution.outcome = cases::Outcome::limit_point;
   side.solution.load_reached = 0.75;
   side.solution.newton_iterations = 10;
@@ -31,7 +31,7 @@ compare::Side as_expected() {
   return side;
 }
 
-std::vector<std::string> found(const compare::Side& side) {
+std::vector<std::string> found(const compare::Answer& side) {
   return misses(allowing(3, 10), limit_point, side);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("a hard case's side that does as expected, to the last second and iter
 }
 
 TEST_CASE("each thing that differs from what a hard case expects is told") {
-  compare::Side side = as_expected();
+  compare::Answer side = as_expected();
   side.solution.outcome = cases::Outcome::stable_equilibrium;
   CHECK(found(side) == std::vector<std::string>{"outcome stable equilibrium, expected limit point"});
   side = as_expected();
@@ -61,7 +61,7 @@ TEST_CASE("each thing that differs from what a hard case expects is told") {
 
 TEST_CASE("what is not a number is never as expected") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  compare::Side side = as_expected();
+  compare::Answer side = as_expected();
   side.solution.load_reached = nan;
   CHECK(found(side).size() == 2); // outside, and not finite
   side = as_expected();
@@ -79,8 +79,8 @@ TEST_CASE("what is not a number is never as expected") {
 }
 
 TEST_CASE("a model that cannot be made is refused, with the reason") {
-  const compare::Side side =
-      compare::or_refused([]() -> compare::Side { throw cases::InputError("no such body"); });
+  const compare::Answer side =
+      compare::or_refused([]() -> compare::Answer { throw cases::InputError("no such body"); });
   CHECK(side.solution.outcome == cases::Outcome::refused);
   CHECK(side.solution.status == cases::Status::failed);
   CHECK(side.solution.message == "no such body");
@@ -90,10 +90,10 @@ TEST_CASE("the hybrid's time is compared with the springs' where both found an e
   compare::StressResult result;
   compare::StressRow springs{limit_point, as_expected(), {}}, hybrid = springs;
   hybrid.expected.side = cases::Side::hybrid;
-  hybrid.side.solve_seconds = 3;
+  hybrid.answer.solve_seconds = 3;
   result.rows = {springs, hybrid};
   CHECK_FALSE(result.hybrid_over_springs().has_value());
-  for (compare::StressRow& row : result.rows) row.side.solution.status = cases::Status::converged;
+  for (compare::StressRow& row : result.rows) row.answer.solution.status = cases::Status::converged;
   CHECK(result.hybrid_over_springs() == 1.5);
   CHECK(result.met());
   result.rows[1].misses = {"something"};

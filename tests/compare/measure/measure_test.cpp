@@ -1,5 +1,5 @@
+#include "compare/gates/judge.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/solve/comparison.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

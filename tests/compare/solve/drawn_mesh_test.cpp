@@ -1,7 +1,7 @@
 // The thesis's bodies drawn for gmsh answer as the boxes of the same cells do.
 
 #include "cases/case/read_case.hpp"
-#include "compare/solve/comparison.hpp"
+#include "compare/gates/comparison.hpp"
 #include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
@@ -32,8 +32,8 @@ void check_same_answers(const std::string& name, const std::vector<std::string>&
     CHECK(largest > 0);
     CHECK(difference <= 1e-10 * largest); // asked for; the residuals are below 1e-10
   };
-  check_side(drawn.fem.solution, box.fem.solution);
-  check_side(drawn.msm.solution, box.msm.solution);
+  check_side(drawn.answers.fem.solution, box.answers.fem.solution);
+  check_side(drawn.answers.msm.solution, box.answers.msm.solution);
 }
 
 } // namespace

@@ -1,14 +1,16 @@
 #include "compare/solve/solve_jobs.hpp"
 
 #include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/side_bytes.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace springproof;
 
-using compare::Comparison;
-using compare::Only;
+using cases::Side;
+using compare::Answers;
+using compare::Solved;
 using compare::SolveJob;
 
 namespace {
@@ -17,17 +19,18 @@ const std::string linear_elastic = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases
 // Two cells to a side: the loads are those of the thesis's nodes.
 const std::vector<std::string> coarse{"body.cells=[2, 2, 2]", "fem.formulation=small_strain"};
 
-SolveJob shear(Only side, std::vector<std::string> more = {}) {
+SolveJob shear(std::optional<Side> only, std::vector<std::string> more = {}) {
   more.insert(more.begin(), coarse.begin(), coarse.end());
-  return {linear_elastic + "cube_shear_small.toml", more, side};
+  return {linear_elastic + "cube_shear_small.toml", more, only};
 }
 
-std::vector<Comparison> solve(const std::vector<SolveJob>& jobs, int n_workers) {
+std::vector<Solved> solve(const std::vector<SolveJob>& jobs, int n_workers) {
   int n_reports = 0;
-  auto solved = compare::solve_jobs(jobs, {n_workers, SPRINGPROOF_PROGRAM}, [&](int done, int all) {
-    CHECK(done == ++n_reports);
-    CHECK(all <= static_cast<int>(jobs.size()));
-  });
+  auto solved =
+      compare::solve_jobs(jobs, compare::solve_fem, {n_workers, SPRINGPROOF_PROGRAM}, [&](int done, int all) {
+        CHECK(done == ++n_reports);
+        CHECK(all <= static_cast<int>(jobs.size()));
+      });
   return solved;
 }
 
@@ -36,17 +39,21 @@ bool is_same(const cases::Solution& a, const cases::Solution& b) {
          a.residual == b.residual && a.unknowns == b.unknowns && a.newton_iterations == b.newton_iterations;
 }
 
+Answers solve_here(const SolveJob& job) {
+  const cases::Scene scene = cases::make_scene(cases::read_case(job.case_file, job.settings));
+  return compare::solve(scene, {job.settings, job.only, job.meshes, ""}, compare::solve_fem);
+}
+
 } // namespace
 
 TEST_CASE("what a worker chose for a case that leaves it open comes back with its numbers") {
   const SolveJob job = shear(
-      Only::fem,
+      Side::fem,
       {"fem.formulation=auto", "load[0].value=[0.00001, 0, 0]",
        R"(expect=[{measure="alpha_1", error_percent=[-50, 50], reference="regression", reason="wide"}])"});
-  const Comparison there = solve({job}, 1).front(),
-                   here = compare::compare_case(cases::read_case(job.case_file, job.settings), Only::fem);
-  REQUIRE(here.scene.definition.fem.formulation == cases::Formulation::small_strain);
-  CHECK(there.scene.definition.fem.formulation == cases::Formulation::small_strain);
+  const Answers there = solve({job}, 1).front().answers, here = solve_here(job);
+  REQUIRE(here.resolved.formulation == cases::Formulation::small_strain);
+  CHECK(there.resolved.formulation == cases::Formulation::small_strain);
   REQUIRE(here.choices.size() == 1);
   REQUIRE(there.choices.size() == 1);
   CHECK(there.choices[0].substr(0, 24) == here.choices[0].substr(0, 24)); // seconds stand behind
@@ -54,21 +61,15 @@ TEST_CASE("what a worker chose for a case that leaves it open comes back with it
 }
 
 TEST_CASE("workers give the numbers of this process to the last bit, one worker or several") {
-  const std::vector<SolveJob> jobs{shear(Only::both), shear(Only::msm, {"msm.design=moduli"}),
-                                   shear(Only::fem)};
+  const std::vector<SolveJob> jobs{shear(std::nullopt), shear(Side::msm, {"msm.design=moduli"}),
+                                   shear(Side::fem)};
   const auto by_one = solve(jobs, 1), by_three = solve(jobs, 3);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     CAPTURE(j);
-    const Comparison here =
-        compare::compare_case(cases::read_case(jobs[j].case_file, jobs[j].settings), jobs[j].side);
-    for (const Comparison* there : {&by_one[j], &by_three[j]}) {
+    const Answers here = solve_here(jobs[j]);
+    for (const Answers* there : {&by_one[j].answers, &by_three[j].answers}) {
       CHECK(is_same(there->fem.solution, here.fem.solution));
       CHECK(is_same(there->msm.solution, here.msm.solution));
-      REQUIRE(there->measures.size() == here.measures.size());
-      for (std::size_t m = 0; m < here.measures.size(); ++m) {
-        CHECK(there->measures[m].fem == here.measures[m].fem);
-        CHECK(there->measures[m].msm == here.measures[m].msm);
-      }
       REQUIRE(there->design.has_value() == here.design.has_value());
       if (here.design) CHECK(there->design->stiffness.edge == here.design->stiffness.edge);
     }
@@ -77,58 +78,60 @@ TEST_CASE("workers give the numbers of this process to the last bit, one worker 
 
 TEST_CASE(
     "settings that make no case, and loads that cannot be carried, fail their own side with the reason") {
-  const auto solved = solve({shear(Only::msm, {"msm.design=hybrid", "material.poissons_ratio=0.2"}),
-                             shear(Only::msm, {"msm.design=given", "msm.stiffness=[0, 0, 30]"}),
-                             {linear_elastic + "no_such_case.toml", {}, Only::fem},
-                             shear(Only::msm)},
+  const auto solved = solve({shear(Side::msm, {"msm.design=hybrid", "material.poissons_ratio=0.2"}),
+                             shear(Side::msm, {"msm.design=given", "msm.stiffness=[0, 0, 30]"}),
+                             {linear_elastic + "no_such_case.toml", {}, Side::fem},
+                             shear(Side::msm)},
                             2);
-  for (const std::size_t j : {0, 1}) CHECK(solved[j].msm.solution.status == cases::Status::failed);
-  CHECK_THAT(solved[0].msm.solution.message, Catch::Contains("0.25"));
-  CHECK_FALSE(solved[1].msm.solution.message.empty()); // diagonals alone are a mechanism
-  CHECK(solved[2].fem.solution.status == cases::Status::failed);
-  CHECK(solved[2].msm.solution.status == cases::Status::skipped);
-  CHECK(solved[3].msm.solution.status == cases::Status::converged);
+  for (const std::size_t j : {0, 1}) CHECK(solved[j].answers.msm.solution.status == cases::Status::failed);
+  CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("0.25"));
+  CHECK_FALSE(solved[1].answers.msm.solution.message.empty()); // diagonals alone are a mechanism
+  CHECK(solved[2].answers.fem.solution.status == cases::Status::failed);
+  CHECK(solved[2].answers.msm.solution.status == cases::Status::skipped);
+  CHECK(solved[3].answers.msm.solution.status == cases::Status::converged);
 }
 
 TEST_CASE("each job is told as soon as it is solved, with its numbers") {
   std::vector<std::size_t> told;
   compare::SolveOptions options{1, SPRINGPROOF_PROGRAM};
-  options.on_solved = [&](std::size_t job, const Comparison& comparison) {
+  options.on_solved = [&](std::size_t job, const Solved& solved) {
     told.push_back(job);
-    CHECK(comparison.measures[0].msm);
+    CHECK(solved.answers.msm.solution.status == cases::Status::converged);
   };
-  compare::solve_jobs({shear(Only::msm), shear(Only::msm, {"msm.design=moduli"})}, options, [](int, int) {});
+  compare::solve_jobs({shear(Side::msm), shear(Side::msm, {"msm.design=moduli"})}, compare::solve_fem,
+                      options, [](int, int) {});
   CHECK_THAT(told, Catch::UnorderedEquals<std::size_t>({0, 1}));
 }
 
 TEST_CASE("a worker that crashes is a failed side that says so") {
-  const auto solved = compare::solve_jobs({shear(Only::msm)}, {1, "false"}, [](int, int) {});
-  CHECK(solved[0].msm.solution.status == cases::Status::failed);
-  CHECK_THAT(solved[0].msm.solution.message, Catch::Contains("status 1"));
-  CHECK_FALSE(solved[0].measures[0].msm);
+  const auto solved =
+      compare::solve_jobs({shear(Side::msm)}, compare::solve_fem, {1, "false"}, [](int, int) {});
+  CHECK(solved[0].answers.msm.solution.status == cases::Status::failed);
+  CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("status 1"));
 }
 
 TEST_CASE("broken bytes are refused, whole ones come back as they were") {
-  Comparison before;
+  Answers before;
   before.msm.solution.message = "with a\nline break";
   before.msm.solution.displacement = {{1, 2, 3}, {-0.0, 5e-324, 1e308}};
   before.msm.solution.negative_eigenvalues = 2;
   before.design = msm::DesignResult{};
   before.design->warnings = {"one", ""};
-  before.mesh_study =
-      compare::MeshStudy{{0, 1}, {8, 27}, {{"L", {1, 2}, compare::MeshLimit{2, 3, 4}, 5.0, ""}}};
+  before.refined = compare::RefinedMeshes{{0, 1}, {before.msm.solution, {}}, "because"};
+  before.resolved.refine = 2;
   before.peer = compare::Peer{"CalculiX", {}, 1e-7};
   const std::string bytes = compare::to_bytes(before);
-  Comparison after;
-  compare::from_bytes(bytes, after);
+  const Answers after = compare::from_bytes(bytes);
   CHECK(after.msm.solution.message == before.msm.solution.message);
   CHECK(after.msm.solution.displacement == before.msm.solution.displacement);
   CHECK(after.msm.solution.negative_eigenvalues == 2);
   CHECK_FALSE(after.msm.solution.lowest_eigenvalue);
   CHECK(after.design->warnings == before.design->warnings);
-  CHECK(after.mesh_study->unknowns == before.mesh_study->unknowns);
-  CHECK(after.mesh_study->measures[0].limit->extrapolated == 3);
+  CHECK(after.refined->refine == before.refined->refine);
+  CHECK(after.refined->solutions.at(0).displacement == before.msm.solution.displacement);
+  CHECK(after.refined->reason == "because");
+  CHECK(after.resolved.refine == 2);
   CHECK(after.peer->largest_difference == 1e-7);
-  CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1), after), std::exception);
-  CHECK_THROWS_AS(compare::from_bytes(bytes + "x", after), std::exception);
+  CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1)), std::exception);
+  CHECK_THROWS_AS(compare::from_bytes(bytes + "x"), std::exception);
 }

@@ -25,11 +25,11 @@ compare::Comparison one_cell_comparison() {
   definition.name = "cell";
   definition.body = cases::Box{{1, 1, 1}, {1, 1, 1}};
   comparison.scene = cases::make_scene(definition);
-  comparison.msm.solution.status = cases::Status::converged;
-  for (int n = 0; n < 8; ++n) comparison.msm.solution.displacement.emplace_back(0.25 * n, 0, -1);
-  comparison.msm.solution.cell_volume = {1.5};
-  comparison.fem.solution.status = cases::Status::failed;
-  comparison.fem.solution.message = "limit point";
+  comparison.answers.msm.solution.status = cases::Status::converged;
+  for (int n = 0; n < 8; ++n) comparison.answers.msm.solution.displacement.emplace_back(0.25 * n, 0, -1);
+  comparison.answers.msm.solution.cell_volume = {1.5};
+  comparison.answers.fem.solution.status = cases::Status::failed;
+  comparison.answers.fem.solution.message = "limit point";
   comparison.measures = {{"L", "mm", std::nullopt, 2.5, std::nullopt}};
   return comparison;
 }

@@ -1,9 +1,9 @@
-#include "compare/solve/auto_fem.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/solve/solve_side.hpp"
-#include "fem_reference/model.hpp"
+#include "compare/solve/refined_meshes.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -17,17 +17,12 @@ namespace {
 
 constexpr double largest_unknowns = 1.5e6; ///< of a mesh that is refined to by itself: minutes and gigabytes
 
-Side solve_as_given(const cases::Scene& scene) {
-  return solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-                    [](fem_reference::Model& model) { return model.solve(); });
+bool has_converged(const Answer& answer) {
+  return answer.solution.status == cases::Status::converged;
 }
 
-bool has_converged(const Side& side) {
-  return side.solution.status == cases::Status::converged;
-}
-
-double seconds(const Side& side) {
-  return side.setup_seconds + side.solve_seconds;
+double seconds(const Answer& answer) {
+  return answer.setup_seconds + answer.solve_seconds;
 }
 
 /// Columns are the trilinear map's derivatives at the cell's centre, mm.
@@ -59,28 +54,28 @@ double tolerated_by_all(const cases::Scene& scene, const cases::Solution& soluti
   return least;
 }
 
-/// The linear solve, when it is good enough; the definition then has small strain.
-std::optional<Side> try_small_strain(cases::Scene& scene, std::vector<std::string>& choices) {
-  const cases::Formulation finite = scene.definition.fem.formulation;
-  scene.definition.fem.formulation = cases::Formulation::small_strain;
-  Side side = solve_as_given(scene);
-  if (!has_converged(side)) {
-    scene.definition.fem.formulation = finite;
-    choices.push_back(fmt::format("formulation {}: the linear solve that estimates strains failed: {}",
-                                  cases::name_of(finite), side.solution.message));
-    return std::nullopt;
+/// The linear solve, with small strain chosen, when it is good enough; else no answer yet, and why.
+FemAnswer try_small_strain(const cases::Scene& scene) {
+  cases::Fem linear = scene.definition.fem;
+  linear.formulation = cases::Formulation::small_strain;
+  FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
+  const std::string finite = cases::name_of(scene.definition.fem.formulation);
+  if (!has_converged(tried.answer)) {
+    return {{},
+            scene.definition.fem,
+            {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
+                         tried.answer.solution.message)}};
   }
-  const double gradient = 100 * largest_gradient(scene.mesh, side.solution.displacement);
-  const double tolerated = tolerated_by_all(scene, side.solution);
+  const double gradient = 100 * largest_gradient(scene.mesh, tried.answer.solution.displacement);
+  const double tolerated = tolerated_by_all(scene, tried.answer.solution);
   const bool is_small = gradient < tolerated;
-  if (!is_small) scene.definition.fem.formulation = finite;
-  choices.push_back(fmt::format(
+  tried.choices.push_back(fmt::format(
       "formulation {}: the largest displacement gradient of a linear solve ({:.2f} s) is {:.3g} %, {} "
       "the {:.3g} % that the narrowest expectation tolerates",
-      cases::name_of(scene.definition.fem.formulation), seconds(side), gradient,
+      is_small ? cases::name_of(linear.formulation) : finite, seconds(tried.answer), gradient,
       is_small ? "below" : "not below", tolerated));
-  if (is_small) return side;
-  return std::nullopt;
+  if (is_small) return tried;
+  return {{}, scene.definition.fem, tried.choices};
 }
 
 /// The expectation whose measure's error bar is furthest above what is tolerated, as a sentence; empty when
@@ -103,40 +98,39 @@ std::string furthest_off(const cases::Scene& scene, const std::vector<cases::Sol
   return which;
 }
 
-/// Refines from the first side on; answers the side of the last mesh.
-Side refine_until_accurate(cases::Scene& scene, Side side, std::vector<std::string>& choices) {
-  std::vector<cases::Solution> solutions{side.solution};
-  double total = seconds(side);
+/// Refines from the first answer on, to that of the last mesh.
+void refine_until_accurate(const cases::Scene& scene, FemAnswer& fem) {
+  std::vector<cases::Solution> solutions{fem.answer.solution};
+  double total = seconds(fem.answer);
   std::string off = furthest_off(scene, solutions), gave_up;
   while (!off.empty()) {
-    if (8. * double(side.solution.unknowns) > largest_unknowns) {
-      gave_up = fmt::format("; the next mesh would have about {:.2g} unknowns",
-                            8. * double(side.solution.unknowns));
+    const double next_unknowns = 8. * double(fem.answer.solution.unknowns);
+    if (next_unknowns > largest_unknowns) {
+      gave_up = fmt::format("; the next mesh would have about {:.2g} unknowns", next_unknowns);
       break;
     }
-    cases::Scene finer = scene;
-    ++finer.definition.fem.refine;
-    const Side next = solve_as_given(finer);
-    total += seconds(next);
-    if (!has_converged(next)) {
-      gave_up = "; the next mesh was not solved: " + next.solution.message;
+    cases::Fem finer = fem.resolved;
+    ++finer.refine;
+    const FemAnswer next = solve_fem_as_given(with_fem(scene, finer));
+    total += seconds(next.answer);
+    if (!has_converged(next.answer)) {
+      gave_up = "; the next mesh was not solved: " + next.answer.solution.message;
       break;
     }
-    scene.definition.fem.refine = finer.definition.fem.refine;
-    side = next;
-    solutions.push_back(next.solution);
+    fem.resolved = finer;
+    fem.answer = next.answer;
+    solutions.push_back(next.answer.solution);
     off = furthest_off(scene, solutions);
   }
   const std::string cost = fmt::format("{} meshes, {} unknowns in the last, {:.2f} s in all",
-                                       solutions.size(), side.solution.unknowns, total);
-  const int refine = scene.definition.fem.refine;
-  choices.push_back(
+                                       solutions.size(), fem.answer.solution.unknowns, total);
+  const int refine = fem.resolved.refine;
+  fem.choices.push_back(
       off.empty()
           ? fmt::format(
                 "accuracy refine = {}: every error bar is below a quarter of its expectation's width ({})",
                 refine, cost)
           : fmt::format("accuracy NOT REACHED at refine = {}: {} ({}){}", refine, off, cost, gave_up));
-  return side;
 }
 
 } // namespace
@@ -157,17 +151,17 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
   return expectation.quantity == cases::Quantity::fem ? 100 * width / std::abs(fem) / 4 : width / 4;
 }
 
-Side solve_fem(cases::Scene& scene, std::vector<std::string>& choices) {
-  const cases::Fem& fem = scene.definition.fem;
-  std::optional<Side> side;
-  if (fem.has_auto_formulation) side = try_small_strain(scene, choices);
-  if (!side) side = solve_as_given(scene);
-  if (!fem.has_auto_accuracy || !has_converged(*side)) return *side;
-  if (const auto reason = reason_without_continuum_limit(scene)) {
-    choices.push_back("accuracy refine = 0: " + *reason);
-    return *side;
-  }
-  return refine_until_accurate(scene, *side, choices);
+FemAnswer solve_fem(const cases::Scene& scene) {
+  const cases::Fem& asked = scene.definition.fem;
+  FemAnswer fem{{}, asked, {}};
+  if (asked.has_auto_formulation) fem = try_small_strain(scene);
+  if (!has_converged(fem.answer)) fem.answer = solve_fem_as_given(scene).answer;
+  if (!asked.has_auto_accuracy || !has_converged(fem.answer)) return fem;
+  if (const auto reason = reason_without_continuum_limit(scene))
+    fem.choices.push_back("accuracy refine = 0: " + *reason);
+  else
+    refine_until_accurate(scene, fem);
+  return fem;
 }
 
 } // namespace springproof::compare

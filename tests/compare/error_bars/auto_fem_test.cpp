@@ -1,4 +1,4 @@
-#include "compare/solve/auto_fem.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -36,8 +36,8 @@ cases::Case block(double traction, double width) {
   return definition;
 }
 
-double shift(const cases::Scene& scene, const Side& side) {
-  return side.solution
+double shift(const cases::Scene& scene, const Answer& answer) {
+  return answer.solution
       .displacement[static_cast<std::size_t>(
           cases::select_node(scene.mesh, scene.definition.measures[0].node))]
       .x();
@@ -66,18 +66,17 @@ TEST_CASE("small strain is chosen for small strains alone, and its solve is the 
        {std::pair(1e-3, cases::Formulation::small_strain), std::pair(0.3, cases::Formulation::log_strain)}) {
     cases::Scene scene = cases::make_scene(block(traction, 8));
     scene.definition.fem.has_auto_formulation = true;
-    std::vector<std::string> choices;
-    const Side chosen = solve_fem(scene, choices);
-    CHECK(scene.definition.fem.formulation == formulation);
-    REQUIRE(choices.size() == 1);
-    CHECK_THAT(choices[0], Catch::Contains("largest displacement gradient"));
+    const FemAnswer chosen = solve_fem(scene);
+    CHECK(chosen.resolved.formulation == formulation);
+    REQUIRE(chosen.choices.size() == 1);
+    CHECK_THAT(chosen.choices[0], Catch::Contains("largest displacement gradient"));
     cases::Scene given = cases::make_scene(block(traction, 8));
     given.definition.fem.formulation = formulation;
-    CHECK(shift(scene, chosen) == shift(given, solve_fem(given, choices)));
+    CHECK(shift(scene, chosen.answer) == shift(given, solve_fem_as_given(given).answer));
     if (formulation == cases::Formulation::log_strain) continue;
     given.definition.fem.formulation = cases::Formulation::log_strain;
-    const double finite = shift(given, solve_fem(given, choices));
-    CHECK(std::abs(shift(scene, chosen) / finite - 1) < 0.02); // what the expectation tolerates
+    const double finite = shift(given, solve_fem_as_given(given).answer);
+    CHECK(std::abs(shift(scene, chosen.answer) / finite - 1) < 0.02); // what the expectation tolerates
   }
 }
 
@@ -87,27 +86,23 @@ TEST_CASE("refinement stops at the first mesh that is accurate enough, and says 
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.refine = 3;
   cases::Scene reference = cases::make_scene(definition);
-  std::vector<std::string> none;
-  const double limit = shift(reference, solve_fem(reference, none));
+  const double limit = shift(reference, solve_fem_as_given(reference).answer);
   definition.fem.refine = 0;
   definition.fem.has_auto_accuracy = true;
   int last = -1;
   for (const double width : {100., 40., 10.}) {
     definition.expectations[0].interval = {0, width};
-    cases::Scene scene = cases::make_scene(definition);
-    std::vector<std::string> choices;
-    const Side side = solve_fem(scene, choices);
-    CAPTURE(width, choices);
-    CHECK(scene.definition.fem.refine >= last);
-    CHECK(100 * std::abs(shift(scene, side) / limit - 1) < width / 4);
-    last = scene.definition.fem.refine;
+    const cases::Scene scene = cases::make_scene(definition);
+    const FemAnswer fem = solve_fem(scene);
+    CAPTURE(width, fem.choices);
+    CHECK(fem.resolved.refine >= last);
+    CHECK(100 * std::abs(shift(scene, fem.answer) / limit - 1) < width / 4);
+    last = fem.resolved.refine;
   }
   CHECK(last > 1);
   definition.loads[0].kind = cases::LoadKind::nodal_force; // has no limit
-  cases::Scene scene = cases::make_scene(definition);
-  std::vector<std::string> choices;
-  solve_fem(scene, choices);
-  CHECK(scene.definition.fem.refine == 0);
-  REQUIRE(choices.size() == 1);
-  CHECK_THAT(choices[0], Catch::Contains("no continuum limit"));
+  const FemAnswer fem = solve_fem(cases::make_scene(definition));
+  CHECK(fem.resolved.refine == 0);
+  REQUIRE(fem.choices.size() == 1);
+  CHECK_THAT(fem.choices[0], Catch::Contains("no continuum limit"));
 }

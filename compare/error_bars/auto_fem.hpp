@@ -1,9 +1,6 @@
 #pragma once
 
-#include "compare/solve/comparison.hpp"
-
-#include <string>
-#include <vector>
+#include "compare/solve/solve.hpp"
 
 /// The finite elements' side of cases that leave its formulation or its refinement open: as accurate as the
 /// case's expectations ask for, and no more.
@@ -19,14 +16,13 @@ double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vec
 double tolerated_error_percent(const cases::Expectation& expectation, double fem);
 
 /// Solves the finite elements' side, with the formulation and refinement of the scene's definition or, where
-/// that says "auto", with those that are found; these are left in the definition.
+/// that says "auto", with those that are found.
 ///
 /// formulation: a linear solve estimates the largest gradient; when that is below what the narrowest
-/// expectation tolerates, small strain it is, and that solve is the answer. accuracy: refined until the error
-/// bar of each measure that is expected something of (finest_error_percent) is below what its expectations
-/// tolerate; concentrated forces have no limit to refine towards, and keep the body's own mesh. Collective
-/// over MPI_COMM_WORLD.
-/// @param choices  a line for everything that was chosen, with the reason and the cost
-Side solve_fem(cases::Scene& scene, std::vector<std::string>& choices);
+/// expectation tolerates, small strain is chosen, and that solve is the answer. accuracy: refined until the
+/// error bar of each measure that is expected something of (finest_error_percent) is below what its
+/// expectations tolerate; concentrated forces have no limit to refine towards, and keep the body's own mesh.
+/// Collective over MPI_COMM_WORLD.
+FemAnswer solve_fem(const cases::Scene& scene);
 
 } // namespace springproof::compare

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/case/side.hpp"
+#include "cases/case/solution.hpp"
+#include "msm/design/design.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace springproof::compare {
+
+/// One model's answer to a case, and what it took. Wall-clock seconds.
+struct Answer {
+  cases::Solution solution;
+  double setup_seconds = 0; ///< design, mesh, degrees of freedom, pattern
+  double solve_seconds = 0; ///< from rest to equilibrium
+};
+
+/// Another program's answer to the finite elements' question.
+struct Peer {
+  std::string program;
+  Answer answer; ///< skipped when the program is absent or cannot express the case
+  /// Largest distance of a node's two displaced positions (finite elements, peer) over the largest
+  /// displacement.
+  std::optional<double> largest_difference;
+};
+
+/// The finite elements on uniformly refined meshes, the case's own among them, from coarse to fine.
+struct RefinedMeshes {
+  std::vector<int> refine; ///< refinements of the body's mesh, ascending
+  std::vector<cases::Solution> solutions;
+  std::string reason; ///< why there are no solutions; empty when there are
+};
+
+/// All that solving a case has found. Produced whole by solve(), and not changed afterwards.
+struct Answers {
+  cases::Fem resolved;              ///< [fem] with what "auto" was found to mean
+  std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
+  Answer fem, msm;
+  std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
+  std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
+  std::optional<RefinedMeshes> refined;    ///< when asked for
+  std::optional<Peer> peer;                ///< when asked for
+
+  /// A side that was asked for did not converge.
+  bool failed() const {
+    const auto is_failed = [](const Answer& a) { return a.solution.status == cases::Status::failed; };
+    return is_failed(fem) || is_failed(msm) || (peer && is_failed(peer->answer));
+  }
+};
+
+/// What is asked of a case, besides what its file says.
+struct Request {
+  std::vector<std::string> settings; ///< of `--set`: the case has them already
+  std::optional<cases::Side> only;   ///< absent: both sides
+  int meshes = 0;                    ///< of the finite elements' own error; 0: none
+  std::string peer;                  ///< a program that is asked too; empty: none
+  bool asks(cases::Side side) const { return !only || *only == side; }
+};
+
+} // namespace springproof::compare

@@ -1,0 +1,54 @@
+#include "compare/solve/solve.hpp"
+
+#include "compare/provenance/mpi_rank.hpp"
+#include "compare/solve/design.hpp"
+#include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve_side.hpp"
+#include "fem_reference/model.hpp"
+#include "msm/model.hpp"
+#include "msm/snes/snes.hpp"
+
+namespace springproof::compare {
+
+namespace {
+
+/// PETSc's solver takes all ranks, the others rank 0 alone.
+Answer solve_springs(const cases::Scene& scene, std::optional<msm::DesignResult>& design) {
+  const auto designed = [&] {
+    design = design_for(scene);
+    return stiffness_of_cells(*design);
+  };
+  if (scene.definition.msm.solver == cases::Solver::snes)
+    return solve_side(designed, [&](const std::vector<msm::CellStiffness>& stiffness) {
+      return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
+    });
+  if (mpi_rank() != 0) return {};
+  return solve_side([&] { return msm::Model(scene, designed()); },
+                    [](msm::Model& model) { return model.solve(); });
+}
+
+} // namespace
+
+FemAnswer solve_fem_as_given(const cases::Scene& scene) {
+  return {solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
+                     [](fem_reference::Model& model) { return model.solve(); }),
+          scene.definition.fem,
+          {}};
+}
+
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem) {
+  Answers answers;
+  answers.resolved = scene.definition.fem;
+  if (request.asks(cases::Side::fem)) {
+    FemAnswer fem = solve_fem(scene);
+    answers.fem = std::move(fem.answer);
+    answers.resolved = fem.resolved;
+    answers.choices = std::move(fem.choices);
+  }
+  if (request.asks(cases::Side::msm)) answers.msm = solve_springs(scene, answers.design);
+  if (request.meshes > 0)
+    answers.refined = solve_refined(with_fem(scene, answers.resolved), answers.fem.solution, request.meshes);
+  return answers;
+}
+
+} // namespace springproof::compare
