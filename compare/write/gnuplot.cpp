@@ -11,7 +11,7 @@ namespace springproof::compare {
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
@@ -49,8 +49,8 @@ void draw(const std::string& folder, const std::string& name, const std::string&
                  format, width, height, style, name, suffix, script);
     }
   });
-  const std::string command = fmt::format("cd {} && gnuplot {} 2>{}", quoted(folder), quoted(name + ".gp"),
-                                          quoted(name + ".gnuplot.log"));
+  const std::string command = fmt::format("cd {} && gnuplot {} 2>{}", shell_quoted(folder),
+                                          shell_quoted(name + ".gp"), shell_quoted(name + ".gnuplot.log"));
   if (std::system(command.c_str()) != 0)
     throw cases::InputError(folder + "/" + name + ".gp: gnuplot could not draw it; see " + name +
                             ".gnuplot.log");
