@@ -3,6 +3,7 @@
 #include "cases/case/index.hpp"
 #include "fem_reference/space.hpp"
 
+#include <algorithm>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <set>

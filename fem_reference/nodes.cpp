@@ -4,6 +4,7 @@
 #include "fem_reference/space.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 

@@ -1,5 +1,6 @@
 #include "cases/case/read_boundary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <sstream>

@@ -7,6 +7,7 @@
 #include "cases/case/read_models.hpp"
 #include "cases/case/read_stress.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

@@ -2,6 +2,7 @@
 
 #include "cases/case/read_boundary.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace springproof::cases {

@@ -1,6 +1,7 @@
 #include "compare/modes/eigenspaces.hpp"
 
 #include <Eigen/SVD>
+#include <cmath>
 #include <cstdlib>
 
 namespace springproof::compare {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ceres/ceres.h>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace springproof::msm {

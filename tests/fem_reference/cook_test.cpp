@@ -2,6 +2,7 @@
 
 #include "scenes.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>

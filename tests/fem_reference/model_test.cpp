@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 

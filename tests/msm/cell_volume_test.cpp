@@ -3,6 +3,7 @@
 #include "cases/mesh/hex_mesh.hpp"
 #include "tests/support/bodies.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace springproof;

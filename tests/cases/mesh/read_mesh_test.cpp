@@ -3,6 +3,7 @@
 #include "cases/scene/scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fmt/format.h>

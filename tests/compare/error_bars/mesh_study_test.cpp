@@ -4,6 +4,7 @@
 #include "fem_reference/model.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 

@@ -3,6 +3,8 @@
 #include "cases/mesh/hex_mesh.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
 
 using namespace springproof;
 

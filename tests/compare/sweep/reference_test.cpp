@@ -4,6 +4,7 @@
 #include "compare/sweep/box_interpolation.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 

@@ -1,6 +1,7 @@
 #include "compare/sweep/sentences.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 

@@ -7,7 +7,9 @@
 #include "compare/sweep/write_sweep.hpp"
 #include "fem_reference/model.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
