@@ -3,7 +3,6 @@
 #include "cases/case/index.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace springproof::fem_reference {
 
@@ -14,9 +13,8 @@ Assembly::Assembly(const Discretisation& discretisation, const std::vector<Formu
   for (const Formulation& formulation : formulations)
     kernels_.emplace_back(discretisation.element, formulation);
   const std::size_t n_dofs = 3 * index(discretisation.nodes.per_cell);
-  volume_residual_.resize(index(discretisation.nodes.n_cells) *
-                          index(discretisation.element.n_pressure_modes));
-  pressure_residual_.resize(n_pressures());
+  pressure_residual_.resize(index(discretisation.nodes.n_cells) *
+                            index(discretisation.element.n_pressure_modes));
   pressure_slope_.resize(n_pressures() * n_dofs);
   cell_displacement_.resize(n_dofs);
   rows_.resize(n_dofs);
@@ -27,22 +25,21 @@ std::size_t Assembly::dof(int cell, std::size_t k) const {
   return 3 * index(discretisation_.nodes.of_cell[index(cell) * n + k % n]) + k / n;
 }
 
-const CellResult& Assembly::evaluate(int cell, const LocalForm& displacement, const State& state,
-                                     Wanted wanted) {
+const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted) {
   const auto& d = discretisation_;
   const auto n = index(d.nodes.per_cell);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t i = 0; i < 3; ++i)
-      cell_displacement_[3 * a + i] = displacement[3 * index(d.nodes.of_cell[index(cell) * n + a]) + i];
+      cell_displacement_[3 * a + i] = state.data()[3 * index(d.nodes.of_cell[index(cell) * n + a]) + i];
   const auto& material = d.material_of_cell;
   return kernels_[material.empty() ? 0 : index(material[index(cell)])].evaluate(
       d.geometry.of(cell), cell_displacement_.data(),
-      state.pressure.data() + cell * d.element.n_pressure_modes, wanted);
+      state.data() + n_displacements() + cell * d.element.n_pressure_modes, wanted);
 }
 
 /// Rows and columns of constrained degrees of freedom are left out.
 void Assembly::add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
-                           const LocalForm& condensed) {
+                           const WriteEntries& condensed) {
   const std::size_t n_dofs = rows_.size();
   for (std::size_t k = 0; k < n_dofs; ++k) {
     rows_[k] = static_cast<PetscInt>(dof(cell, k));
@@ -76,36 +73,33 @@ Assembly::CellChecks Assembly::assemble(const State& state, const std::vector<do
       if (d.constraints.is_constrained[index(i)]) check(MatSetValueLocal(tangent(), i, i, 1, ADD_VALUES));
   }
   {
-    const LocalForm displacement(state.displacement.get()), plain(force), with_pressures(condensed);
-    plain.set_zero();
-    if (wants_tangent) with_pressures.set_zero();
+    const WriteEntries plain(force), with_pressures(condensed);
+    std::fill_n(plain.data(), n_displacements(), 0.);
+    if (wants_tangent) std::fill_n(with_pressures.data(), n_displacements(), 0.);
     for (int cell = 0; cell < d.nodes.n_cells && checks.valid; ++cell) {
-      const CellResult& result = evaluate(cell, displacement, state, wanted);
+      const CellResult& result = evaluate(cell, state, wanted);
       checks.valid = result.valid;
       if (!result.valid) break;
       checks.volume_mismatch = std::max(checks.volume_mismatch, result.volume_mismatch);
-      std::copy(result.volume_residual.begin(), result.volume_residual.end(),
-                volume_residual_.begin() + cell * d.element.n_pressure_modes);
       for (std::size_t k = 0; k < rows_.size(); ++k) plain[dof(cell, k)] += result.plain_force[k];
       if (wants_tangent) add_tangent(cell, result, gap, with_pressures);
     }
   }
-  add_ghosts(force);
+  mechanics::petsc::add_ghosts(force);
   if (!wants_tangent) return checks;
-  add_ghosts(condensed);
+  mechanics::petsc::add_ghosts(condensed);
   check(MatAssemblyBegin(tangent(), MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(tangent(), MAT_FINAL_ASSEMBLY));
   return checks;
 }
 
 void Assembly::complete_correction(State& correction) const {
-  const LocalForm displacement(correction.displacement.get());
   const std::size_t n_dofs = rows_.size(), n_modes = index(discretisation_.element.n_pressure_modes);
   for (std::size_t m = 0; m < n_pressures(); ++m) {
     double change = pressure_residual_[m];
     for (std::size_t k = 0; k < n_dofs; ++k)
-      change += pressure_slope_[m * n_dofs + k] * displacement[dof(static_cast<int>(m / n_modes), k)];
-    correction.pressure[m] = change;
+      change += pressure_slope_[m * n_dofs + k] * correction.data()[dof(static_cast<int>(m / n_modes), k)];
+    correction.data()[n_displacements() + m] = change;
   }
 }
 
@@ -113,16 +107,10 @@ void Assembly::pressures_are_balanced() {
   std::fill(pressure_residual_.begin(), pressure_residual_.end(), 0.);
 }
 
-double Assembly::pressure_work(const State& correction) const {
-  return std::inner_product(volume_residual_.begin(), volume_residual_.end(), correction.pressure.begin(),
-                            0.);
-}
-
 std::vector<double> Assembly::cell_volumes(const State& state) {
-  const LocalForm displacement(state.displacement.get());
   std::vector<double> volumes;
   for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
-    volumes.push_back(evaluate(cell, displacement, state, Wanted::stress).volume);
+    volumes.push_back(evaluate(cell, state, Wanted::stress).volume);
   return volumes;
 }
 

@@ -1,15 +1,13 @@
 #pragma once
 
 #include "fem_reference/discretisation.hpp"
-#include "fem_reference/ghosts.hpp"
+#include "mechanics/equilibrium/nonlinear_problem.hpp"
 
 namespace springproof::fem_reference {
 
-/// Displacement of every degree of freedom (ghosts current) and the pressures of this rank's cells.
-struct State {
-  Vector displacement;          ///< mm
-  std::vector<double> pressure; ///< MPa, n_pressure_modes per cell; empty without modes
-};
+/// Displacement of every local degree of freedom (ghosts current, mm), then the pressures of this rank's
+/// cells (MPa, n_pressure_modes per cell).
+using State = mechanics::Vector;
 
 /// The loop over cells: internal forces, the assembled tangent, and what the condensed pressures need.
 class Assembly {
@@ -30,30 +28,28 @@ class Assembly {
   CellChecks assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
                       Vec condensed);
 
-  /// The pressures that belong to a correction's displacement (ghosts current).
+  /// Sets the pressures that belong to a correction's displacement.
   void complete_correction(State& correction) const;
   /// For a linear body's next correction: the pressures of the state it starts from are balanced.
   void pressures_are_balanced();
-  /// Work of this rank's volume residuals on a correction's pressures, N mm.
-  double pressure_work(const State& correction) const;
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state);
 
-  std::size_t n_pressures() const { return volume_residual_.size(); }
+  std::size_t n_pressures() const { return pressure_residual_.size(); }
   Mat tangent() const { return tangent_.get(); }
 
  private:
-  const CellResult& evaluate(int cell, const LocalForm& displacement, const State& state, Wanted wanted);
+  const CellResult& evaluate(int cell, const State& state, Wanted wanted);
   void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
-                   const LocalForm& condensed);
+                   const WriteEntries& condensed);
   /// Local degree of freedom k of a cell, in the order of its forces.
   std::size_t dof(int cell, std::size_t k) const;
+  std::size_t n_displacements() const { return discretisation_.constraints.is_constrained.size(); }
 
   const Discretisation& discretisation_;
   std::vector<CellKernel> kernels_; ///< one for each material
   Matrix tangent_;
   std::vector<double> pressure_residual_, pressure_slope_; ///< C^-1 R and C^-1 B of every cell
-  std::vector<double> volume_residual_;                    ///< R of every cell, mm³
   std::vector<double> cell_displacement_;
   std::vector<PetscInt> rows_;
 };

@@ -1,7 +1,7 @@
 #include "fem_reference/model.hpp"
 
 #include "cases/case/index.hpp"
-#include "fem_reference/load_path.hpp"
+#include "fem_reference/equations.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -27,24 +27,33 @@ void sum_over_ranks(std::vector<double>& values, MPI_Comm communicator) {
 
 } // namespace
 
+mechanics::EquilibriumSettings default_settings() {
+  mechanics::EquilibriumSettings settings;
+  settings.tolerance = 1e-10;
+  settings.smallest_load_step = 1. / 512;
+  settings.max_newton_per_step = 14;
+  settings.easy_newton_per_step = 6;
+  settings.max_convexified_per_step = 0; // the tangent is the exact one
+  settings.max_newton_iterations = 300;
+  settings.stability = mechanics::Stability::report;
+  return settings;
+}
+
 struct Model::Implementation {
   Implementation(const cases::Scene& the_scene, MPI_Comm communicator)
       : scene(the_scene), formulations(formulations_of(scene)),
         discretisation(cases::refine(scene, scene.definition.fem.refine),
                        element_type(scene.definition.fem, formulations.front()), {}, communicator),
-        equilibrium(discretisation, formulations),
-        solver(discretisation, equilibrium.tangent(), formulations.front().symmetry),
-        last(equilibrium.rest()) {}
+        equations(discretisation, formulations), last(equations.rest()) {}
 
   std::vector<Eigen::Vector3d> body_displacement(const State& state) const;
   std::vector<double> body_cell_volumes(const State& state);
-  cases::Solution solve(const LoadSteps& steps, Stability stability);
+  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings);
 
   cases::Scene scene;                    ///< on the body's own mesh
   std::vector<Formulation> formulations; ///< one for each of the scene's materials
   Discretisation discretisation;
-  Equilibrium equilibrium;
-  LinearSolver solver;
+  EquilibriumEquations equations;
   State last;                  ///< the equilibrium last found
   double last_load_factor = 0; ///< its load; 0: at rest
 };
@@ -53,13 +62,11 @@ struct Model::Implementation {
 std::vector<Eigen::Vector3d> Model::Implementation::body_displacement(const State& state) const {
   const std::size_t n = scene.mesh.nodes.size();
   std::vector<double> values(3 * n, 0.);
-  const PetscScalar* owned = nullptr;
-  check(VecGetArrayRead(state.displacement.get(), &owned));
   for (std::size_t node = 0; node < index(discretisation.nodes.n_owned); ++node) {
     const int number = discretisation.nodes.mesh_node[node];
-    if (number >= 0 && index(number) < n) std::copy_n(owned + 3 * node, 3, values.begin() + 3 * number);
+    if (number >= 0 && index(number) < n)
+      std::copy_n(state.data() + 3 * node, 3, values.begin() + 3 * number);
   }
-  check(VecRestoreArrayRead(state.displacement.get(), &owned));
   sum_over_ranks(values, discretisation.communicator);
   std::vector<Eigen::Vector3d> displacement(n);
   for (std::size_t node = 0; node < n; ++node)
@@ -70,7 +77,7 @@ std::vector<Eigen::Vector3d> Model::Implementation::body_displacement(const Stat
 /// Each cell of the body is its 8^refine descendants.
 std::vector<double> Model::Implementation::body_cell_volumes(const State& state) {
   std::vector<double> volumes(scene.mesh.cells.size(), 0.);
-  const std::vector<double> own = equilibrium.cell_volumes(state);
+  const std::vector<double> own = equations.cell_volumes(state);
   const int shift = 3 * scene.definition.fem.refine;
   for (std::size_t cell = 0; cell < own.size(); ++cell)
     volumes[index(discretisation.nodes.mesh_cell[cell] >> shift)] += own[cell];
@@ -83,41 +90,29 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator)
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
-cases::Solution Model::solve(const SolveSettings& settings) {
+cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings) {
   Implementation& m = *implementation_;
-  m.last = m.equilibrium.rest();
+  m.last = m.equations.rest();
   m.last_load_factor = 0;
-  return m.solve({0, 1, settings.largest_load_step, settings.tolerance}, settings.stability);
+  return m.solve(1, settings);
 }
 
-cases::Solution Model::solve_again(double load_factor, const SolveSettings& settings) {
-  Implementation& m = *implementation_;
-  return m.solve({m.last_load_factor, load_factor, settings.largest_load_step, settings.tolerance},
-                 settings.stability);
+cases::Solution Model::solve_again(double load_factor, const mechanics::EquilibriumSettings& settings) {
+  return implementation_->solve(load_factor, settings);
 }
 
-cases::Solution Model::Implementation::solve(const LoadSteps& steps, Stability stability) {
-  const long evaluations = equilibrium.n_evaluations(), factorisations = solver.n_factorisations();
-  State state = equilibrium.rest();
-  equilibrium.copy(last, state);
-  const NewtonReport report = carry_load(equilibrium, solver, state, steps);
-  equilibrium.copy(state, last);
-  last_load_factor = steps.to;
-  cases::Solution solution;
-  solution.status = cases::Status::converged;
-  solution.displacement = body_displacement(state);
-  solution.cell_volume = body_cell_volumes(state);
+cases::Solution Model::Implementation::solve(double load_factor, mechanics::EquilibriumSettings settings) {
+  settings.from = last_load_factor;
+  settings.to = load_factor;
+  const auto equilibrium = mechanics::find_equilibrium(equations, last, "finite elements", settings);
+  last = equilibrium.state;
+  last_load_factor = load_factor;
+  cases::Solution solution = mechanics::to_solution(equilibrium);
+  solution.displacement = body_displacement(last);
+  solution.cell_volume = body_cell_volumes(last);
   solution.unknowns = static_cast<std::size_t>(discretisation.constraints.n_unknowns);
-  solution.residual = report.residual;
-  solution.load_reached = steps.to;
-  solution.newton_iterations = report.iterations;
-  solution.linear_iterations = report.linear_iterations;
-  solution.force_evaluations = equilibrium.n_evaluations() - evaluations;
-  solution.factorisations = solver.n_factorisations() - factorisations;
-  if (stability == Stability::report) solution.negative_eigenvalues = solver.negative_eigenvalues();
-  if (solution.negative_eigenvalues)
-    solution.outcome = *solution.negative_eigenvalues == 0 ? cases::Outcome::stable_equilibrium
-                                                           : cases::Outcome::unstable_equilibrium;
+  if (settings.stability != mechanics::Stability::ignore)
+    solution.negative_eigenvalues = equations.negative_eigenvalues();
   for (std::size_t cell = 0; cell < scene.mesh.cells.size(); ++cell)
     if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, cell, solution.displacement)) > 0))
       ++solution.inverted_cells;
@@ -128,13 +123,11 @@ std::vector<NodeDisplacement> Model::node_displacements() const {
   const Implementation& m = *implementation_;
   const Discretisation& d = m.discretisation;
   std::vector<double> own;
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(m.last.displacement.get(), &values));
+  const double* values = m.last.data();
   for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node) {
     own.insert(own.end(), d.nodes.point[node].data(), d.nodes.point[node].data() + 3);
     own.insert(own.end(), values + 3 * node, values + 3 * node + 3);
   }
-  check(VecRestoreArrayRead(m.last.displacement.get(), &values));
   int n_ranks = 1;
   MPI_Comm_size(d.communicator, &n_ranks);
   std::vector<int> size(index(n_ranks)), start(index(n_ranks), 0);

@@ -2,24 +2,20 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <memory>
 #include <mpi.h>
 
 namespace springproof::fem_reference {
 
-enum class Stability { report, skip };
-
 struct NodeDisplacement {
   Eigen::Vector3d rest, displacement; ///< mm
 };
 
-struct SolveSettings {
-  double largest_load_step = 1; ///< of the full load; small steps follow a path that a large one would leave
-  double tolerance = 1e-10;     ///< on |imbalance on free degrees of freedom| / |applied load|
-  Stability stability =
-      Stability::report; ///< a count of negative eigenvalues, which may cost a factorisation
-};
+/// The usual limits of a path of finite elements. Small load steps follow a path that large ones would leave;
+/// with Stability::report negative eigenvalues are counted, which may cost a factorisation.
+mechanics::EquilibriumSettings default_settings();
 
 /// A finite-element model of a scene, distributed over the ranks of a communicator: mesh, degrees of freedom,
 /// sparsity. Every member function is collective; every rank gets the whole answer.
@@ -33,12 +29,13 @@ class Model {
 
   /// Static equilibrium under the scene's loads, from rest.
   /// @throws SolveError with the load factor reached when the load cannot be carried
-  cases::Solution solve(const SolveSettings& settings = {});
+  cases::Solution solve(const mechanics::EquilibriumSettings& settings = default_settings());
 
   /// Static equilibrium under the scene's loads times a factor, from the equilibrium last found; a linear
   /// body keeps its factorised stiffness.
   /// @throws SolveError as solve(), after which the last equilibrium is as it was
-  cases::Solution solve_again(double load_factor, const SolveSettings& settings = {});
+  cases::Solution solve_again(double load_factor,
+                              const mechanics::EquilibriumSettings& settings = default_settings());
 
   /// Of every node of the elements, those between vertices too, in the equilibrium last found; in any order.
   std::vector<NodeDisplacement> node_displacements() const;

@@ -13,11 +13,14 @@ namespace springproof::compare {
 namespace {
 
 Answer solve_fem(const cases::HardCase& hard_case) {
+  const Stopwatch stopwatch;
   return or_refused([&] {
     const cases::Scene scene = cases::make_scene(hard_case.definition);
-    return solve_side(
-        [&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-        [&](fem_reference::Model& model) { return model.solve({1.0 / hard_case.least_load_steps}); });
+    return solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
+                      [&](fem_reference::Model& model) {
+                        return model.solve(
+                            limited_by(hard_case, stopwatch, fem_reference::default_settings()));
+                      });
   });
 }
 

@@ -59,15 +59,6 @@ msm::Points start_points(const cases::HardCase& hard_case, const cases::HexMesh&
   return start;
 }
 
-mechanics::EquilibriumSettings settings_of(const cases::HardCase& hard_case, const Stopwatch& stopwatch) {
-  mechanics::EquilibriumSettings settings;
-  settings.first_load_step = settings.largest_load_step = 1.0 / hard_case.least_load_steps;
-  settings.max_newton_iterations = hard_case.max_iterations;
-  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
-  settings.should_stop = [&hard_case, &stopwatch] { return stopwatch.seconds() > hard_case.max_seconds; };
-  return settings;
-}
-
 bool is_finite(const cases::Solution& s) {
   return std::isfinite(s.residual) && std::isfinite(s.load_reached) &&
          std::isfinite(s.lowest_eigenvalue.value_or(0)) &&
@@ -76,6 +67,15 @@ bool is_finite(const cases::Solution& s) {
 }
 
 } // namespace
+
+mechanics::EquilibriumSettings limited_by(const cases::HardCase& hard_case, const Stopwatch& stopwatch,
+                                          mechanics::EquilibriumSettings settings) {
+  settings.first_load_step = settings.largest_load_step = 1.0 / hard_case.least_load_steps;
+  settings.max_newton_iterations = hard_case.max_iterations;
+  settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
+  settings.should_stop = [&hard_case, &stopwatch] { return stopwatch.seconds() > hard_case.max_seconds; };
+  return settings;
+}
 
 Answer or_refused(const std::function<Answer()>& solve) {
   try {
@@ -104,7 +104,7 @@ Answer solve_springs(cases::Side which, const cases::HardCase& hard_case, int n_
           return msm::Model(scene, springs_of_cells(hard_case, scene), {msm::Path::automatic, n_threads});
         },
         [&](msm::Model& model) {
-          return model.solve(settings_of(hard_case, stopwatch), start_points(hard_case, scene.mesh));
+          return model.solve(limited_by(hard_case, stopwatch, {}), start_points(hard_case, scene.mesh));
         });
   });
 }

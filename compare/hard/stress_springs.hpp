@@ -1,7 +1,9 @@
 #pragma once
 
 #include "cases/case/hard_case.hpp"
+#include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/answers.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <functional>
 #include <string>
@@ -12,6 +14,12 @@ namespace springproof::compare {
 
 /// A side's answer, or that no model can be made of the case, with the reason.
 Answer or_refused(const std::function<Answer()>& solve);
+
+/// A solver's settings with a hard case's limits: load steps, iterations, seconds since the stopwatch
+/// started.
+/// @param hard_case, stopwatch  must outlive what is returned
+mechanics::EquilibriumSettings limited_by(const cases::HardCase& hard_case, const Stopwatch& stopwatch,
+                                          mechanics::EquilibriumSettings settings);
 
 /// @param which      msm, or hybrid: that design in place of the case's own
 /// @param n_threads  of the multigrid path

@@ -110,7 +110,9 @@ Round solve_finite_elements(const cases::Scene& scene, const Variant& variant, c
   Stopwatch stopwatch;
   fem_reference::Model model(scene, MPI_COMM_WORLD);
   round.setup_seconds = stopwatch.lap();
-  const fem_reference::SolveSettings settings{1, variant.tolerance, fem_reference::Stability::skip};
+  mechanics::EquilibriumSettings settings = fem_reference::default_settings();
+  settings.tolerance = variant.tolerance;
+  settings.stability = mechanics::Stability::ignore;
   round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
   if (!round.first_seconds) return round;
   if (field_cells(variant) != variant.cells)

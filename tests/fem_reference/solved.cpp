@@ -1,4 +1,6 @@
 #include "solved.hpp"
+
+#include "fem_reference/model.hpp"
 #include "tests/support/largest.hpp"
 
 using namespace springproof;
@@ -9,17 +11,12 @@ using Eigen::Vector3d;
 Solved::Solved(const cases::Scene& scene, const Prescribed& prescribed)
     : formulation(make_formulation(scene.definition.fem, scene.definition.material)),
       discretisation(scene, element_type(scene.definition.fem, formulation), prescribed, MPI_COMM_SELF),
-      equilibrium(discretisation, formulation), state(equilibrium.rest()) {
-  LinearSolver solver(discretisation, equilibrium.tangent(), formulation.symmetry);
-  report = carry_load(equilibrium, solver, state);
-}
+      equations(discretisation, {formulation}),
+      state(mechanics::find_equilibrium(equations, equations.rest(), "test", default_settings()).state) {}
 
 std::vector<Vector3d> Solved::displacement() const {
   std::vector<Vector3d> nodes(discretisation.nodes.point.size());
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(state.displacement.get(), &values));
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] = Eigen::Map<const Vector3d>(values + 3 * n);
-  check(VecRestoreArrayRead(state.displacement.get(), &values));
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] = Eigen::Map<const Vector3d>(state.data() + 3 * n);
   return nodes;
 }
 
@@ -60,7 +57,7 @@ Vector3d Solved::force_on(const std::function<bool(const Vector3d&)>& selected) 
       own.insert(own.end(), node.data(), node.data() + 3);
     }
     const double* pressure =
-        state.pressure.data() + cell * static_cast<std::size_t>(d.element.n_pressure_modes);
+        state.data() + 3 * d.nodes.point.size() + cell * static_cast<std::size_t>(d.element.n_pressure_modes);
     const CellResult& result =
         kernel.evaluate(d.geometry.of(static_cast<int>(cell)), own.data(), pressure, Wanted::stress);
     for (std::size_t a = 0; a < n; ++a)

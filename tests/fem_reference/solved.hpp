@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/load_path.hpp"
+#include "fem_reference/equations.hpp"
 
 using namespace springproof;
 
@@ -8,9 +8,8 @@ using namespace springproof;
 struct Solved {
   fem_reference::Formulation formulation;
   fem_reference::Discretisation discretisation;
-  fem_reference::Equilibrium equilibrium;
+  fem_reference::EquilibriumEquations equations;
   fem_reference::State state;
-  fem_reference::NewtonReport report;
 
   /// @throws SolveError
   Solved(const cases::Scene& scene, const fem_reference::Prescribed& prescribed);

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "fem_reference/assembly.hpp"
+#include "fem_reference/linear_solver.hpp"
+#include "mechanics/petsc/distributed_problem.hpp"
+
+namespace springproof::fem_reference {
+
+constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
+
+/// The discrete equilibrium equations of a scene: internal force = load factor * load. Supports are part of
+/// the equations: a step takes constrained degrees of freedom to where they have to be.
+class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
+ public:
+  /// @param formulations  of each of the discretisation's materials: one formulation, several materials
+  EquilibriumEquations(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
+
+  State rest() const { return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures())); }
+
+  State residual(const State& at, double load_factor, mechanics::Expect expect) override;
+  Size size(const State& residual, const State& at) override;
+  std::optional<State> direction(const State& at, const State& residual, double load_factor, double forcing,
+                                 mechanics::Convexity convexity) override;
+  /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
+  /// exact.
+  mechanics::Merit merit() const override;
+  /// Of the tangent last solved with.
+  std::optional<bool> is_stable(const State& at) override;
+  Work work() const override { return {linear_iterations_, solver_.n_factorisations(), n_evaluations_}; }
+
+  /// Negative eigenvalues that is_stable() counted.
+  std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
+
+  /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
+  std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
+
+ private:
+  /// How far a state is from equilibrium.
+  struct Imbalance {
+    bool valid = false;         ///< false: inverted at a quadrature point, or not a number
+    double residual = 0;        ///< |imbalance on unconstrained degrees of freedom| / |applied load|
+    double volume_mismatch = 0; ///< largest relative volume a cell's pressure is wrong by
+    double prescribed_gap =
+        0; ///< mm: largest distance of a constrained displacement from its prescribed value
+  };
+
+  std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }
+  bool is_linear() const { return formulation_.kinematics == Kinematics::linear; }
+  Imbalance evaluate(const State& state, double load_factor, Wanted wanted);
+  Imbalance evaluate_for_direction(const State& state, double load_factor);
+  Imbalance measure(const Assembly::CellChecks& cells, double load_factor);
+
+  const Discretisation& discretisation_;
+  Formulation formulation_; ///< of the first material
+  Assembly assembly_;
+  LinearSolver solver_;
+  Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
+  Vector right_hand_side_; ///< of the Newton system
+  Vector correction_;      ///< its solution
+  std::vector<double> prescribed_gap_; ///< mm per local degree of freedom
+  double load_norm_ = 0;
+  long n_evaluations_ = 0, n_tangents_ = 0, linear_iterations_ = 0;
+  bool has_tangent_ = false;         ///< one that was assembled at a valid state
+  bool has_right_hand_side_ = false; ///< of the state last evaluated
+  Imbalance imbalance_;              ///< of the state last evaluated
+  std::optional<int> negative_eigenvalues_;
+};
+
+} // namespace springproof::fem_reference
