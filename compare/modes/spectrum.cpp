@@ -1,9 +1,9 @@
 #include "compare/modes/spectrum.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/petsc/handles.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <slepceps.h>
 #include <string>
@@ -13,25 +13,15 @@ namespace springproof::compare {
 
 namespace {
 
-void check(PetscErrorCode code) {
-  if (code != 0)
-    throw cases::SolveError("eigenproblem: PETSc error " + std::to_string(static_cast<int>(code)), 0, 0);
-}
+namespace petsc = mechanics::petsc;
+using petsc::check;
+using OwnedSolver = petsc::Owned<EPS, EPSDestroy>;
 
-struct DestroyMatrix {
-  void operator()(Mat matrix) const { MatDestroy(&matrix); }
-};
-struct DestroySolver {
-  void operator()(EPS solver) const { EPSDestroy(&solver); }
-};
-using OwnedMatrix = std::unique_ptr<std::remove_pointer_t<Mat>, DestroyMatrix>;
-using OwnedSolver = std::unique_ptr<std::remove_pointer_t<EPS>, DestroySolver>;
-
-OwnedMatrix dense_matrix(const Eigen::MatrixXd& values) {
+petsc::Matrix dense_matrix(const Eigen::MatrixXd& values) {
   const auto n = static_cast<PetscInt>(values.rows());
   Mat matrix = nullptr;
   check(MatCreateSeqDense(PETSC_COMM_SELF, n, n, nullptr, &matrix));
-  OwnedMatrix owned(matrix);
+  petsc::Matrix owned(matrix);
   PetscScalar* entries = nullptr;
   check(MatDenseGetArrayWrite(matrix, &entries));
   Eigen::Map<Eigen::MatrixXd>(entries, n, n) = (values + values.transpose()) / 2;
@@ -42,14 +32,14 @@ OwnedMatrix dense_matrix(const Eigen::MatrixXd& values) {
 }
 
 // Compressed columns of a symmetric matrix are its compressed rows.
-OwnedMatrix sparse_matrix(const Eigen::SparseMatrix<double>& values) {
+petsc::Matrix sparse_matrix(const Eigen::SparseMatrix<double>& values) {
   const auto n = static_cast<PetscInt>(values.rows());
   std::vector<PetscInt> n_row(static_cast<std::size_t>(n));
   for (PetscInt i = 0; i < n; ++i)
     n_row[static_cast<std::size_t>(i)] = static_cast<PetscInt>(values.col(i).nonZeros());
   Mat matrix = nullptr;
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 0, n_row.data(), &matrix));
-  OwnedMatrix owned(matrix);
+  petsc::Matrix owned(matrix);
   std::vector<PetscInt> columns;
   std::vector<PetscScalar> entries;
   for (PetscInt i = 0; i < n; ++i) {
@@ -107,7 +97,7 @@ Spectrum solve(EPS solver, Mat matrix, PetscInt n_wanted) {
 } // namespace
 
 Spectrum full_spectrum(const Eigen::MatrixXd& values) {
-  const OwnedMatrix matrix = dense_matrix(values);
+  const petsc::Matrix matrix = dense_matrix(values);
   const OwnedSolver solver = solver_for(matrix.get());
   const auto n = static_cast<PetscInt>(values.rows());
   check(EPSSetType(solver.get(), EPSLAPACK));
@@ -116,7 +106,7 @@ Spectrum full_spectrum(const Eigen::MatrixXd& values) {
 }
 
 Spectrum lowest_spectrum(const Eigen::SparseMatrix<double>& values, int n_pairs) {
-  const OwnedMatrix matrix = sparse_matrix(values);
+  const petsc::Matrix matrix = sparse_matrix(values);
   const OwnedSolver solver = solver_for(matrix.get());
   // Far enough below zero that the shifted matrix is safely definite, near enough that low modes stay
   // dominant.

@@ -62,42 +62,24 @@ petsc::Vector Part::make_vector() const {
 }
 
 petsc::Matrix Part::make_matrix() const {
-  Mat matrix = nullptr;
-  check(MatCreate(communicator_, &matrix));
-  petsc::Matrix owned(matrix);
-  check(MatSetSizes(matrix, 3 * n_own_, 3 * n_own_, PETSC_DECIDE, PETSC_DECIDE));
-  check(MatSetType(matrix, MATAIJ)); // GAMG's coarsening wants it, with its block size
-  check(MatSetBlockSize(matrix, 3));
-  std::vector<PetscInt> on_diagonal, elsewhere;
-  count_neighbours(on_diagonal, elsewhere);
-  check(MatXAIJSetPreallocation(matrix, 3, on_diagonal.data(), elsewhere.data(), nullptr, nullptr));
+  Mat matrix = nullptr, sparsity = nullptr;
+  const auto create = [&](MatType type, Mat& made) {
+    check(MatCreate(communicator_, &made));
+    check(MatSetSizes(made, 3 * n_own_, 3 * n_own_, PETSC_DECIDE, PETSC_DECIDE));
+    check(MatSetType(made, type));
+    check(MatSetBlockSize(made, 3));
+    return petsc::Matrix(made);
+  };
+  petsc::Matrix owned = create(MATAIJ, matrix); // GAMG's coarsening wants it, with its block size
+  const petsc::Matrix owned_sparsity = create(MATPREALLOCATOR, sparsity);
+  check(MatSetUp(sparsity));
+  add_tangent(lattice_.rest, sparsity);
+  check(MatPreallocatorPreallocate(sparsity, PETSC_TRUE, matrix));
   check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(matrix, MAT_SPD,
                      PETSC_TRUE)); // where it is not, the pivots' signs or conjugate gradients tell
   petsc::attach_rigid_motions(matrix, lattice_.rest);
   return owned;
-}
-
-/// Blocks in the rows of the own points, in the columns of own points and of others'.
-void Part::count_neighbours(std::vector<PetscInt>& on_diagonal, std::vector<PetscInt>& elsewhere) const {
-  std::vector<std::set<int>> neighbours(index(n_own_));
-  const auto join = [&](int i, int j) {
-    if (owns(i)) neighbours[index(i - first_)].insert(j);
-  };
-  for (const Link& link : problem_.lattice.links) {
-    join(link.i, link.j);
-    join(link.j, link.i);
-  }
-  for (const VolumeCell& cell : problem_.lattice.volume_cells)
-    for (const int i : cell.nodes)
-      for (const int j : cell.nodes) join(i, j);
-  for (std::size_t p = 0; p < neighbours.size(); ++p) {
-    neighbours[p].insert(static_cast<int>(first_) + static_cast<int>(p));
-    const auto own =
-        std::count_if(neighbours[p].begin(), neighbours[p].end(), [&](int j) { return owns(j); });
-    on_diagonal.push_back(static_cast<PetscInt>(own));
-    elsewhere.push_back(static_cast<PetscInt>(neighbours[p].size()) - static_cast<PetscInt>(own));
-  }
 }
 
 PetscInt Part::global(std::size_t local) const {
@@ -177,8 +159,7 @@ void Part::residual(Vec displacement, double load_factor, Vec out) const {
   for_each_constrained(load_factor, [&](PetscInt d, double prescribed) { entries[d] = is[d] - prescribed; });
 }
 
-void Part::tangent(Vec displacement, Mat matrix) const {
-  check(MatZeroEntries(matrix));
+void Part::add_tangent(const Points& positions, Mat matrix) const {
   const auto put_block = [&](int i, int j, const Eigen::Matrix3d& values) {
     const PetscInt row = global(index(i)), column = global(index(j));
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_rows = values;
@@ -188,9 +169,14 @@ void Part::tangent(Vec displacement, Mat matrix) const {
     put_block(row, column, block);
     if (row != column) put_block(column, row, block.transpose());
   };
-  visit_tangent_blocks(lattice_, local_positions(displacement), TransverseTerm::exact, add);
+  visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+void Part::tangent(Vec displacement, Mat matrix) const {
+  check(MatZeroEntries(matrix));
+  add_tangent(local_positions(displacement), matrix);
   check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
                            nullptr, nullptr));
 }

@@ -46,7 +46,7 @@ class Part {
   PetscInt global(std::size_t local) const;
   int local(int point) const;
   void deal_out();
-  void count_neighbours(std::vector<PetscInt>& on_diagonal, std::vector<PetscInt>& elsewhere) const;
+  void add_tangent(const Points& positions, Mat matrix) const;
   Points local_positions(Vec displacement) const;
   /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.
   template<class Action>
