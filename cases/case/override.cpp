@@ -52,13 +52,14 @@ std::vector<Step> parse_path(const std::string& path, const Where& where) {
 }
 
 /// The value as a table {value = ...}: parsed as TOML, or else the text itself.
-toml::table parse_value(const std::string& text) {
+toml::table parse_value(const std::string& text, const Where& where) {
   try {
     toml::table parsed = toml::parse("value = " + text);
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
     // a bare word
   }
+  if (!is_line_of_text(text)) throw InputError(where, "has a value that is not one line of UTF-8 text");
   return toml::table{{"value", text}};
 }
 
@@ -81,6 +82,14 @@ toml::table& descend(toml::table& table, const Step& step, const Where& where) {
 
 } // namespace
 
+bool is_line_of_text(const std::string& text) {
+  try {
+    return toml::parse("#" + text).empty(); // what TOML allows in a comment
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
 void apply_override(toml::table& document, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   const std::string path = trimmed(setting.substr(0, equals));
@@ -92,7 +101,7 @@ void apply_override(toml::table& document, const std::string& setting) {
   const std::vector<Step> steps = parse_path(path, where);
   toml::table* table = &document;
   for (std::size_t s = 0; s + 1 < steps.size(); ++s) table = &descend(*table, steps[s], where);
-  toml::table parsed = parse_value(text);
+  toml::table parsed = parse_value(text, where);
   const Step& last = steps.back();
   parsed.get("value")->visit([&](auto& value) {
     if (last.index) {

@@ -11,4 +11,7 @@ namespace springproof::cases {
 /// @throws InputError if it is not KEY=VALUE or leads through something that is no table
 void apply_override(toml::table& document, const std::string& setting);
 
+/// Whether a text is one line of UTF-8 without control characters, so that it can stand in messages and JSON.
+bool is_line_of_text(const std::string& text);
+
 } // namespace springproof::cases

@@ -44,10 +44,13 @@ toml::table parse(const std::string& text, const std::string& path) {
 /// Names label rows of reports and files of results.
 std::string read_case_name(const Entry& entry) {
   const std::string name = read_text(entry);
-  const bool is_clean = name.find_first_of("/\\\"") == std::string::npos && name.front() != '.' &&
+  constexpr std::size_t longest = 200; // of a file's name 255 bytes are allowed, endings included
+  const bool is_clean = name.size() <= longest && name.find_first_of("/\\\"") == std::string::npos &&
+                        name.front() != '.' &&
                         std::none_of(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; });
   if (!is_clean)
-    entry.refuse("a name without /, \\, quotes, line breaks, and a leading dot: it names files of results");
+    entry.refuse("a name without /, \\, quotes, line breaks, and a leading dot, of 200 bytes at most: it "
+                 "names files of results");
   return name;
 }
 
@@ -146,6 +149,7 @@ void read_measures(Table& root, Case& result) {
 }
 
 toml::table parse_file(const std::string& path, const std::vector<std::string>& overrides) {
+  if (!is_line_of_text(path)) throw InputError("the name of a case file must be one line of UTF-8 text");
   toml::table document = parse(text_of(path), path);
   for (const std::string& setting : overrides) apply_override(document, setting);
   return document;

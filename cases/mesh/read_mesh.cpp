@@ -2,14 +2,10 @@
 
 #include "cases/case/index.hpp"
 #include "cases/mesh/confined.hpp"
+#include "cases/mesh/fields.hpp"
 #include "cases/mesh/find_grid.hpp"
 
 #include <algorithm>
-#include <cereal/archives/binary.hpp>
-#include <cereal/types/array.hpp>
-#include <cereal/types/map.hpp>
-#include <cereal/types/string.hpp>
-#include <cereal/types/vector.hpp>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
@@ -17,15 +13,9 @@
 #include <gmsh.h>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <unordered_map>
 
 namespace springproof::cases {
-
-template<class Archive>
-void serialize(Archive& archive, Selection& selection) {
-  archive(selection.nodes, selection.edges, selection.faces);
-}
 
 namespace {
 
@@ -273,30 +263,12 @@ void open_in_gmsh(const std::string& path, bool is_geometry) {
 /// The mesh of a file, as bytes.
 std::string mesh_bytes(const std::string& path, bool is_geometry) {
   if (!is_geometry) check_format(path);
-  HexMesh mesh;
   try {
     open_in_gmsh(path, is_geometry);
-    mesh = Builder().build();
+    return to_bytes(Builder().build());
   } catch (const std::string& reason) { // gmsh throws its messages
     refuse("gmsh: " + reason);
   }
-  std::ostringstream bytes;
-  cereal::BinaryOutputArchive archive(bytes);
-  std::vector<double> coordinates;
-  for (const Eigen::Vector3d& node : mesh.nodes)
-    coordinates.insert(coordinates.end(), node.data(), node.data() + 3);
-  archive(coordinates, mesh.cells, mesh.groups, mesh.group_of_cell);
-  return bytes.str();
-}
-
-HexMesh from_bytes(const std::string& bytes) {
-  std::istringstream stream(bytes);
-  cereal::BinaryInputArchive archive(stream);
-  std::vector<double> coordinates;
-  HexMesh mesh;
-  archive(coordinates, mesh.cells, mesh.groups, mesh.group_of_cell);
-  for (std::size_t n = 0; n < coordinates.size(); n += 3) mesh.nodes.emplace_back(coordinates.data() + n);
-  return mesh;
 }
 
 } // namespace
@@ -314,7 +286,8 @@ HexMesh read_mesh(const MeshFile& file) {
       throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
     }
   };
-  HexMesh mesh = from_bytes(confined());
+  HexMesh mesh;
+  from_bytes(confined(), mesh);
   find_grid(mesh);
   return mesh;
 }

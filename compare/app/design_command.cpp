@@ -81,6 +81,7 @@ void write_files(const CommandOptions& options, const msm::DesignRequest& reques
 
 int run(const CommandOptions& options) {
   const msm::DesignRequest request = request_from(options.design);
+  claim_folder(options.out);
   std::vector<DesignAttempt> attempts = attempts_of(options, request);
   if (options.measure) measure_on_cube(attempts, request);
   const int rank = mpi_rank();

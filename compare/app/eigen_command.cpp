@@ -4,6 +4,7 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/provenance/mpi_rank.hpp"
+#include "compare/write/whole_file.hpp"
 #include "compare/write/write_eigen.hpp"
 #include "fem_reference/element_stiffness.hpp"
 
@@ -54,6 +55,7 @@ int run(EigenOptions options) {
   if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
     options.design.youngs_modulus = 1;
   const Cell cell = make_cell(options.design);
+  claim_folder(options.out);
   const int rank = mpi_rank();
   if (rank != 0) return 0;
   const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(cell.fem), full_spectrum(cell.msm));

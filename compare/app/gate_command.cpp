@@ -33,72 +33,38 @@ struct GateOptions {
   bool json = false, annotate = false, converge = false;
 };
 
-/// Every case is read, and its mesh and regions looked up, before any is solved.
-std::vector<cases::Case> read_all(const GateOptions& options) {
-  std::vector<cases::Case> definitions;
-  for (const std::string& file : options.files) {
-    definitions.push_back(cases::read_case(file, options.settings));
-    cases::make_scene(definitions.back());
-  }
-  return definitions;
+/// Every case is read, and its mesh and regions looked up, before any is solved. The reference's own error
+/// bar is asked for where the user or the case wants it.
+std::vector<Question> read_all(const GateOptions& options) {
+  Request request;
+  if (!options.displacements.empty()) request.only = cases::Side::fem;
+  std::vector<Question> questions = read_questions(options.files, options.settings, request);
+  for (Question& question : questions)
+    if (options.converge || asks_for_mesh_study(question.scene.definition))
+      question.request.meshes = meshes_of_a_study;
+  return questions;
 }
 
 /// @throws InputError for a name that is no case's or has nothing to bless
-void check_blessing(const GateOptions& options, const std::vector<cases::Case>& definitions) {
+void check_blessing(const GateOptions& options, const std::vector<Question>& questions) {
   if (!options.bless.empty() && !options.settings.empty())
     throw cases::InputError("--bless: with --set the values are not those of the case as its file has it");
   std::vector<std::string> known;
-  for (const cases::Case& definition : definitions) known.push_back(definition.name);
+  for (const Question& question : questions) known.push_back(question.scene.definition.name);
   for (const std::string& name : options.bless) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
       throw cases::InputError("--bless: is \"" + name +
                               "\", must be the name of a case given: " + cases::alternatives(known));
-    if (!has_regression(definitions[static_cast<std::size_t>(found - known.begin())]))
+    if (!has_regression(questions[static_cast<std::size_t>(found - known.begin())].scene.definition))
       throw cases::InputError(
           "--bless: " + name +
           " has no expectation of reference \"regression\", and no other kind is ever blessed");
   }
 }
 
-/// All cases solved, side by side; what an earlier command left in the folder of results is taken up. The
-/// reference's own error bar comes with it where the user or the case asks for it.
-std::vector<Solved> solve_all(const std::vector<cases::Case>& definitions, const GateOptions& options,
-                              bool is_external) {
-  const int rank = mpi_rank();
-  const FinishedCases finished(options.out);
-  std::vector<Solved> solved(definitions.size());
-  std::vector<SolveJob> jobs;
-  std::vector<Request> requests;
-  std::vector<std::size_t> missing;
-  for (std::size_t c = 0; c < definitions.size(); ++c) {
-    const bool is_studied = options.converge || asks_for_mesh_study(definitions[c]);
-    const Request request{options.settings, is_external ? std::optional(cases::Side::fem) : std::nullopt,
-                          is_studied ? meshes_of_a_study : 0, ""};
-    if (auto earlier = finished.find(definitions[c], request)) {
-      solved[c] = {cases::make_scene(definitions[c]), std::move(*earlier)};
-      if (rank == 0)
-        std::cerr << definitions[c].name
-                  << ": solved already, taken from the earlier results in the same folder\n";
-      continue;
-    }
-    missing.push_back(c);
-    requests.push_back(request);
-    jobs.push_back({definitions[c].file, request.settings, request.only, request.meshes});
-  }
-  SolveOptions solving;
-  solving.n_workers = options.workers;
-  solving.on_solved = [&](std::size_t j, const Solved& fresh) {
-    if (rank == 0) finished.keep(definitions[missing[j]], requests[j], fresh.answers);
-  };
-  std::vector<Solved> fresh = solve_jobs(jobs, solve_fem, solving, [](int, int) {});
-  for (std::size_t j = 0; j < jobs.size(); ++j) solved[missing[j]] = std::move(fresh[j]);
-  return solved;
-}
-
 /// Blesses the case if it was named, prints what that changes, and judges it by its new intervals.
-Comparison judge_or_bless(Solved solved, const GateOptions& options, std::ostream& differences) {
-  Comparison comparison = comparison_of(std::move(solved.scene), std::move(solved.answers));
+Comparison judge_or_bless(Comparison comparison, const GateOptions& options, std::ostream& differences) {
   const std::string& name = comparison.scene.definition.name;
   if (std::find(options.bless.begin(), options.bless.end(), name) == options.bless.end()) return comparison;
   differences << bless(judge_gates(comparison));
@@ -117,17 +83,21 @@ void write(const GateOptions& options, const std::vector<GatedCase>& judged) {
 }
 
 int gate(const GateOptions& options) {
-  const int rank = mpi_rank();
-  const std::vector<cases::Case> definitions = read_all(options);
-  check_blessing(options, definitions);
-  const auto external = read_external(definitions, options.displacements);
-  std::vector<Solved> solved = solve_all(definitions, options, external.has_value());
-  if (rank != 0) return 0; // the springs' side is on rank 0 alone
+  std::vector<Question> questions = read_all(options);
+  check_blessing(options, questions);
+  const auto external = read_external(questions, options.displacements);
+  SolveOptions solving;
+  solving.n_workers = options.workers;
+  std::vector<Answers> answers = answer_all(questions, FinishedCases(options.out, questions), solve_fem,
+                                            solving, [](std::size_t, const Answers&) {});
+  if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   std::vector<Comparison> done;
   std::vector<GatedCase> judged;
-  for (Solved& next : solved) {
-    if (external) next.answers = with_displacements(std::move(next.answers), next.scene.mesh, *external);
-    done.push_back(judge_or_bless(std::move(next), options, options.json ? std::cerr : std::cout));
+  for (std::size_t q = 0; q < questions.size(); ++q) {
+    cases::Scene& scene = questions[q].scene;
+    if (external) answers[q] = with_displacements(std::move(answers[q]), scene.mesh, *external);
+    done.push_back(judge_or_bless(comparison_of(std::move(scene), std::move(answers[q])), options,
+                                  options.json ? std::cerr : std::cout));
     judged.push_back(judge_gates(done.back()));
     if (!options.out.empty()) write_results(options.out, done);
   }

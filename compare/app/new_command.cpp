@@ -45,13 +45,13 @@ std::string filled(const fs::path& file, const std::string& name) {
 
 void check_name(const std::string& name) {
   const bool is_clean =
-      !name.empty() && name.front() != '.' && name.front() != '-' &&
+      !name.empty() && name.size() <= 200 && name.front() != '.' && name.front() != '-' &&
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
           std::string::npos;
   if (!is_clean)
     throw cases::InputError(
         "new: \"" + name +
-        "\" is no name: letters, digits, _ - and . make one, and the file is NAME.toml in "
+        "\" is no name: up to 200 letters, digits, _ - and . make one, and the file is NAME.toml in "
         "this folder");
 }
 

@@ -1,13 +1,13 @@
 #include "compare/app/commands.hpp"
 
 #include "cases/case/hard_case.hpp"
-#include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/finished.hpp"
 #include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_results.hpp"
 
@@ -31,44 +31,37 @@ struct RunOptions {
 };
 
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
-Answers answer(const cases::Scene& scene, const Request& request, const FinishedCases& finished) {
-  const cases::Case& definition = scene.definition;
-  const int rank = mpi_rank();
-  if (auto earlier = finished.find(definition, request)) {
-    if (rank == 0)
-      std::cerr << definition.name << ": solved already, taken from the earlier results in the same folder\n";
-    return *earlier;
-  }
+Answers answer(const Question& question, const FinishedCases& finished) {
+  if (auto earlier = finished.find(question)) return *earlier;
+  const auto& [scene, request] = question;
   Answers answers = solve(scene, request, solve_fem);
-  if (!request.peer.empty() && rank == 0)
+  if (mpi_rank() != 0) return answers;
+  if (!request.peer.empty())
     answers.peer = ask_calculix(with_fem(scene, answers.resolved), answers.fem.solution);
-  if (rank == 0) finished.keep(definition, request, answers);
+  finished.keep(question, answers);
   return answers;
 }
 
 int run(const RunOptions& options) {
-  std::vector<cases::Case>
-      definitions; // all are read before any is solved: a mistake in the last costs nothing
-  for (const std::string& file : options.files)
-    definitions.push_back(cases::read_case(file, options.settings));
-  const int rank = mpi_rank();
-  const auto external = read_external(definitions, options.displacements);
-  const auto only = external ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
-  const Request request{options.settings, only, options.meshes, options.peer};
-  const FinishedCases finished(options.out);
+  const auto only =
+      options.displacements.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
+  // All are read before any is solved: a mistake in the last costs nothing.
+  std::vector<Question> questions =
+      read_questions(options.files, options.settings, {only, options.meshes, options.peer});
+  const auto external = read_external(questions, options.displacements);
+  const FinishedCases finished(options.out, questions);
   std::vector<Comparison> done;
   bool failed = false;
-  for (const cases::Case& definition : definitions) {
-    cases::Scene scene = cases::make_scene(definition);
-    Answers answers = answer(scene, request, finished);
-    if (external) answers = with_displacements(std::move(answers), scene.mesh, *external);
+  for (Question& question : questions) {
+    Answers answers = answer(question, finished);
+    if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
     failed = failed || answers.failed();
-    done.push_back(comparison_of(std::move(scene), std::move(answers)));
-    if (rank != 0) continue;
+    done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
+    if (mpi_rank() != 0) continue;
     if (!options.json) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);
   }
-  if (rank == 0 && options.json) std::cout << to_json(done).dump(2) << '\n';
+  if (mpi_rank() == 0 && options.json) std::cout << to_json(done).dump(2) << '\n';
   return failed ? 1 : 0;
 }
 

@@ -84,7 +84,9 @@ int run(const StressOptions& options) {
   std::vector<std::string> skipped;
   std::vector<StressResult> results;
   bool met = true;
-  for (const cases::HardCase& hard_case : read_all(options, skipped)) {
+  const std::vector<cases::HardCase> hard = read_all(options, skipped);
+  claim_folder(options.out);
+  for (const cases::HardCase& hard_case : hard) {
     results.push_back(stress(hard_case, options.n_threads));
     met = met && results.back().met();
     if (rank != 0) continue;

@@ -41,6 +41,7 @@ void write_files(const std::string& folder, const Sweep& sweep) {
 int sweep(const SweepOptions& options) {
   const bool speaks = mpi_rank() == 0;
   const cases::Case definition = cases::read_case(options.file);
+  claim_folder(options.out);
   const TimingRules rules = options.quick ? TimingRules{5, 0.1} : TimingRules{};
   const Sweep result = run_sweep(definition, options.quick ? Extent::quick : Extent::full, rules,
                                  "/proc/self/exe", [&](const Sweep& so_far) {

@@ -4,6 +4,7 @@
 #include "compare/report/write_report.hpp"
 #include "compare/thesis/regenerate.hpp"
 #include "compare/thesis/write.hpp"
+#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,6 +39,7 @@ void write_times(const std::vector<PhaseTime>& times) {
 int tables(const TablesOptions& options) {
   const int rank = mpi_rank();
   const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
+  claim_folder(options.out);
   SolveOptions solving;
   solving.n_workers = options.workers;
   ThesisResults results = regenerate(options.tables, solving, [&](int done, int all) {

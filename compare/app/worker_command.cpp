@@ -19,7 +19,7 @@ void add_worker_command(CLI::App& program, Action& chosen) {
       if (*is_timing)
         serve_jobs(answer_timing_job);
       else
-        serve_jobs([](const std::string& line) { return answer_job(line, solve_fem); });
+        serve_jobs([](const std::string& job) { return answer_job(job, solve_fem); });
       return 0;
     };
   });

@@ -84,14 +84,14 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
   return displacement;
 }
 
-std::optional<ExternalDisplacements> read_external(const std::vector<cases::Case>& definitions,
+std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
                                                    const std::string& path) {
   if (path.empty()) return std::nullopt;
-  if (definitions.size() != 1)
+  if (questions.size() != 1)
     throw cases::InputError(
-        fmt::format("--msm-displacements: belongs to one case, {} are given", definitions.size()));
-  const cases::Scene scene = cases::make_scene(definitions.front());
-  return ExternalDisplacements{path, match_nodes(scene.mesh, read_displacements(path), path)};
+        fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
+  return ExternalDisplacements{path,
+                               match_nodes(questions.front().scene.mesh, read_displacements(path), path)};
 }
 
 Answers with_displacements(Answers answers, const cases::HexMesh& mesh,

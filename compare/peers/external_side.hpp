@@ -24,7 +24,7 @@ struct ExternalDisplacements {
 /// Reads `--msm-displacements` for the one case that it belongs to, before anything is solved.
 /// @param path  empty: there are none
 /// @throws InputError as read_displacements() and match_nodes(), or if there are several cases
-std::optional<ExternalDisplacements> read_external(const std::vector<cases::Case>& definitions,
+std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
                                                    const std::string& path);
 
 /// The answers with another simulator's in place of our springs'. They have no stiffness and no counts of

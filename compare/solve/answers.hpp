@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cases/case/case.hpp"
 #include "cases/case/side.hpp"
 #include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/design/design.hpp"
 
 #include <optional>
@@ -53,11 +53,16 @@ struct Answers {
 
 /// What is asked of a case, besides what its file says.
 struct Request {
-  std::vector<std::string> settings; ///< of `--set`: the case has them already
-  std::optional<cases::Side> only;   ///< absent: both sides
-  int meshes = 0;                    ///< of the finite elements' own error; 0: none
-  std::string peer;                  ///< a program that is asked too; empty: none
+  std::optional<cases::Side> only; ///< absent: both sides
+  int meshes = 0;                  ///< of the finite elements' own error; 0: none
+  std::string peer{};              ///< a program that is asked too; empty: none
   bool asks(cases::Side side) const { return !only || *only == side; }
+};
+
+/// A case's scene and what is asked of it: all that answers depend on.
+struct Question {
+  cases::Scene scene;
+  Request request;
 };
 
 } // namespace springproof::compare

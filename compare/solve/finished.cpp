@@ -1,38 +1,58 @@
 #include "compare/solve/finished.hpp"
 
+#include "compare/provenance/digest.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/version.hpp"
-#include "compare/solve/side_bytes.hpp"
+#include "compare/solve/fields.hpp"
+#include "compare/solve/frame.hpp"
 #include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iostream>
 #include <mpi.h>
+#include <set>
 
 namespace springproof::compare {
 
 namespace {
 
+/// First line of a kept file; a frame of identity and answers follows. To be counted up when the fields of
+/// compare/solve/fields.hpp change their meaning.
+const std::string heading = "springproof answers, format 1\n";
+
 /// The commit does not tell one build of uncommitted changes from another; the program's own bytes do.
 const std::string& this_program() {
-  static const std::string identity =
-      fmt::format("{} {:x}", program_commit(), std::hash<std::string>()(read_file("/proc/self/exe")));
+  static const std::string identity = program_commit() + " " + digest(read_file("/proc/self/exe"));
   return identity;
 }
 
-/// All that a case's answers depend on, as a text that is compared whole.
-std::string identity_of(const cases::Case& definition, const Request& request) {
+/// Of all that answers depend on. Meshes are in it as they were read, whatever files gmsh took them from; the
+/// names of files and the lines of the case file are not.
+std::string identity_of(const Question& question) {
   const char* petsc = std::getenv("PETSC_OPTIONS");
-  std::string text = fmt::format("springproof {}\nonly {} meshes {} peer '{}' petsc '{}'\n", this_program(),
-                                 request.only ? static_cast<int>(*request.only) : -1, request.meshes,
-                                 request.peer, petsc ? petsc : "");
-  for (const std::string& setting : request.settings) text += "set " + setting + "\n";
-  text += read_file(definition.file);
-  if (const auto* mesh = std::get_if<cases::MeshFile>(&definition.body)) text += read_file(mesh->path);
-  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) text += read_file(voxels->path);
-  return fmt::format("{}\n", text.size()) + text;
+  return digest(cases::to_bytes<cereal::BinaryOutputArchive>(this_program(), std::string(petsc ? petsc : ""),
+                                                             question));
+}
+
+/// The frame of answers in a file; empty if there is none for this question.
+std::string answers_in(const std::string& path, const std::string& identity) {
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) return "";
+  try {
+    std::string content = read_file(path);
+    if (content.compare(0, heading.size(), heading) != 0)
+      throw std::runtime_error("has another format than this program's");
+    content.erase(0, heading.size());
+    const std::optional<Frame> frame = take_frame(content);
+    if (!frame || !content.empty()) throw std::runtime_error("is damaged");
+    return frame->kind == identity ? frame->content : "";
+  } catch (const std::exception& error) {
+    std::cerr << path << ": " << error.what() << "; the case is solved again\n";
+    return "";
+  }
 }
 
 /// Rank 0's text on every rank.
@@ -48,28 +68,42 @@ std::string from_rank_0(std::string text) {
 
 } // namespace
 
-std::string FinishedCases::path_of(const cases::Case& definition) const {
-  return folder_ + "/solved/" + definition.name;
-}
-
-std::optional<Answers> FinishedCases::find(const cases::Case& definition, const Request& request) const {
-  if (folder_.empty()) return std::nullopt;
-  const int rank = mpi_rank();
-  std::string bytes;
-  if (rank == 0 && std::filesystem::is_regular_file(path_of(definition))) {
-    const std::string content = read_file(path_of(definition)), identity = identity_of(definition, request);
-    if (content.compare(0, identity.size(), identity) == 0) bytes = content.substr(identity.size());
+FinishedCases::FinishedCases(const std::string& folder, const std::vector<Question>& questions)
+    : folder_(folder) {
+  if (folder.empty()) return;
+  std::set<std::string> names;
+  for (const Question& question : questions) {
+    const cases::Case& definition = question.scene.definition;
+    if (!names.insert(definition.name).second)
+      throw cases::InputError(
+          fmt::format("{}: another case is named \"{}\" too, and --out has one file a name", definition.file,
+                      definition.name));
   }
-  bytes = from_rank_0(bytes);
-  if (bytes.empty()) return std::nullopt;
-  return from_bytes(bytes);
+  claim_folder(folder);
+  claim_folder(folder + "/solved");
 }
 
-void FinishedCases::keep(const cases::Case& definition, const Request& request,
-                         const Answers& answers) const {
+std::string FinishedCases::path_of(const Question& question) const {
+  return folder_ + "/solved/" + question.scene.definition.name;
+}
+
+std::optional<Answers> FinishedCases::find(const Question& question) const {
+  if (folder_.empty()) return std::nullopt;
+  const std::string bytes =
+      from_rank_0(mpi_rank() == 0 ? answers_in(path_of(question), identity_of(question)) : "");
+  if (bytes.empty()) return std::nullopt;
+  if (mpi_rank() == 0)
+    std::cerr << question.scene.definition.name
+              << ": solved already, taken from the earlier results in the same folder\n";
+  Answers answers;
+  cases::from_bytes(bytes, answers);
+  return answers;
+}
+
+void FinishedCases::keep(const Question& question, const Answers& answers) const {
   if (folder_.empty() || answers.failed()) return;
-  write_file(path_of(definition),
-             [&](std::ostream& out) { out << identity_of(definition, request) << to_bytes(answers); });
+  const std::string content = framed({identity_of(question), cases::to_bytes(answers)});
+  write_file(path_of(question), [&](std::ostream& out) { out << heading << content; });
 }
 
 } // namespace springproof::compare

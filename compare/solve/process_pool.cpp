@@ -1,6 +1,6 @@
 #include "compare/solve/process_pool.hpp"
 
-#include "compare/provenance/digest.hpp"
+#include "compare/solve/frame.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -10,7 +10,6 @@
 #include <memory>
 #include <poll.h>
 #include <spawn.h>
-#include <sstream>
 #include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -44,35 +43,6 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   for (std::string& word : words) result.push_back(word.data());
   result.push_back(nullptr);
   return result;
-}
-
-/// What is sent either way: a heading of kind ("job", "ok", "failed"), length and digest, and the content.
-struct Frame {
-  std::string kind, content;
-};
-
-std::string framed(const Frame& frame) {
-  return fmt::format("{} {} {}\n", frame.kind, frame.content.size(), digest(frame.kind + frame.content)) +
-         frame.content;
-}
-
-/// Takes a frame from the beginning of what was received; nothing as long as it is not complete.
-/// @throws std::runtime_error if it is none, or damaged
-std::optional<Frame> take_frame(std::string& received) {
-  constexpr std::size_t longest_heading = 100;
-  const std::size_t begin = received.find('\n') + 1;
-  if (begin == 0 && received.size() < longest_heading) return std::nullopt;
-  std::istringstream heading(received.substr(0, std::min(begin, longest_heading)));
-  Frame frame;
-  std::size_t size = 0;
-  std::string expected;
-  if (!(heading >> frame.kind >> size >> expected)) throw std::runtime_error("what was received is no frame");
-  if (received.size() - begin < size) return std::nullopt;
-  frame.content = received.substr(begin, size);
-  if (digest(frame.kind + frame.content) != expected)
-    throw std::runtime_error("what was received is damaged");
-  received.erase(0, begin + size);
-  return frame;
 }
 
 std::string describe_end(int status) {
@@ -155,7 +125,7 @@ class Worker {
       if (frame->kind == "ok") return {JobAnswer{frame->content, ""}, false};
       return {JobAnswer{std::nullopt, frame->content}, false};
     } catch (const std::runtime_error& error) { // its process is ended and replaced
-      return {JobAnswer{std::nullopt, std::string("its answer: ") + error.what()}, true};
+      return {JobAnswer{std::nullopt, std::string("its answer ") + error.what()}, true};
     }
   }
 
@@ -169,22 +139,23 @@ class Worker {
 } // namespace
 
 std::vector<JobAnswer>
-run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
+                 const std::function<std::string(std::size_t job)>& bytes_of,
                  const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
-  std::vector<JobAnswer> answers(jobs.size());
+  std::vector<JobAnswer> answers(n_jobs);
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
   const auto employ = [&](std::unique_ptr<Worker>& worker) {
     worker.reset();
-    if (next == jobs.size()) return;
+    if (next == n_jobs) return;
     worker = std::make_unique<Worker>(pool.worker);
-    worker->give(next, jobs[next]);
+    worker->give(next, bytes_of(next));
     ++next;
   };
-  workers.resize(std::min(jobs.size(), static_cast<std::size_t>(std::max(1, pool.n_workers))));
+  workers.resize(std::min(n_jobs, static_cast<std::size_t>(std::max(1, pool.n_workers))));
   for (auto& worker : workers) employ(worker);
 
-  for (std::size_t n_answered = 0; n_answered < jobs.size();) {
+  for (std::size_t n_answered = 0; n_answered < n_jobs;) {
     std::vector<pollfd> sockets; // poll() passes over a negative one
     for (const auto& worker : workers) sockets.push_back({worker ? worker->socket() : -1, POLLIN, 0});
     if (poll(sockets.data(), sockets.size(), -1) < 0 && errno != EINTR)
@@ -197,10 +168,10 @@ run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
       answers[job] = std::move(*news.answer);
       ++n_answered;
       on_done(job, answers[job]);
-      if (news.has_ended || next == jobs.size())
+      if (news.has_ended || next == n_jobs)
         employ(workers[w]);
       else {
-        workers[w]->give(next, jobs[next]);
+        workers[w]->give(next, bytes_of(next));
         ++next;
       }
     }

@@ -22,12 +22,14 @@ struct ProcessPool {
 /// Hands out the jobs in their order, each to the first worker that is free, and waits for all. A worker that
 /// ends without an answer fails the job it had, and another one takes its place. Workers that are left when
 /// the caller is ended find their input closed.
+/// @param bytes_of  a job's bytes, called when it is handed out
 /// @param on_done  told the index of each job and its answer when it comes, in the order in which that
 /// happens
 /// @return one answer per job, in the order of the jobs
 /// @throws std::system_error if a worker cannot be started
 std::vector<JobAnswer>
-run_in_processes(const ProcessPool& pool, const std::vector<std::string>& jobs,
+run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
+                 const std::function<std::string(std::size_t job)>& bytes_of,
                  const std::function<void(std::size_t job, const JobAnswer&)>& on_done);
 
 /// The worker's side: reads jobs from standard input until it ends, and answers each on standard output. What

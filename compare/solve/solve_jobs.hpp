@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/solve/finished.hpp"
 #include "compare/solve/solve.hpp"
 
 #include <functional>
@@ -9,12 +10,37 @@
 /// Cases solved side by side on the machine's cores: what the commands that solve many cases share.
 namespace springproof::compare {
 
-/// A case file, settings for it and what is asked: all that a solve depends on.
+/// Reads every case and its mesh.
+/// @param settings  of `--set`   @throws InputError
+std::vector<Question> read_questions(const std::vector<std::string>& case_files,
+                                     const std::vector<std::string>& settings, const Request& request);
+
+struct SolveOptions {
+  int n_workers = 0;                      ///< worker processes; 0: one per core
+  std::string program = "/proc/self/exe"; ///< whose hidden command `worker` serves
+};
+
+/// Answers every question; what an earlier command has left is taken up, what is solved is kept as soon as it
+/// is. Numbers do not depend on the number of workers, to the last bit. Questions are
+/// handed out in the order of their estimated cost, the largest first; a worker gets the scene itself and
+/// reads no file. Whatever goes wrong, a crash of the worker included, is a failed side with its reason, and
+/// the others go on. Under MPI with several ranks this process answers one question after the other, each
+/// distributed (collective).
+/// @param solve_fem    as for solve(); workers have their own
+/// @param on_answered  called with the index of a question that was solved
+std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
+                                SolveFem solve_fem, const SolveOptions& options,
+                                const std::function<void(std::size_t question, const Answers&)>& on_answered);
+
+/// What a worker does with a question's bytes.  @return the answers' bytes
+/// @throws InputError, SolveError, cereal's exception for bytes that are no question
+std::string answer_job(const std::string& bytes, SolveFem solve_fem);
+
+/// A question as the tables name it: a case file, settings for it, and one side or both.
 struct SolveJob {
   std::string case_file;             ///< as read_case() opens it
   std::vector<std::string> settings; ///< as for `run --set`
   std::optional<cases::Side> only;   ///< absent: both sides
-  int meshes = 0;                    ///< of the finite elements' own error; 0: none
   bool operator<(const SolveJob& other) const;
 };
 
@@ -24,26 +50,11 @@ struct Solved {
   Answers answers;
 };
 
-struct SolveOptions {
-  int n_workers = 0;                      ///< worker processes; 0: one per core
-  std::string program = "/proc/self/exe"; ///< whose hidden command `worker` serves
-  /// Told each job and what came of it as soon as it is there, so that it can be kept; may be empty.
-  std::function<void(std::size_t job, const Solved&)> on_solved = {};
-};
-
-/// Solves every job. Numbers do not depend on the number of workers, to the last bit. Jobs
-/// are handed out dearest first. Whatever goes wrong in a job, a crash of its process included, is a failed
-/// side with its reason, and the others go on. Under MPI with several ranks the jobs run in this process one
-/// after the other, each distributed (collective).
-/// @param solve_fem  as for solve(); workers have their own
-/// @param progress   told the number of jobs done and in all
+/// Solves every job by answer_all(). A job whose case cannot be read has failed, with the reason.
+/// @param progress  called with the number of jobs done and in all
 std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve_fem,
                                const SolveOptions& options,
                                const std::function<void(int done, int all)>& progress);
-
-/// What a worker does with a job's line: bytes that hold the answers.
-/// @throws InputError, SolveError, std::runtime_error for a line that is no job
-std::string answer_job(const std::string& line, SolveFem solve_fem);
 
 int cores(); ///< of the machine, at least 1
 

@@ -21,10 +21,12 @@ VariantRun failed_run(const std::string& reason) {
 }
 
 VariantRun run_in_own_process(const Sweep& sweep, const Variant& variant, const std::string& program) {
-  const JobAnswer answer = run_in_processes({{program, "worker", "--timing"}, 1},
-                                            {timing_job(sweep.definition, variant, sweep.rules)},
-                                            [](std::size_t, const JobAnswer&) {})
-                               .front();
+  const JobAnswer answer =
+      run_in_processes(
+          {{program, "worker", "--timing"}, 1}, 1,
+          [&](std::size_t) { return timing_job(sweep.definition, variant, sweep.rules); },
+          [](std::size_t, const JobAnswer&) {})
+          .front();
   return answer.bytes ? variant_run_from(*answer.bytes) : failed_run(answer.reason);
 }
 

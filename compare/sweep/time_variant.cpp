@@ -200,26 +200,26 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
 }
 
 std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
-  return to_bytes(definition, variant, rules);
+  return cases::to_bytes(definition, variant, rules);
 }
 
 std::string answer_timing_job(const std::string& job) {
   cases::Case definition;
   Variant variant;
   TimingRules rules;
-  from_bytes(job, definition, variant, rules);
+  cases::from_bytes(job, definition, variant, rules);
   const std::optional<double> before = peak_resident_megabytes();
   VariantRun run = time_variant(definition, variant, rules);
   if (variant.program != Program::calculix) { // whose memory is another process's
     run.start_megabytes = before;
     run.peak_megabytes = peak_resident_megabytes();
   }
-  return to_bytes(run);
+  return cases::to_bytes(run);
 }
 
 VariantRun variant_run_from(const std::string& answer) {
   VariantRun run;
-  from_bytes(answer, run);
+  cases::from_bytes(answer, run);
   return run;
 }
 

@@ -1,35 +1,76 @@
 #include "compare/write/whole_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/provenance/mpi_rank.hpp"
 
+#include <cerrno>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace springproof::compare {
 
-void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  namespace fs = std::filesystem;
-  const fs::path target(path);
-  const fs::path temporary = path + ".part" + std::to_string(getpid());
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw cases::InputError("cannot write '" + path + "': " + reason);
+}
+
+/// A device, a pipe or a link, which renaming would replace by a file.
+bool is_special(const fs::path& path) {
   std::error_code error;
-  if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
-  std::ofstream file(temporary, std::ios::binary);
+  const fs::file_status status = fs::symlink_status(path, error);
+  return fs::is_other(status) || fs::is_symlink(status);
+}
+
+} // namespace
+
+void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  const bool is_renamed = !is_special(path);
+  const fs::path target(path), place = is_renamed ? path + ".part" : path;
+  std::error_code error;
+  if (is_renamed) {
+    if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
+    fs::remove(place, error); // of a run that was killed
+  }
+  error.clear();
+  errno = 0;
+  std::ofstream file(place, std::ios::binary);
   if (file) write(file);
   file.close();
-  if (file) fs::rename(temporary, target, error);
-  if (!file || error) {
-    fs::remove(temporary, error);
-    throw cases::InputError("cannot write '" + path + "'");
-  }
+  if (!file) error.assign(errno != 0 ? errno : EIO, std::generic_category());
+  if (!error && is_renamed) fs::rename(place, target, error);
+  if (!error) return;
+  std::error_code ignored;
+  if (is_renamed) fs::remove(place, ignored);
+  refuse(path, error.message());
 }
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw cases::InputError(path + ": cannot be read");
-  return content;
+  try {
+    if (file) return {std::istreambuf_iterator<char>(file), {}};
+  } catch (const std::ios_base::failure&) {
+    // a folder opens, but it cannot be read
+  }
+  throw cases::InputError(path + ": cannot be read");
+}
+
+void claim_folder(const std::string& folder) {
+  if (folder.empty() || mpi_rank() != 0) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0 || access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(folder, std::generic_category().message(errno));
+  // The lock goes with the process. File systems that have none go without it.
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    refuse(folder, "another springproof writes into it");
 }
 
 } // namespace springproof::compare

@@ -61,7 +61,8 @@ TEST_CASE("an independent program's springs are measured with our ruler and agre
   const compare::Comparison by_us = compare::compare_case(definition);
   CHECK(compare::judge_gates(by_us).met());
   const auto& ours = by_us.answers.msm.solution;
-  const auto external = compare::read_external({definition}, folder + "pulled_bar.csv");
+  const auto external =
+      compare::read_external({{cases::make_scene(definition), {}}}, folder + "pulled_bar.csv");
   REQUIRE(external);
   const compare::Comparison by_them = compare::comparison_of(
       by_us.scene, compare::with_displacements(by_us.answers, by_us.scene.mesh, *external));
@@ -74,7 +75,8 @@ TEST_CASE("an independent program's springs are measured with our ruler and agre
 TEST_CASE("the report of another program's springs says where they come from, without stiffness and counts") {
   const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
   const compare::Comparison ours = compare::compare_case(definition);
-  const auto external = compare::read_external({definition}, folder + "pulled_bar.csv");
+  const auto external =
+      compare::read_external({{cases::make_scene(definition), {}}}, folder + "pulled_bar.csv");
   const compare::Comparison comparison = compare::comparison_of(
       ours.scene, compare::with_displacements(ours.answers, ours.scene.mesh, *external));
   const auto side = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["msm"];
@@ -92,7 +94,9 @@ TEST_CASE("the report of another program's springs says where they come from, wi
 
 TEST_CASE("one file of displacements belongs to one case") {
   const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
-  CHECK_THROWS_AS(compare::read_external({definition, definition}, folder + "pulled_bar.csv"),
-                  cases::InputError);
-  CHECK_FALSE(compare::read_external({definition}, ""));
+  CHECK_THROWS_AS(
+      compare::read_external({{cases::make_scene(definition), {}}, {cases::make_scene(definition), {}}},
+                             folder + "pulled_bar.csv"),
+      cases::InputError);
+  CHECK_FALSE(compare::read_external({{cases::make_scene(definition), {}}}, ""));
 }

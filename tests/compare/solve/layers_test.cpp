@@ -52,7 +52,7 @@ TEST_CASE("layers in a row stretch by the sum of theirs, in finite elements refi
   cases::Case definition = column(0.2, 0.8);
   for (const int refine : {0, 1}) {
     definition.fem.refine = refine;
-    const Comparison comparison = compare_case(definition, {{}, cases::Side::fem, 0, ""});
+    const Comparison comparison = compare_case(definition, {cases::Side::fem});
     // Without lateral strains the solution is linear in each layer, which the elements have exactly.
     REQUIRE(comparison.measures.size() == 2);
     for (const MeasuredValue& value : comparison.measures)
@@ -63,7 +63,7 @@ TEST_CASE("layers in a row stretch by the sum of theirs, in finite elements refi
 TEST_CASE("springs know the layers' materials: twice as stiff above is half the stretch above",
           "[verification]") {
   const auto stretch = [](double lower, double upper) {
-    return compare_case(column(lower, upper), {{}, cases::Side::msm, 0, ""}).measures[0].msm.value();
+    return compare_case(column(lower, upper), {cases::Side::msm}).measures[0].msm.value();
   };
   // A lattice of springs cannot have nu = 0, and the layers hinder each other's lateral strain; but scaled
   // together they stay in proportion, and a much stiffer layer adds almost nothing.

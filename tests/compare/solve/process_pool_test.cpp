@@ -15,13 +15,13 @@ compare::ProcessPool python_pool(int n_workers) {
   return {{"python3", "-c", R"(
 import hashlib, os, signal, sys
 def answer(kind, content, damage=b""):
-    heading = b"%b %d %b\n" % (kind, len(content), hashlib.sha256(kind + content).hexdigest().encode())
+    heading = b"%b %d %b\n" % (kind, len(content), hashlib.sha256(kind + b" " + content).hexdigest().encode())
     sys.stdout.buffer.write(heading + (damage or content))
     sys.stdout.buffer.flush()
 while heading := sys.stdin.buffer.readline():
     kind, size, digest = heading.split()
     job = sys.stdin.buffer.read(int(size))
-    assert kind == b"job" and hashlib.sha256(kind + job).hexdigest().encode() == digest
+    assert kind == b"job" and hashlib.sha256(kind + b" " + job).hexdigest().encode() == digest
     if job == b"crash": os.kill(os.getpid(), signal.SIGSEGV)
     elif job == b"leave": sys.exit(7)
     elif job == b"fail": answer(b"failed", b"why")
@@ -34,7 +34,9 @@ while heading := sys.stdin.buffer.readline():
 }
 
 std::vector<compare::JobAnswer> run(const compare::ProcessPool& pool, const std::vector<std::string>& jobs) {
-  return compare::run_in_processes(pool, jobs, [](std::size_t, const compare::JobAnswer&) {});
+  return compare::run_in_processes(
+      pool, jobs.size(), [&](std::size_t j) { return jobs[j]; },
+      [](std::size_t, const compare::JobAnswer&) {});
 }
 
 std::string first_word(const compare::JobAnswer& answer) {
@@ -50,7 +52,8 @@ TEST_CASE("every job is answered once, in its own place, whatever the number of 
   for (const int n_workers : {1, 3, 50}) {
     std::multiset<std::size_t> done;
     const auto answers = compare::run_in_processes(
-        python_pool(n_workers), jobs, [&](std::size_t j, const compare::JobAnswer&) { done.insert(j); });
+        python_pool(n_workers), jobs.size(), [&](std::size_t j) { return jobs[j]; },
+        [&](std::size_t j, const compare::JobAnswer&) { done.insert(j); });
     REQUIRE(answers.size() == jobs.size());
     for (std::size_t j = 0; j < jobs.size(); ++j) {
       CHECK(first_word(answers[j]) == jobs[j]);

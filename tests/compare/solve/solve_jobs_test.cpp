@@ -2,11 +2,14 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/solve/side_bytes.hpp"
+
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace springproof;
+
+namespace fs = std::filesystem;
 
 using cases::Side;
 using compare::Answers;
@@ -41,7 +44,7 @@ bool is_same(const cases::Solution& a, const cases::Solution& b) {
 
 Answers solve_here(const SolveJob& job) {
   const cases::Scene scene = cases::make_scene(cases::read_case(job.case_file, job.settings));
-  return compare::solve(scene, {job.settings, job.only, job.meshes, ""}, compare::solve_fem);
+  return compare::solve(scene, {job.only}, compare::solve_fem);
 }
 
 } // namespace
@@ -91,16 +94,27 @@ TEST_CASE(
   CHECK(solved[3].answers.msm.solution.status == cases::Status::converged);
 }
 
-TEST_CASE("each job is told as soon as it is solved, with its numbers") {
-  std::vector<std::size_t> told;
-  compare::SolveOptions options{1, SPRINGPROOF_PROGRAM};
-  options.on_solved = [&](std::size_t job, const Solved& solved) {
-    told.push_back(job);
-    CHECK(solved.answers.msm.solution.status == cases::Status::converged);
-  };
-  compare::solve_jobs({shear(Side::msm), shear(Side::msm, {"msm.design=moduli"})}, compare::solve_fem,
-                      options, [](int, int) {});
-  CHECK_THAT(told, Catch::UnorderedEquals<std::size_t>({0, 1}));
+TEST_CASE("answers are reported as soon as they are there, each once, with their numbers") {
+  std::vector<std::size_t> reported;
+  const auto questions =
+      compare::read_questions({shear({}).case_file, shear({}).case_file}, coarse, {Side::msm});
+  compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem, {1, SPRINGPROOF_PROGRAM},
+                      [&](std::size_t question, const Answers& answers) {
+                        reported.push_back(question);
+                        CHECK(answers.msm.solution.status == cases::Status::converged);
+                      });
+  CHECK_THAT(reported, Catch::UnorderedEquals<std::size_t>({0, 1}));
+}
+
+TEST_CASE("workers read no file: what was parsed is what is solved") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("case.toml", "");
+  fs::copy_file(shear({}).case_file, file, fs::copy_options::overwrite_existing);
+  const auto questions = compare::read_questions({file}, coarse, {Side::msm});
+  fs::remove(file);
+  const auto answers = compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem,
+                                           {1, SPRINGPROOF_PROGRAM}, [](std::size_t, const Answers&) {});
+  CHECK(is_same(answers[0].msm.solution, solve_here(shear(Side::msm)).msm.solution));
 }
 
 TEST_CASE("a worker that crashes is a failed side that says so") {
@@ -108,30 +122,4 @@ TEST_CASE("a worker that crashes is a failed side that says so") {
       compare::solve_jobs({shear(Side::msm)}, compare::solve_fem, {1, "false"}, [](int, int) {});
   CHECK(solved[0].answers.msm.solution.status == cases::Status::failed);
   CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("status 1"));
-}
-
-TEST_CASE("broken bytes are refused, whole ones come back as they were") {
-  Answers before;
-  before.msm.solution.message = "with a\nline break";
-  before.msm.solution.displacement = {{1, 2, 3}, {-0.0, 5e-324, 1e308}};
-  before.msm.solution.negative_eigenvalues = 2;
-  before.design = msm::DesignResult{};
-  before.design->warnings = {"one", ""};
-  before.refined = compare::RefinedMeshes{{0, 1}, {before.msm.solution, {}}, "because"};
-  before.resolved.refine = 2;
-  before.peer = compare::Peer{"CalculiX", {}, 1e-7};
-  const std::string bytes = compare::to_bytes(before);
-  const Answers after = compare::from_bytes(bytes);
-  CHECK(after.msm.solution.message == before.msm.solution.message);
-  CHECK(after.msm.solution.displacement == before.msm.solution.displacement);
-  CHECK(after.msm.solution.negative_eigenvalues == 2);
-  CHECK_FALSE(after.msm.solution.lowest_eigenvalue);
-  CHECK(after.design->warnings == before.design->warnings);
-  CHECK(after.refined->refine == before.refined->refine);
-  CHECK(after.refined->solutions.at(0).displacement == before.msm.solution.displacement);
-  CHECK(after.refined->reason == "because");
-  CHECK(after.resolved.refine == 2);
-  CHECK(after.peer->largest_difference == 1e-7);
-  CHECK_THROWS_AS(compare::from_bytes(bytes.substr(0, bytes.size() - 1)), std::exception);
-  CHECK_THROWS_AS(compare::from_bytes(bytes + "x"), std::exception);
 }

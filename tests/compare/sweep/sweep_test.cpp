@@ -161,9 +161,11 @@ TEST_CASE(
                          cases::Element::q2,       {2, 2, 2}, 1e-9};
   for (const Variant& variant : {springs(2), elements}) {
     const std::string job = timing_job(cases::read_case(folder + "cube_tensile.toml"), variant, rules);
-    const JobAnswer answer = run_in_processes({{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, {job},
-                                              [](std::size_t, const compare::JobAnswer&) {})
-                                 .front();
+    const JobAnswer answer =
+        run_in_processes(
+            {{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, 1, [&](std::size_t) { return job; },
+            [](std::size_t, const compare::JobAnswer&) {})
+            .front();
     INFO(answer.reason);
     REQUIRE(answer.bytes);
     const VariantRun run = variant_run_from(*answer.bytes);

@@ -1,8 +1,6 @@
 #include "compare/thesis/published.hpp"
-#include "compare/write/whole_file.hpp"
 #include "compare/write/write.hpp"
 
-#include "cases/case/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -82,21 +80,6 @@ TEST_CASE("a failed side is a failed row with its reason, and its values are nul
   CHECK(csv.str() == "case,measure,unit,fem,msm,error_percent,fem_status,msm_status,"
                      "fem_discretisation_error_percent,peer\n"
                      "cell,L,mm,,2.5,,failed,converged,,\n");
-}
-
-TEST_CASE("a file is written whole or not at all") {
-  const TemporaryFolder folder;
-  const std::string target = (folder.path / "deep" / "file.txt").string();
-  compare::write_file(target, [](std::ostream& out) { out << "whole"; });
-  CHECK_THROWS_AS(compare::write_file(target,
-                                      [](std::ostream& out) {
-                                        out << "ha";
-                                        out.setstate(std::ios::badbit);
-                                      }),
-                  cases::InputError);
-  CHECK(content(target) == "whole");
-  CHECK(std::distance(fs::directory_iterator(folder.path / "deep"), fs::directory_iterator()) == 1);
-  CHECK_THROWS_AS(compare::write_file("/proc/none/file", [](std::ostream&) {}), cases::InputError);
 }
 
 TEST_CASE("the published figures are read whole, and a broken row is named") {

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "cases/case/solution.hpp"
+#include "cases/mesh/fields.hpp"
+#include "cases/scene/scene.hpp"
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/variant.hpp>
+#include <type_traits>
+
+/// The fields of parsed cases, scenes and solutions, for cereal: see cases/mesh/fields.hpp.
+namespace cereal {
+
+/// Names and places of files are for messages: a worker needs them, a case's identity must not have them.
+template<class Archive>
+constexpr bool has_places = !std::is_same_v<Archive, BinaryOutputArchive>;
+
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Where& where) {
+  auto& [file, line, column, key] = where;
+  if constexpr (has_places<Archive>) archive(file, line, column, key);
+}
+
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::MeshFile& mesh) {
+  auto& [path, where] = mesh;
+  if constexpr (has_places<Archive>) archive(path, where);
+}
+
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
+  auto& [path, edge, where] = voxels;
+  archive(edge);
+  if constexpr (has_places<Archive>) archive(path, where);
+}
+
+SPRINGPROOF_FIELDS(springproof::cases::Box, size, cells)
+SPRINGPROOF_FIELDS(springproof::cases::LinearElastic, youngs_modulus, poissons_ratio)
+SPRINGPROOF_FIELDS(springproof::cases::Ogden, mu, alpha, bulk_modulus)
+SPRINGPROOF_FIELDS(springproof::cases::RegionMaterial, material, group, lower, upper, where)
+SPRINGPROOF_FIELDS(springproof::cases::Region, name, near, where, radius)
+SPRINGPROOF_FIELDS(springproof::cases::Fixed, region, components)
+SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, angle, axis, centre)
+SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, centre)
+SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_auto_formulation,
+                   has_auto_accuracy, where)
+SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, poissons_ratio, split, stiffness,
+                   volume_stiffness, paths, weights, strain_range, has_volume_term, where)
+SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
+                   centre, where)
+SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
+                   interval_where)
+
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Case& definition) {
+  auto& [name, description, file, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
+         measures, expectations] = definition;
+  archive(name, description, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
+          measures, expectations);
+  if constexpr (has_places<Archive>) archive(file);
+}
+
+SPRINGPROOF_FIELDS(springproof::cases::Scene::FixedNodes, selection, components)
+SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
+SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
+SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, fixed, moved, loads)
+
+SPRINGPROOF_FIELDS(springproof::cases::Solution, status, message, outcome, displacement, cell_volume,
+                   unknowns, residual, load_reached, newton_iterations, linear_iterations,
+                   relaxation_iterations, force_evaluations, factorisations, lowest_eigenvalue,
+                   negative_eigenvalues, inverted_cells)
+
+} // namespace cereal

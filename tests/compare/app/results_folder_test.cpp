@@ -1,0 +1,152 @@
+// The folder of --out as users meet it: what is taken up again, what is refused, what is solved anew.
+
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string cube = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/gates/sheared_cube.toml";
+
+/// A folder with a case of the name "sheared-cube", and one of results.
+struct Workplace {
+  TemporaryFolder folder;
+  std::string file = folder.write("cube.toml", content(cube));
+  std::string out = (folder.path / "out").string();
+  ProgramRun run(const std::string& words, const std::string& before = "") const {
+    return run_program("run --only msm --out " + out + " " + words, before);
+  }
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+bool is_taken_up(const ProgramRun& run) {
+  REQUIRE(run.status == 0);
+  return run.error.find("solved already") != std::string::npos;
+}
+
+std::string with_modulus(const std::string& text, const std::string& modulus) {
+  return replaced(text, "youngs_modulus = ", "youngs_modulus = " + modulus + " # ");
+}
+
+} // namespace
+
+TEST_CASE("a case is taken up as it was parsed: its text through a pipe, a comment, another place") {
+  const Workplace workplace;
+  const std::string soft = workplace.folder.write("soft.toml", with_modulus(content(cube), "0.1"));
+  const ProgramRun first = workplace.run("/dev/stdin", "cat " + workplace.file + " | ");
+  CHECK_FALSE(is_taken_up(first));
+  CHECK(is_taken_up(workplace.run("/dev/stdin", "cat " + workplace.file + " | ")));
+  workplace.folder.write("cube.toml", "# a comment\n" + content(cube));
+  CHECK(is_taken_up(workplace.run(workplace.file)));
+  const ProgramRun other = workplace.run("/dev/stdin", "cat " + soft + " | ");
+  CHECK_FALSE(is_taken_up(other));
+  CHECK(other.out != first.out);
+}
+
+TEST_CASE("a geometry whose included file has changed is solved again") {
+  const Workplace workplace;
+  const std::string templates = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/templates/mesh";
+  const std::string geometry = content(templates + ".geo"), height = "{0, 0, 12}";
+  workplace.folder.write("TEMPLATE.geo",
+                         "Include \"height.geo\";\n" + replaced(geometry, height, "{0, 0, height}"));
+  const std::string file = workplace.folder.write(
+      "wedge.toml", replaced(content(templates + ".toml"), "near 10 10 12", "near 10 10 0"));
+  workplace.folder.write("height.geo", "height = 12;\n");
+  CHECK_FALSE(is_taken_up(workplace.run(file)));
+  CHECK(is_taken_up(workplace.run(file)));
+  workplace.folder.write("height.geo", "height = 6;\n");
+  CHECK_FALSE(is_taken_up(workplace.run(file)));
+}
+
+TEST_CASE("a kept result that is damaged is solved again, with one line that says so") {
+  const Workplace workplace;
+  const ProgramRun first = workplace.run(workplace.file);
+  const std::string kept = workplace.out + "/solved/sheared-cube", whole = content(kept);
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 4;
+  for (const std::string& damaged : {flipped, whole.substr(0, 1000), std::string()}) {
+    std::ofstream(kept, std::ios::binary) << damaged;
+    const ProgramRun again = workplace.run(workplace.file);
+    CHECK_FALSE(is_taken_up(again));
+    CHECK(again.out.substr(0, again.out.find(" s")) == first.out.substr(0, first.out.find(" s")));
+    CHECK(again.error.find(kept) == 0);
+    CHECK(std::count(again.error.begin(), again.error.end(), '\n') == 1);
+    CHECK(is_taken_up(workplace.run(workplace.file)));
+  }
+}
+
+TEST_CASE("two cases of one name are refused for one folder before anything is solved") {
+  const Workplace workplace;
+  const std::string twin = workplace.folder.write("twin.toml", with_modulus(content(cube), "0.1"));
+  for (const char* command : {"run ", "gate "}) {
+    const ProgramRun refused = run_program(command + workplace.file + " " + twin + " --out " + workplace.out);
+    CHECK(refused.status == 2);
+    CHECK(refused.out.empty());
+    CHECK(refused.error.find("twin.toml") != std::string::npos);
+    CHECK_FALSE(fs::exists(workplace.out));
+  }
+  CHECK(run_program("run --only msm " + workplace.file + " " + twin).status == 0);
+}
+
+TEST_CASE("a folder that cannot be written is refused before anything is solved") {
+  const Workplace workplace;
+  const std::string below = workplace.folder.write("file", "in the way") + "/below";
+  for (const std::string& words :
+       {"run " + workplace.file, "gate " + workplace.file, std::string("stress one_step"),
+        std::string("tables 4.1"),
+        "sweep --quick " + std::string(SPRINGPROOF_SOURCE_DIR) + "/tests/compare/sweep/tiny.toml",
+        std::string("eigen --poisson 0.3"),
+        std::string("design --young 1 --poisson 0.3 --edge 1 --method hybrid")}) {
+    INFO(words);
+    const ProgramRun refused = run_program(words + " --out " + below);
+    CHECK(refused.status == 2);
+    CHECK(refused.out.empty());
+    CHECK(refused.error.find(below) != std::string::npos);
+  }
+}
+
+TEST_CASE("two programs do not write into one folder at the same time") {
+  const Workplace workplace;
+  fs::create_directories(workplace.out);
+  const ProgramRun refused = workplace.run(workplace.file, "flock " + workplace.out + " ");
+  CHECK(refused.status == 2);
+  CHECK(refused.error.find("another springproof") != std::string::npos);
+  CHECK(workplace.run(workplace.file).status == 0);
+}
+
+TEST_CASE("what is no UTF-8, and names too long for a file, are refused before anything is solved") {
+  const Workplace workplace;
+  const std::string strange = workplace.folder.write("cube\xff.toml", content(cube));
+  const std::string long_name(300, 'x'), no_file = workplace.folder.path.string() + "/folder.csv";
+  fs::create_directory(no_file);
+  for (const std::string& words :
+       {"run --json --set \"name=$(printf '\\377')\" " + workplace.file, "run --json " + strange,
+        "run --set name=" + long_name + " --out " + workplace.out + " " + workplace.file, "new " + long_name,
+        "run --msm-displacements " + no_file + " " + workplace.file}) {
+    INFO(words);
+    const ProgramRun refused = run_program(words);
+    CHECK(refused.status == 2);
+    CHECK(refused.out.empty());
+    CHECK(std::count(refused.error.begin(), refused.error.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("verdicts go to the file that a link leads to") {
+  const Workplace workplace;
+  const std::string file = workplace.folder.write("gates.xml", ""),
+                    link = (workplace.folder.path / "link").string();
+  fs::create_symlink(file, link);
+  CHECK(run_program("gate --junit " + link + " " + cube).status == 0);
+  CHECK(content(file).find("<testsuite") != std::string::npos);
+  CHECK(fs::is_symlink(link));
+}
