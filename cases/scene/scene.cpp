@@ -1,6 +1,7 @@
 #include "cases/scene/scene.hpp"
 
 #include "cases/case/index.hpp"
+#include "cases/case/names.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 
@@ -157,22 +158,20 @@ std::vector<double> modelled_share(const Scene& scene) {
   return share;
 }
 
+/// Every region that a measure names is one node.
 void check_measure(const HexMesh& mesh, const Measure& measure) {
-  switch (measure.kind) {
-  case MeasureKind::coordinate:
-  case MeasureKind::displacement:
-    select_node(mesh, measure.node);
-    break;
-  case MeasureKind::tilt:
-    select_node(mesh, measure.top);
-    select_node(mesh, measure.bottom);
-    break;
-  case MeasureKind::twist:
-    select_node(mesh, measure.node);
-    select_node(mesh, measure.centre);
-    break;
-  default:
-    break;
+  for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
+    if (region->near || !region->name.empty()) select_node(mesh, *region);
+}
+
+/// Constrained and moved nodes of the definition on the scene's mesh.
+void resolve_supports(Scene& scene) {
+  for (const auto* list : {&scene.definition.fixed, &scene.definition.symmetry})
+    for (const Fixed& fixed : *list)
+      scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});
+  for (const Moved& motion : scene.definition.moved) {
+    scene.moved.push_back({select(scene.mesh, motion.region), motion});
+    scene.fixed.push_back({scene.moved.back().selection, motion.components});
   }
 }
 
@@ -197,9 +196,8 @@ void resolve_loads(Scene& scene) {
     Selection selection = select(scene.mesh, load.region);
     const bool needs_faces = load.kind == LoadKind::traction || load.kind == LoadKind::torque;
     if (needs_faces && selection.faces.empty())
-      throw InputError(load.region.where,
-                       fmt::format("'{}' has no faces, and a {} acts on faces", load.region.name,
-                                   load.kind == LoadKind::traction ? "traction" : "torque"));
+      throw InputError(load.region.where, fmt::format("'{}' has no faces, and a {} acts on faces",
+                                                      load.region.name, name_of(load.kind)));
     scene.loads.push_back({std::move(selection), load});
     if (load.kind == LoadKind::torque && !(polar_moment(scene.mesh, scene.loads.back()) > 0))
       throw InputError(load.region.where, "the region has no extent about the torque's axis");
@@ -263,13 +261,7 @@ Scene make_scene(const Case& definition) {
   scene.mesh = make_mesh(definition.body);
   resolve_materials(scene);
   add_patches(scene);
-  for (const auto* list : {&definition.fixed, &definition.symmetry})
-    for (const Fixed& fixed : *list)
-      scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});
-  for (const Moved& motion : definition.moved) {
-    scene.moved.push_back({select(scene.mesh, motion.region), motion});
-    scene.fixed.push_back({scene.moved.back().selection, motion.components});
-  }
+  resolve_supports(scene);
   check_motions(scene);
   resolve_loads(scene);
   for (const Measure& measure : definition.measures) check_measure(scene.mesh, measure);
@@ -290,13 +282,7 @@ Scene refine(const Scene& scene, int n) {
   fine.mesh = refine(scene.mesh);
   for (const int material : scene.material_of_cell) // the children of cell c are 8c .. 8c+7
     fine.material_of_cell.insert(fine.material_of_cell.end(), 8, material);
-  for (const auto* list : {&scene.definition.fixed, &scene.definition.symmetry})
-    for (const Fixed& fixed : *list)
-      fine.fixed.push_back({select(fine.mesh, fixed.region), fixed.components});
-  for (const Moved& motion : scene.definition.moved) {
-    fine.moved.push_back({select(fine.mesh, motion.region), motion});
-    fine.fixed.push_back({fine.moved.back().selection, motion.components});
-  }
+  resolve_supports(fine);
   for (const Scene::AppliedLoad& applied : scene.loads) {
     const Region& region = applied.load.region;
     const bool stays = applied.load.kind == LoadKind::nodal_force || (region.near && !region.radius);
