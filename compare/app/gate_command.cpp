@@ -4,12 +4,12 @@
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
-#include "compare/gates/write.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/finished.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/whole_file.hpp"
+#include "compare/write/write_gates.hpp"
 #include "compare/write/write_results.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/provenance/cases_folder.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/thesis/published.hpp"
 #include "compare/write/whole_file.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/thesis/published.hpp"
+#include "compare/provenance/cases_folder.hpp"
 #include "msm/model.hpp"
 #include "msm/tangent.hpp"
 

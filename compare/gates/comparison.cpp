@@ -7,9 +7,9 @@ namespace springproof::compare {
 Comparison comparison_of(cases::Scene scene, Answers answers) {
   Comparison comparison;
   comparison.measures = measure(scene, answers);
-  for (const cases::Expectation& expectation : scene.definition.expectations)
-    comparison.judgements.push_back(judge(expectation, comparison.measures));
   if (answers.refined) comparison.mesh_study = study_meshes(scene, answers);
+  const MeshStudy* study = comparison.mesh_study ? &*comparison.mesh_study : nullptr;
+  comparison.gates = judge(scene, answers, comparison.measures, study);
   comparison.scene = std::move(scene);
   comparison.answers = std::move(answers);
   return comparison;

@@ -11,7 +11,7 @@ struct Comparison {
   cases::Scene scene; ///< as the case file has it; what "auto" was found to mean is with the answers
   Answers answers;
   std::vector<MeasuredValue> measures;
-  std::vector<Judgement> judgements;   ///< one per expectation
+  std::vector<Gate> gates;             ///< one per expectation
   std::optional<MeshStudy> mesh_study; ///< when asked for
 };
 

@@ -1,25 +1,82 @@
 #include "compare/gates/judge.hpp"
 
+#include "compare/measure/measure.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace springproof::compare {
 
+namespace {
+
+using cases::Quantity;
+
+template<class Named>
+const Named* find(const std::vector<Named>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// What the measures alone do not tell.
+std::string why_without_value(const Answers& answers, Quantity quantity) {
+  const auto why = [](const char* side, const cases::Solution& solution) -> std::string {
+    if (solution.status == cases::Status::skipped) return fmt::format("{} was not solved", side);
+    if (solution.status == cases::Status::converged) return "";
+    return fmt::format("{} failed at {:.4g} of the load: {}", side, solution.load_reached, solution.message);
+  };
+  std::string reason;
+  if (quantity != Quantity::msm) reason = why("fem", answers.fem.solution);
+  if (quantity != Quantity::fem && reason.empty()) reason = why("msm", answers.msm.solution);
+  return reason.empty() ? "it has no finite value" : reason;
+}
+
+/// From an error bar of d percent of the finite elements' value f: d f/100 of f itself; of r = 100 (m/f - 1),
+/// to first order in d, (100 + r) d/100 points. The error of a field norm is of a difference of fields, of
+/// which the bar of the norm says nothing.
+std::optional<double> uncertainty(const Judgement& judgement, const cases::Measure* measure,
+                                  const StudiedMeasure* study) {
+  const cases::Expectation& expected = judgement.expectation;
+  if (!study || !measure || !study->discretisation_error_percent || !judgement.value) return std::nullopt;
+  const double part = *study->discretisation_error_percent / 100;
+  switch (expected.quantity) {
+  case Quantity::fem:
+    return part * std::abs(*judgement.value);
+  case Quantity::error_percent:
+    if (is_field_norm(measure->kind)) return std::nullopt;
+    return part * std::abs(100 + *judgement.value);
+  case Quantity::msm:
+    break;
+  }
+  return std::nullopt;
+}
+
+std::string warning_of(const Gate& gate, const StudiedMeasure* study) {
+  const cases::Expectation& expected = gate.judgement.expectation;
+  const double width = expected.interval[1] - expected.interval[0];
+  if (gate.uncertainty && !(width >= 2 * *gate.uncertainty))
+    return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}",
+                       *gate.uncertainty, gate.unit);
+  if (expected.reference != cases::ReferenceKind::converged || gate.uncertainty ||
+      expected.quantity == Quantity::msm || !gate.judgement.value)
+    return "";
+  return "the reference has no error bar" + (study && !study->reason.empty() ? ": " + study->reason : "");
+}
+
+} // namespace
+
 Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
-  const auto found = std::find_if(measures.begin(), measures.end(),
-                                  [&](const MeasuredValue& m) { return m.name == expectation.measure; });
-  if (found == measures.end())
-    return {expectation, Verdict::missed, std::nullopt, "there is no such measure"};
+  const MeasuredValue* found = find(measures, expectation.measure);
+  if (!found) return {expectation, Verdict::missed, std::nullopt, "there is no such measure"};
   std::optional<double> value;
   switch (expectation.quantity) {
-  case cases::Quantity::error_percent:
+  case Quantity::error_percent:
     value = found->error_percent;
     break;
-  case cases::Quantity::msm:
+  case Quantity::msm:
     value = found->msm;
     break;
-  case cases::Quantity::fem:
+  case Quantity::fem:
     value = found->fem;
     break;
   }
@@ -32,6 +89,26 @@ Judgement judge(const cases::Expectation& expectation, const std::vector<Measure
   return {expectation, Verdict::missed, value,
           fmt::format("{:.6g} is outside [{:.6g}, {:.6g}]", *value, expectation.interval[0],
                       expectation.interval[1])};
+}
+
+std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
+                        const std::vector<MeasuredValue>& measures, const MeshStudy* study) {
+  std::vector<Gate> gates;
+  for (const cases::Expectation& expected : scene.definition.expectations) {
+    const cases::Measure* measure = find(scene.definition.measures, expected.measure);
+    const StudiedMeasure* studied = study ? find(study->measures, expected.measure) : nullptr;
+    Gate gate{judge(expected, measures), "", std::nullopt, "", ""};
+    if (expected.quantity == Quantity::error_percent)
+      gate.unit = "%";
+    else if (measure)
+      gate.unit = unit_of(*measure);
+    if (!gate.met() && !gate.judgement.value && find(measures, expected.measure))
+      gate.cause = why_without_value(answers, expected.quantity);
+    gate.uncertainty = uncertainty(gate.judgement, measure, studied);
+    gate.warning = warning_of(gate, studied);
+    gates.push_back(gate);
+  }
+  return gates;
 }
 
 } // namespace springproof::compare

@@ -29,30 +29,6 @@ std::string base64(const std::string& bytes) {
 
 } // namespace
 
-std::string escape(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-    case '&':
-      result += "&amp;";
-      break;
-    case '<':
-      result += "&lt;";
-      break;
-    case '>':
-      result += "&gt;";
-      break;
-    case '"':
-      result += "&quot;";
-      break;
-    case '\'':
-      result += "&#39;";
-      break;
-    default:
-      result += c;
-    }
-  return result;
-}
-
 std::string number(const std::optional<double>& value, int decimals) {
   if (!value) return "–";
   const std::string text = fmt::format("{:.{}f}", *value, decimals);

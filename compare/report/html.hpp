@@ -1,13 +1,14 @@
 #pragma once
 
+#include "compare/write/escape.hpp"
+
 #include <map>
 #include <optional>
 #include <string>
 
 namespace springproof::compare::html {
 
-/// Text as it may stand between tags and inside an attribute, in either kind of quotes.
-std::string escape(const std::string& text);
+using compare::escape;
 
 /// A number as a table shows it, or a dash.
 std::string number(const std::optional<double>& value, int decimals = 2);

@@ -10,10 +10,6 @@ namespace springproof::compare {
 
 namespace {
 
-std::string field(const std::optional<double>& value) {
-  return value ? fmt::format("{:.10g}", *value) : "";
-}
-
 /// Lower quartile, median, upper quartile.
 std::string quartile_columns(const std::vector<double>& seconds) {
   if (seconds.empty()) return ",,";
@@ -50,10 +46,11 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
                run.first.unknowns, run.first_seconds.size(), run.is_warm ? 1 : 0);
     fmt::print(out, "{},{},{},{},{},{},{}", quartile_columns(run.setup_seconds),
                quartile_columns(run.first_seconds), quartile_columns(run.again_seconds),
-               counters(run, !run.again_seconds.empty()), field(run.start_megabytes),
-               field(run.peak_megabytes), field(row.field_error_percent));
+               counters(run, !run.again_seconds.empty()), csv_number(run.start_megabytes),
+               csv_number(run.peak_megabytes), csv_number(row.field_error_percent));
     for (std::size_t m = 0; m < sweep.definition.measures.size(); ++m)
-      fmt::print(out, ",{}", m < row.measure_error_percent.size() ? field(row.measure_error_percent[m]) : "");
+      fmt::print(out, ",{}",
+                 m < row.measure_error_percent.size() ? csv_number(row.measure_error_percent[m]) : "");
     fmt::print(out, "\n");
   }
 }

@@ -1,19 +1,14 @@
 #include "cases/case/names.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
+#include "compare/write/or_null.hpp"
 #include "compare/write/write.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json times(const std::vector<double>& seconds) {
   if (seconds.empty()) return nullptr;

@@ -2,6 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/cube/plot_design.hpp"
+#include "compare/provenance/cases_folder.hpp"
 #include "compare/thesis/plot_bodies.hpp"
 #include "compare/thesis/plot_volumes.hpp"
 #include "compare/write/write_eigen.hpp"

@@ -1,10 +1,10 @@
 #include "compare/thesis/published.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/provenance/cases_folder.hpp"
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -53,11 +53,6 @@ void read_cell_figures(const std::string& folder, std::vector<PublishedFigure>& 
 }
 
 } // namespace
-
-std::string cases_folder() {
-  const char* moved = std::getenv("SPRINGPROOF_CASES");
-  return moved ? moved : SPRINGPROOF_CASES_DIR;
-}
 
 std::vector<std::vector<std::string>> read_csv(const std::string& path) {
   std::ifstream file(path);

@@ -25,10 +25,6 @@ struct PublishedFigure {
   double value;
 };
 
-/// Folder of the case files and data that come with the program; the environment variable SPRINGPROOF_CASES
-/// moves it.
-std::string cases_folder();
-
 /// All figures of cases/published, table by table.
 /// @throws InputError naming the file when a row is broken
 std::vector<PublishedFigure> read_published_figures();

@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
+#include "compare/provenance/cases_folder.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -9,7 +9,7 @@ namespace springproof::compare {
 namespace {
 
 std::string field(const std::optional<double>& value) {
-  return value ? fmt::format("{:.8g}", *value) : "";
+  return csv_number(value, 8);
 }
 
 std::string joined(const std::vector<std::string>& words) {

@@ -1,18 +1,15 @@
 #include "compare/thesis/write.hpp"
 
+#include "compare/write/or_null.hpp"
+
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <optional>
 #include <string>
 
 namespace springproof::compare {
@@ -11,6 +13,11 @@ inline std::string csv_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + "\"";
+}
+
+/// Nothing where there is no value.
+inline std::string csv_number(const std::optional<double>& value, int digits = 10) {
+  return value ? fmt::format("{:.{}g}", *value, digits) : "";
 }
 
 } // namespace springproof::compare

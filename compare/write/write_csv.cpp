@@ -10,10 +10,6 @@ namespace springproof::compare {
 
 namespace {
 
-std::string ten_digits(const std::optional<double>& value) {
-  return value ? fmt::format("{:.10g}", *value) : "";
-}
-
 std::optional<double> discretisation_error(const Comparison& comparison, std::size_t measure) {
   return comparison.mesh_study ? comparison.mesh_study->measures[measure].discretisation_error_percent
                                : std::nullopt;
@@ -28,9 +24,9 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
     for (std::size_t i = 0; i < c.measures.size(); ++i) {
       const MeasuredValue& m = c.measures[i];
       fmt::print(out, "{},{},{},{},{},{},{},{},{},{}\n", csv_text(c.scene.definition.name), csv_text(m.name),
-                 m.unit, ten_digits(m.fem), ten_digits(m.msm), ten_digits(m.error_percent),
+                 m.unit, csv_number(m.fem), csv_number(m.msm), csv_number(m.error_percent),
                  cases::name_of(c.answers.fem.solution.status), cases::name_of(c.answers.msm.solution.status),
-                 ten_digits(discretisation_error(c, i)), ten_digits(m.peer));
+                 csv_number(discretisation_error(c, i)), csv_number(m.peer));
     }
 }
 

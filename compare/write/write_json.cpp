@@ -3,19 +3,13 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/version.hpp"
-
-#include <nlohmann/json.hpp>
+#include "compare/write/or_null.hpp"
 
 namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-template<class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json fem_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.answers.fem);
@@ -53,14 +47,16 @@ Json comparison_to_json(const Comparison& comparison) {
     if (comparison.answers.peer) measures.back()["peer"] = or_null(m.peer);
   }
   Json expectations = Json::array();
-  for (const Judgement& j : comparison.judgements)
+  for (const Gate& gate : comparison.gates) {
+    const Judgement& j = gate.judgement;
     expectations.push_back({{"measure", j.expectation.measure},
                             {"quantity", cases::name_of(j.expectation.quantity)},
                             {"interval", j.expectation.interval},
                             {"reference", cases::name_of(j.expectation.reference)},
                             {"value", or_null(j.value)},
-                            {"met", j.verdict == Verdict::met},
+                            {"met", gate.met()},
                             {"reason", j.reason}});
+  }
   const cases::Case& definition = comparison.scene.definition;
   Json document{{"name", definition.name},
                 {"description", definition.description},

@@ -1,10 +1,10 @@
+#include "compare/write/or_null.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -47,7 +47,7 @@ void write_text(std::ostream& out, const MeshStudy& study) {
 void add_mesh_study(nlohmann::ordered_json& side, const MeshStudy& study) {
   Json errors = Json::object(), measures = Json::array();
   for (const StudiedMeasure& m : study.measures) {
-    errors[m.name] = m.discretisation_error_percent ? Json(*m.discretisation_error_percent) : Json(nullptr);
+    errors[m.name] = or_null(m.discretisation_error_percent);
     Json measure{{"name", m.name}, {"values", m.values}};
     if (m.limit) {
       measure["observed_order"] = m.limit->order;

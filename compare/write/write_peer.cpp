@@ -1,10 +1,10 @@
+#include "compare/write/or_null.hpp"
 #include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Peer& peer) {
           {"newton_iterations", s.newton_iterations},
           {"inverted_cells", s.inverted_cells},
           {"seconds", {{"solve", peer.answer.solve_seconds}}},
-          {"largest_difference", peer.largest_difference ? Json(*peer.largest_difference) : Json(nullptr)}};
+          {"largest_difference", or_null(peer.largest_difference)}};
 }
 
 } // namespace springproof::compare

@@ -78,10 +78,10 @@ void write_text(std::ostream& out, const Comparison& comparison) {
                number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"),
                comparison.answers.peer ? fmt::format(" {:>14}", number(m.peer, "{:.6g}")) : "");
   if (comparison.mesh_study) write_text(out, *comparison.mesh_study);
-  for (const Judgement& j : comparison.judgements)
-    fmt::print(out, "  {} {} ({}): {}\n", j.verdict == Verdict::met ? "met   " : "MISSED",
-               j.expectation.measure, cases::name_of(j.expectation.reference),
-               j.verdict == Verdict::met ? fmt::format("{:.6g}", *j.value) : j.reason);
+  for (const Gate& gate : comparison.gates)
+    fmt::print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED",
+               gate.judgement.expectation.measure, cases::name_of(gate.judgement.expectation.reference),
+               gate.met() ? fmt::format("{:.6g}", *gate.judgement.value) : gate.judgement.reason);
 }
 
 } // namespace springproof::compare

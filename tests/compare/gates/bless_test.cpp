@@ -68,7 +68,7 @@ compare::GatedCase judge_file(const std::string& path, double fem, std::optional
   compare::Comparison comparison = judged::comparison({});
   comparison.scene.definition = cases::read_case(path);
   comparison.measures = {{"L", "mm", fem, msm, std::nullopt}};
-  return compare::judge_gates(comparison);
+  return judged::judge(comparison);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "compare/gates/write.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include "tests/compare/gates/judged.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -30,7 +30,7 @@ std::vector<GatedCase> mixed() {
   second.scene.definition.name = "second";
   second.answers.msm.solution.status = cases::Status::failed;
   second.answers.msm.solution.message = "a < b & \"c\"\x01\n50 %";
-  return {compare::judge_gates(first), compare::judge_gates(second)};
+  return {judged::judge(first), judged::judge(second)};
 }
 
 template<class Write>

@@ -1,4 +1,4 @@
-#include "compare/gates/write.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include "cases/case/names.hpp"
 

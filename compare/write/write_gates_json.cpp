@@ -1,19 +1,14 @@
-#include "compare/gates/write.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/write/or_null.hpp"
 #include "compare/write/write.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json gate_to_json(const GatedCase& judged, const Gate& gate) {
   const cases::Expectation& expected = gate.judgement.expectation;
@@ -29,7 +24,7 @@ Json gate_to_json(const GatedCase& judged, const Gate& gate) {
           {"value", or_null(gate.judgement.value)},
           {"reference_uncertainty", or_null(gate.uncertainty)},
           {"met", gate.met()},
-          {"reason", gate.judgement.reason},
+          {"reason", reason_of(gate)},
           {"warning", gate.warning}};
 }
 

@@ -1,7 +1,7 @@
-#include "compare/gates/write.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/report/html.hpp"
+#include "compare/write/escape.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -14,7 +14,7 @@ namespace {
 std::string escaped(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') c = '?';
-  return html::escape(text);
+  return escape(text);
 }
 
 struct TestCase {
