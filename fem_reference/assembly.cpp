@@ -11,7 +11,7 @@ using cases::index;
 Assembly::Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations)
     : discretisation_(discretisation), tangent_(discretisation.make_tangent_matrix()) {
   for (const Formulation& formulation : formulations)
-    kernels_.emplace_back(discretisation.element, formulation);
+    kernels_.push_back(formulation.make_kernel(discretisation.element));
   const std::size_t n_dofs = 3 * index(discretisation.nodes.per_cell);
   pressure_residual_.resize(index(discretisation.nodes.n_cells) *
                             index(discretisation.element.n_pressure_modes));
@@ -32,7 +32,7 @@ const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted
     for (std::size_t i = 0; i < 3; ++i)
       cell_displacement_[3 * a + i] = state.data()[3 * index(d.nodes.of_cell[index(cell) * n + a]) + i];
   const auto& material = d.material_of_cell;
-  return kernels_[material.empty() ? 0 : index(material[index(cell)])].evaluate(
+  return kernels_[material.empty() ? 0 : index(material[index(cell)])]->evaluate(
       d.geometry.of(cell), cell_displacement_.data(),
       state.data() + n_displacements() + cell * d.element.n_pressure_modes, wanted);
 }

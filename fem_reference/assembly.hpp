@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/discretisation.hpp"
+#include "fem_reference/laws/formulation.hpp"
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
 namespace springproof::fem_reference {
@@ -47,7 +48,7 @@ class Assembly {
   std::size_t n_displacements() const { return discretisation_.constraints.is_constrained.size(); }
 
   const Discretisation& discretisation_;
-  std::vector<CellKernel> kernels_; ///< one for each material
+  std::vector<std::unique_ptr<CellKernel>> kernels_; ///< one for each material
   Matrix tangent_;
   std::vector<double> pressure_residual_, pressure_slope_; ///< C^-1 R and C^-1 B of every cell
   std::vector<double> cell_displacement_;

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "fem_reference/laws/formulation.hpp"
+#include "cases/case/case.hpp"
+#include "fem_reference/laws/point.hpp"
 
 #include <vector>
 
 namespace springproof::fem_reference {
 
-/// How an element takes the pressure of a formulation's volumetric law.
+/// How an element takes the pressure of a law.
 ///
 /// One constant mode makes the cell's pressure p(v/V0), v and V0 its deformed and rest volume: the mean
 /// dilatation or B-bar element. The pressure could be eliminated, but as an unknown of its own it follows
@@ -25,8 +26,8 @@ struct ElementType {
   int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, discontinuous
 };
 
-/// @throws InputError when the formulation has no volumetric law and the element needs one
-ElementType element_type(const cases::Fem& fem, const Formulation& formulation);
+/// @throws InputError when the law has no pressure of its own and the element needs one
+ElementType element_type(const cases::Fem& fem, const LawTraits& law);
 
 /// Rest geometry of one cell. Degree of freedom i*n_nodes + a is component i of node a.
 struct CellGeometry {
@@ -51,36 +52,41 @@ struct CellResult {
   std::vector<double> plain_force;       ///< internal force without the condensed imbalance
 };
 
-/// Element loop of every formulation and element, its buffers kept between cells.
+/// Loop over the points of a cell, its buffers kept between cells; LawKernel adds the law.
 ///
 /// Internal force f = sum w (P + p cof F) . grad N. With pressure modes phi_m the cell also balances
 /// R_m = sum w phi_m (J - J(p)), whose linearisation  R + B du - C dp = 0, C_mn = sum w phi_m phi_n J'(p), is
 /// solved for dp, which leaves K + B^T C^-1 B and f + B^T C^-1 R for the displacement.
 class CellKernel {
  public:
-  CellKernel(const ElementType& element, const Formulation& formulation);
+  explicit CellKernel(const ElementType& element);
+  virtual ~CellKernel() = default;
 
   /// @param displacement  mm, [3*a + i]     @param pressure  MPa, one per mode; ignored without modes
   /// @return valid until the next call
   const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* pressure,
                              Wanted wanted);
 
+ protected:
+  /// Calls add_point() for every point.  @return false at one that is inverted or not a number
+  virtual bool add_points(const CellGeometry& geometry, const double* displacement, const double* pressure,
+                          Wanted wanted) = 0;
+  static Matrix3 deformation_gradient(const CellGeometry& geometry, int point, const double* displacement);
+  /// Adds the point's stress_ to the force, and when wanted sets its w A grad N for the tangent.
+  void add_point(const CellGeometry& geometry, int point, Wanted wanted);
+
+  ElementType element_;
+  PointStress stress_; ///< at the point, with its pressure
+  std::vector<double> volume_ratio_;
+  std::vector<Matrix3, Eigen::aligned_allocator<Matrix3>> cofactor_;
+  std::vector<ValueAndSlope> target_; ///< with modes: J(p) and its slope
+
  private:
-  void kinematics(const CellGeometry& geometry, const double* displacement);
-  void pressures(const CellGeometry& geometry, const double* pressure);
-  void stresses(const CellGeometry& geometry, Wanted wanted);
   void volume_gradients(const CellGeometry& geometry);
   void add_stiffness(const CellGeometry& geometry);
   void condense(const CellGeometry& geometry, Wanted wanted);
 
-  ElementType element_;
-  Formulation formulation_;
   CellResult result_;
-  PointStress point_;
-  std::vector<Matrix3, Eigen::aligned_allocator<Matrix3>> deformation_gradient_, cofactor_;
-  std::vector<double> volume_ratio_;
-  std::vector<ValueAndSlope> pressure_; ///< at each point: p and, where the law is followed pointwise, dp/dJ
-  std::vector<ValueAndSlope> target_;   ///< with modes: J(p) and its slope
   std::vector<double> volume_gradient_; ///< [m*n_dofs + dof]: B
   std::vector<double> right_factor_;    ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };

@@ -1,6 +1,8 @@
 #include "fem_reference/element_stiffness.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/elastic_moduli.hpp"
+#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
 #include <cassert>
@@ -19,32 +21,17 @@ struct GaussPoint {
   double volume;            ///< weight times Jacobian determinant, mm³
 };
 
-// dN_i/d(xi, eta, zeta) at a point of [-1, 1]^3;  N_i = (1 +- xi)(1 +- eta)(1 +- zeta)/8.
-ShapeGradients reference_gradients(const Eigen::Vector3d& point) {
-  ShapeGradients gradients;
-  for (int v = 0; v < 8; ++v) {
-    const Eigen::Vector3d sign(v & 1 ? 1 : -1, v & 2 ? 1 : -1, v & 4 ? 1 : -1);
-    const Eigen::Vector3d factor = Eigen::Vector3d::Ones() + sign.cwiseProduct(point);
-    gradients.col(v) =
-        0.125 * Eigen::Vector3d(sign.x() * factor.y() * factor.z(), sign.y() * factor.x() * factor.z(),
-                                sign.z() * factor.x() * factor.y());
-  }
-  return gradients;
-}
-
 std::array<GaussPoint, 8> gauss_points(const std::array<Eigen::Vector3d, 8>& vertices) {
-  Eigen::Matrix<double, 3, 8> positions;
-  for (int v = 0; v < 8; ++v) positions.col(v) = vertices[static_cast<std::size_t>(v)];
-  const double a = 1 / std::sqrt(3.0); // 2-point Gauss: +-1/sqrt(3), weight 1
   std::array<GaussPoint, 8> points;
   for (int q = 0; q < 8; ++q) {
-    const ShapeGradients reference = reference_gradients({q & 1 ? a : -a, q & 2 ? a : -a, q & 4 ? a : -a});
-    const Eigen::Matrix3d jacobian = positions * reference.transpose(); // dx/dxi
+    const Eigen::Vector3d at = mechanics::gauss_point(q);
+    const Eigen::Matrix3d jacobian = mechanics::jacobian(vertices, at);
     const double determinant = jacobian.determinant();
     if (!(determinant > 0))
       throw cases::InputError("the cell is inverted or degenerate: its Jacobian determinant is " +
-                              std::to_string(determinant) + " mm³ at a Gauss point; it must be positive");
-    points[static_cast<std::size_t>(q)] = {jacobian.inverse().transpose() * reference, determinant};
+                              std::to_string(determinant / 8) + " mm³ at a Gauss point; it must be positive");
+    points[static_cast<std::size_t>(q)] = {jacobian.inverse().transpose() * mechanics::shape_gradients(at),
+                                           determinant / 8};
   }
   return points;
 }
@@ -65,12 +52,10 @@ StrainDisplacement strain_displacement(const ShapeGradients& gradients) {
 }
 
 Eigen::Matrix<double, 6, 6> elasticity(const cases::LinearElastic& material) {
-  const double nu = material.poissons_ratio;
-  const double lame_lambda = material.youngs_modulus * nu / ((1 + nu) * (1 - 2 * nu));
-  const double lame_mu = material.youngs_modulus / (2 * (1 + nu));
+  const auto [lambda, mu, kappa] = mechanics::elastic_moduli(material);
   Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
-  d.topLeftCorner<3, 3>().setConstant(lame_lambda);
-  d.diagonal() << Eigen::Vector3d::Constant(lame_lambda + 2 * lame_mu), Eigen::Vector3d::Constant(lame_mu);
+  d.topLeftCorner<3, 3>().setConstant(lambda);
+  d.diagonal() << Eigen::Vector3d::Constant(lambda + 2 * mu), Eigen::Vector3d::Constant(mu);
   return d;
 }
 

@@ -1,7 +1,8 @@
 #include "msm/cell_volume.hpp"
 
+#include "cases/mesh/hex_mesh.hpp"
+
 #include <Eigen/Geometry>
-#include <cmath>
 #include <vector>
 
 namespace springproof::msm {
@@ -10,70 +11,45 @@ using Eigen::Vector3d;
 
 namespace {
 
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Calls action(a, b, c, d) for every vertex a of every face; b, c, d follow it around the face.
+template<class Action>
+void for_each_corner(const Action& action) {
+  for (const auto& face : cases::cell_faces)
+    for (std::size_t i = 0; i < 4; ++i)
+      action(face[i], face[(i + 1) % 4], face[(i + 2) % 4], face[(i + 3) % 4]);
+}
+
 struct Term {
   int c;
-  double value;
+  double value; ///< of T_abc
 };
+using Terms = std::array<std::array<std::vector<Term>, 8>, 8>; ///< for each pair (a, b)
 
-/// T_abc by 2x2x2 Gauss (the integrand is at most quadratic in each direction), as lists of c for each pair
-/// (a, b).
-class VolumeForm {
- public:
-  VolumeForm() {
-    const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-    for (int q = 0; q < 8; ++q) {
-      std::array<Vector3d, 8> gradient;
-      for (int v = 0; v < 8; ++v)
-        gradient[at(v)] = shape_gradient(v, {gauss[q & 1], gauss[(q >> 1) & 1], gauss[q >> 2]});
-      for (int a = 0; a < 8; ++a)
-        for (int b = 0; b < 8; ++b)
-          for (int c = 0; c < 8; ++c)
-            tensor_[at(a)][at(b)][at(c)] += gradient[at(a)].dot(gradient[at(b)].cross(gradient[at(c)])) / 8;
-    }
-    for (int a = 0; a < 8; ++a)
-      for (int b = 0; b < 8; ++b)
-        for (int c = 0; c < 8; ++c)
-          if (std::abs(tensor_[at(a)][at(b)][at(c)]) >
-              1e-12) // the others are 0 but for rounding; the least is 1/72
-            terms_[at(a)][at(b)].push_back({c, tensor_[at(a)][at(b)][at(c)]});
-  }
-  /// sum_c T_abc x_c
-  Vector3d contract(int a, int b, const CellPositions& x) const {
-    Vector3d sum = Vector3d::Zero();
-    for (const Term& term : terms_[at(a)][at(b)]) sum += term.value * x[at(term.c)];
-    return sum;
-  }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  static Vector3d shape_gradient(int v, const Vector3d& point) {
-    Vector3d gradient = Vector3d::Ones();
-    for (int d = 0; d < 3; ++d)
-      for (int a = 0; a < 3; ++a) {
-        const bool upper = (v >> a) & 1;
-        gradient[d] *= a == d ? (upper ? 1 : -1) : (upper ? point[a] : 1 - point[a]);
-      }
-    return gradient;
-  }
-  double tensor_[8][8][8] = {};
-  std::array<std::array<std::vector<Term>, 8>, 8> terms_;
-};
-
-const VolumeForm& volume_form() {
-  static const VolumeForm form;
-  return form;
+const Terms& terms() {
+  static const Terms all = [] {
+    Terms t;
+    for_each_corner([&](int a, int b, int c, int d) {
+      t[at(a)][at(b)].insert(t[at(a)][at(b)].end(), {{c, 1. / 12}, {d, 1. / 12}});
+      t[at(a)][at(c)].insert(t[at(a)][at(c)].end(), {{d, 1. / 12}, {b, -1. / 12}});
+      t[at(a)][at(d)].insert(t[at(a)][at(d)].end(), {{b, -1. / 12}, {c, -1. / 12}});
+    });
+    return t;
+  }();
+  return all;
 }
 
 } // namespace
 
 CellGradient trilinear_volume_gradient(const CellPositions& x) {
   CellGradient gradient;
-  for (int a = 0; a < 8; ++a) {
-    Vector3d twice = Vector3d::Zero();
-    for (int b = 0; b < 8; ++b)
-      twice += x[static_cast<std::size_t>(b)].cross(volume_form().contract(a, b, x));
-    gradient[static_cast<std::size_t>(a)] = twice / 2;
-  }
+  gradient.fill(Vector3d::Zero());
+  for_each_corner([&](int a, int b, int c, int d) {
+    gradient[at(a)] += (x[at(b)].cross(x[at(c)] + x[at(d)]) + x[at(c)].cross(x[at(d)])) / 12;
+  });
   return gradient;
 }
 
@@ -85,7 +61,8 @@ double trilinear_volume(const CellPositions& x) {
 }
 
 Eigen::Matrix3d trilinear_volume_second_derivative(const CellPositions& x, int a, int b) {
-  const Vector3d w = volume_form().contract(a, b, x);
+  Vector3d w = Vector3d::Zero(); // sum_c T_abc x_c
+  for (const Term& term : terms()[at(a)][at(b)]) w += term.value * x[at(term.c)];
   Eigen::Matrix3d block;
   block << 0, w.z(), -w.y(), -w.z(), 0, w.x(), w.y(), -w.x(), 0;
   return block;

@@ -9,12 +9,13 @@ using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j
 using CellGradient = std::array<Eigen::Vector3d, 8>;
 
 /// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
-///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),  T_abc = integral of grad N_a . (grad N_b x grad N_c) over the
-///   unit cube,
-/// with T constant and antisymmetric, so that all three are exact.
+///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
+/// with T constant and antisymmetric, so that all three are exact. The volume under a bilinear face a, b, c,
+/// d, anticlockwise from outside, is the mean of what its two triangulations give: it adds (b x c + c x d + b
+/// x d) / 12 to the derivative with respect to a.
 double trilinear_volume(const CellPositions& x);
 
-/// dV/dx_a = 1/2 sum_bc T_abc x_b x x_c, mm².
+/// dV/dx_a, mm².
 CellGradient trilinear_volume_gradient(const CellPositions& x);
 
 /// d²V/(dx_a dx_b) as a 3x3 block, mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.

@@ -1,6 +1,7 @@
 #include "cases/mesh/hex_mesh.hpp"
 
 #include "cases/case/index.hpp"
+#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -200,28 +201,10 @@ HexMesh refine(const HexMesh& mesh) {
   return fine;
 }
 
-namespace {
-
-/// Jacobian matrix (mm) of the trilinear map of the unit cube onto the cell, at a point of the unit cube.
-Eigen::Matrix3d jacobian(const std::array<Vector3d, 8>& vertices, const Vector3d& at) {
-  Eigen::Matrix3d columns = Eigen::Matrix3d::Zero();
-  for (int d = 0; d < 3; ++d) // the four edges along d, weighted by how near they are
-    for (int edge = 0; edge < 4; ++edge) {
-      const int e = (d + 1) % 3, f = (d + 2) % 3, on_e = edge & 1, on_f = edge >> 1,
-                v = (on_e << e) | (on_f << f);
-      const double weight = (on_e ? at[e] : 1 - at[e]) * (on_f ? at[f] : 1 - at[f]);
-      columns.col(d) += weight * (vertices[index(v | (1 << d))] - vertices[index(v)]);
-    }
-  return columns;
-}
-
-} // namespace
-
 double cell_volume(const std::array<Vector3d, 8>& vertices) {
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
   double volume = 0;
   for (int q = 0; q < 8; ++q)
-    volume += jacobian(vertices, {gauss[q & 1], gauss[(q >> 1) & 1], gauss[q >> 2]}).determinant() / 8;
+    volume += mechanics::jacobian(vertices, mechanics::gauss_point(q)).determinant() / 8;
   return volume;
 }
 

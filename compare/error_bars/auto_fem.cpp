@@ -4,6 +4,7 @@
 #include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/refined_meshes.hpp"
+#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -23,15 +24,6 @@ bool has_converged(const Answer& answer) {
 
 double seconds(const Answer& answer) {
   return answer.setup_seconds + answer.solve_seconds;
-}
-
-/// Columns are the trilinear map's derivatives at the cell's centre, mm.
-Eigen::Matrix3d centre_jacobian(const std::array<Eigen::Vector3d, 8>& vertices) {
-  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-  for (int v = 0; v < 8; ++v)
-    for (int d = 0; d < 3; ++d)
-      jacobian.col(d) += ((v >> d) & 1 ? 0.25 : -0.25) * vertices[static_cast<std::size_t>(v)];
-  return jacobian;
 }
 
 /// The expectations that ask something of the finite elements, with the measure of each.
@@ -138,9 +130,11 @@ void refine_until_accurate(const cases::Scene& scene, FemAnswer& fem) {
 double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement) {
   double largest = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const Eigen::Matrix3d gradient = centre_jacobian(cases::cell_vertices(mesh, c, displacement)) *
-                                         centre_jacobian(cases::cell_vertices(mesh, c)).inverse() -
-                                     Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d centre = Eigen::Vector3d::Constant(0.5);
+    const Eigen::Matrix3d gradient =
+        mechanics::jacobian(cases::cell_vertices(mesh, c, displacement), centre) *
+            mechanics::jacobian(cases::cell_vertices(mesh, c), centre).inverse() -
+        Eigen::Matrix3d::Identity();
     largest = std::max(largest, Eigen::JacobiSVD<Eigen::Matrix3d>(gradient).singularValues()[0]);
   }
   return largest;

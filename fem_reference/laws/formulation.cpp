@@ -1,69 +1,52 @@
 #include "fem_reference/laws/formulation.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include "fem_reference/law_kernel.hpp"
+#include "fem_reference/laws/in_principal_stretches.hpp"
+#include "fem_reference/laws/saint_venant_kirchhoff.hpp"
+#include "fem_reference/laws/small_strain.hpp"
+#include "mechanics/laws/log_strain.hpp"
+#include "mechanics/laws/ogden.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
 
 namespace springproof::fem_reference {
 
 namespace {
 
-template<typename Wanted>
-const Wanted& material_as(const cases::Fem& fem, const cases::Material& material, const char* wanted) {
-  if (const auto* found = std::get_if<Wanted>(&material)) return *found;
-  throw cases::InputError(fem.where,
-                          std::string("this formulation needs material.model = \"") + wanted + "\"");
+template<class Law>
+Formulation with_law(const cases::Fem& fem, const cases::Material& material) {
+  const auto* own = std::get_if<typename Law::Material>(&material);
+  if (own == nullptr)
+    throw cases::InputError(
+        fem.where, std::string("this formulation needs material.model = \"") +
+                       (std::is_same_v<typename Law::Material, cases::Ogden> ? "ogden" : "linear_elastic") +
+                       "\"");
+  return {{Law::traits}, [law = Law(*own)](const ElementType& element) {
+            return std::make_unique<LawKernel<Law>>(element, law);
+          }};
 }
+
+struct Row {
+  cases::Formulation name;
+  Formulation (*make)(const cases::Fem& fem, const cases::Material& material);
+};
+
+/// Every law: its file is in this folder, or in mechanics/laws when springs are designed with it too.
+constexpr std::array<Row, 4> registry{
+    {{cases::Formulation::small_strain, with_law<SmallStrain>},
+     {cases::Formulation::saint_venant_kirchhoff, with_law<SaintVenantKirchhoff>},
+     {cases::Formulation::log_strain, with_law<InPrincipalStretches<mechanics::LogStrain>>},
+     {cases::Formulation::hyperelastic, with_law<InPrincipalStretches<mechanics::Ogden>>}}};
 
 } // namespace
 
-ElasticModuli elastic_moduli(const cases::LinearElastic& material) {
-  const double young = material.youngs_modulus, poisson = material.poissons_ratio;
-  const double mu = young / (2 * (1 + poisson));
-  const double lambda = 2 * mu * poisson / (1 - 2 * poisson);
-  return {lambda, mu, lambda + 2 * mu / 3};
-}
-
 Formulation make_formulation(const cases::Fem& fem, const cases::Material& material) {
-  const auto linear = [&] { return material_as<cases::LinearElastic>(fem, material, "linear_elastic"); };
-  switch (fem.formulation) {
-  case cases::Formulation::small_strain:
-    return small_strain(linear());
-  case cases::Formulation::saint_venant_kirchhoff:
-    return saint_venant_kirchhoff(linear());
-  case cases::Formulation::log_strain:
-    return log_strain(linear());
-  case cases::Formulation::hyperelastic:
-    return ogden(material_as<cases::Ogden>(fem, material, "ogden"));
-  }
-  throw cases::InputError(fem.where, "unknown formulation");
-}
-
-double volume_ratio(Kinematics kinematics, const Matrix3& f) {
-  return kinematics == Kinematics::linear ? f.trace() - 2 : f.determinant();
-}
-
-Matrix3 cofactor(Kinematics kinematics, const Matrix3& f) {
-  if (kinematics == Kinematics::linear) return Matrix3::Identity();
-  Matrix3 result;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d row = f.row((i + 1) % 3).cross(f.row((i + 2) % 3));
-    result.row(i) = row.transpose();
-  }
-  return result;
-}
-
-void add_cofactor_derivative(Kinematics kinematics, const Matrix3& f, double factor, Matrix9& tangent) {
-  if (kinematics == Kinematics::linear) return;
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3, m = (i + 2) % 3; // eps_ikm = 1, eps_imk = -1
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      tangent(3 * i + a, 3 * k + b) += factor * f(m, c);
-      tangent(3 * i + a, 3 * k + c) -= factor * f(m, b);
-      tangent(3 * i + a, 3 * m + b) -= factor * f(k, c);
-      tangent(3 * i + a, 3 * m + c) += factor * f(k, b);
-    }
-  }
+  const auto row =
+      std::find_if(registry.begin(), registry.end(), [&](const Row& r) { return r.name == fem.formulation; });
+  assert(row != registry.end());
+  return row->make(fem, material);
 }
 
 } // namespace springproof::fem_reference

@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
+#include "mechanics/elastic_moduli.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
@@ -68,30 +69,19 @@ DesignResult from_moduli_method(const DesignRequest& request) {
   // means.
   const cases::LinearElastic material =
       is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
-  const double shear_modulus = material.youngs_modulus / (2 * (1 + material.poissons_ratio));
-  return {moduli_method(material.youngs_modulus, shear_modulus, split(request), request.cell),
-          std::nullopt,
-          {},
-          {}};
+  const double mu = mechanics::elastic_moduli(material).mu;
+  return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), std::nullopt, {}, {}};
 }
 
-struct LameConstants {
-  double lambda, mu; ///< MPa
-};
-
-LameConstants lame_constants(const DesignRequest& request) {
-  if (is_incompressible(request)) {
-    const double mu = small_strain_material(request.material).youngs_modulus / 3;
-    return {incompressible_lambda_over_mu * mu, mu};
-  }
-  const auto [youngs_modulus, nu] = designed_material(request, -1);
-  const double mu = youngs_modulus / (2 * (1 + nu));
-  return {2 * mu * nu / (1 - 2 * nu), mu};
+mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
+  if (!is_incompressible(request)) return mechanics::elastic_moduli(designed_material(request, -1));
+  const double mu = small_strain_material(request.material).youngs_modulus / 3;
+  return {incompressible_lambda_over_mu * mu, mu, (incompressible_lambda_over_mu + 2. / 3) * mu};
 }
 
 DesignResult from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0.25); // below, k_v would be negative
-  const auto [lambda, mu] = lame_constants(request);
+  const auto [lambda, mu, kappa] = elastic_moduli(request);
   return {hybrid_method(lambda, mu, split(request), request.cell), std::nullopt, {}, {}};
 }
 
@@ -114,7 +104,7 @@ MultiLoadSettings multi_load_settings(const DesignRequest& request) {
   settings.lowest_strain = lowest;
   settings.highest_strain = highest;
   settings.has_volume_term = options.has_volume_term;
-  settings.incompressible_lambda = lame_constants(request).lambda;
+  settings.incompressible_lambda = elastic_moduli(request).lambda;
   settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
                                    // states hardly tell them apart
   return settings;
@@ -161,19 +151,14 @@ const Method& find(cases::Design id) {
   throw cases::InputError("unknown design method");
 }
 
-cases::LinearElastic with_shear_modulus(double shear, std::optional<double> bulk) {
-  if (!bulk) return {3 * shear, 0.5};
-  return {9 * *bulk * shear / (3 * *bulk + shear), (3 * *bulk - 2 * shear) / (2 * (3 * *bulk + shear))};
-}
-
 } // namespace
 
 cases::LinearElastic small_strain_material(const cases::Material& material) {
   if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
   const auto& ogden = std::get<cases::Ogden>(material);
-  double shear = 0;
-  for (const double mu : ogden.mu) shear += mu;
-  return with_shear_modulus(shear, ogden.bulk_modulus);
+  const double mu = mechanics::shear_modulus(ogden);
+  if (!ogden.bulk_modulus) return {3 * mu, 0.5};
+  return mechanics::linear_elastic(mu, *ogden.bulk_modulus);
 }
 
 cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio) {

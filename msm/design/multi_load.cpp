@@ -2,11 +2,12 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
+#include "mechanics/laws/log_strain.hpp"
+#include "mechanics/laws/ogden.hpp"
 #include "msm/design/bounded_least_squares.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -43,23 +44,14 @@ int free_axis(LoadPath path) {
 }
 
 Eigen::Matrix3d ogden_stress(const cases::Ogden& ogden, const Eigen::Matrix3d& f, int free) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(f * f.transpose());
-  Eigen::Vector3d principal = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < ogden.mu.size(); ++i)
-    principal.array() +=
-        2 * ogden.mu[i] / ogden.alpha[i] * eigen.eigenvalues().array().pow(ogden.alpha[i] / 2);
-  Eigen::Matrix3d stress = eigen.eigenvectors() * principal.asDiagonal() * eigen.eigenvectors().transpose();
-  stress -= stress(free, free) * Eigen::Matrix3d::Identity();
-  return stress;
+  const Eigen::Matrix3d stress = mechanics::cauchy_stress_without_pressure(mechanics::Ogden(ogden), f);
+  return stress - stress(free, free) * Eigen::Matrix3d::Identity();
 }
 
 Eigen::Matrix3d log_strain_stress(const cases::LinearElastic& material, const Eigen::Matrix3d& f) {
-  const double nu = material.poissons_ratio;
-  const double mu = material.youngs_modulus / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(f * f.transpose());
-  const Eigen::Vector3d strain = eigen.eigenvalues().array().log() / 2;
-  const Eigen::Vector3d principal = (lambda * strain.sum() + 2 * mu * strain.array()).matrix();
-  return eigen.eigenvectors() * principal.asDiagonal() * eigen.eigenvectors().transpose();
+  const mechanics::LogStrain law(material);
+  return mechanics::cauchy_stress_without_pressure(law, f) +
+         law.pressure(f.determinant()).value * Eigen::Matrix3d::Identity();
 }
 
 /// Components weighted so that the squared norm is that of the tensor.

@@ -1,6 +1,7 @@
 #include "msm/design/uniaxial.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/laws/ogden.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -44,12 +45,10 @@ bool all_zero(const std::vector<double>& values) {
 } // namespace
 
 StressLaw ogden_law(const cases::Ogden& ogden) {
-  return [ogden](double stretch) {
-    double stress = 0;
-    for (std::size_t i = 0; i < ogden.mu.size(); ++i)
-      stress += 2 * ogden.mu[i] / ogden.alpha[i] *
-                (std::pow(stretch, ogden.alpha[i]) - std::pow(stretch, -ogden.alpha[i] / 2));
-    return stress;
+  return [law = mechanics::Ogden(ogden)](double stretch) {
+    const double strain = std::log(stretch);
+    const auto stress = law.stress({strain, -strain / 2, -strain / 2}, mechanics::Wanted::stress).kirchhoff;
+    return stress[0] - stress[1]; // the pressure that frees the sides
   };
 }
 

@@ -29,7 +29,7 @@ TEST_CASE("quadratic cells hold a quadratic displacement exactly, however they a
   const Element element = GENERATE(Element::q2, Element::q2_p1);
   const auto scene = scenes::distorted_box(3, scenes::Surface::fixed, scenes::thesis_elastic(),
                                            cases::Formulation::small_strain, element);
-  const auto [lambda, mu, kappa] = elastic_moduli(scenes::thesis_elastic());
+  const auto [lambda, mu, kappa] = mechanics::elastic_moduli(scenes::thesis_elastic());
   const auto field = [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return 0.01 * Eigen::Vector3d(x.x() * x.y() + x.z() * x.z(), x.x() * x.x() - x.y() * x.z(),
                                   x.y() * x.y() + 2 * x.x() * x.z());
@@ -51,11 +51,11 @@ TEST_CASE("an unsupported cell of rest shape has six motions without force and n
   const Formulation formulation = make_formulation(scene.definition.fem, scene.definition.material);
   const Discretisation discretisation(scene, element_type(scene.definition.fem, formulation), {},
                                       MPI_COMM_WORLD);
-  CellKernel kernel(discretisation.element, formulation);
+  const auto kernel = formulation.make_kernel(discretisation.element);
   const std::vector<double> rest(3 * static_cast<std::size_t>(discretisation.nodes.per_cell), 0.),
       pressure(4, 0.);
-  const CellResult& cell = kernel.evaluate(discretisation.geometry.of(0), rest.data(), pressure.data(),
-                                           Wanted::stress_and_tangent);
+  const CellResult& cell = kernel->evaluate(discretisation.geometry.of(0), rest.data(), pressure.data(),
+                                            Wanted::stress_and_tangent);
   const auto n = static_cast<Eigen::Index>(rest.size());
   const Eigen::MatrixXd stiffness = Eigen::Map<const Eigen::MatrixXd>(cell.tangent.data(), n, n);
   const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();

@@ -48,7 +48,7 @@ Vector3d Solved::force_on(const std::function<bool(const Vector3d&)>& selected) 
   const auto& d = discretisation;
   const auto u = displacement();
   const auto n = static_cast<std::size_t>(d.nodes.per_cell);
-  CellKernel kernel(d.element, formulation);
+  const auto kernel = formulation.make_kernel(d.element);
   Vector3d sum = Vector3d::Zero();
   for (std::size_t cell = 0; cell < static_cast<std::size_t>(d.nodes.n_cells); ++cell) {
     std::vector<double> own;
@@ -59,7 +59,7 @@ Vector3d Solved::force_on(const std::function<bool(const Vector3d&)>& selected) 
     const double* pressure =
         state.data() + 3 * d.nodes.point.size() + cell * static_cast<std::size_t>(d.element.n_pressure_modes);
     const CellResult& result =
-        kernel.evaluate(d.geometry.of(static_cast<int>(cell)), own.data(), pressure, Wanted::stress);
+        kernel->evaluate(d.geometry.of(static_cast<int>(cell)), own.data(), pressure, Wanted::stress);
     for (std::size_t a = 0; a < n; ++a)
       if (selected(d.nodes.point[static_cast<std::size_t>(d.nodes.of_cell[cell * n + a])]))
         sum += Vector3d(result.plain_force[a], result.plain_force[n + a], result.plain_force[2 * n + a]);

@@ -1,12 +1,21 @@
-#include "fem_reference/laws/formulation.hpp"
+#pragma once
+
+#include "fem_reference/laws/point.hpp"
+#include "mechanics/elastic_moduli.hpp"
 
 namespace springproof::fem_reference {
 
 /// S = lambda tr(E) I + 2 mu E with E = (F^T F - I)/2, P = F S, and
 /// A_iJkL = delta_ik S_JL + lambda F_iJ F_kL + mu (F_iL F_kJ + (F F^T)_ik delta_JL).
-Formulation saint_venant_kirchhoff(const cases::LinearElastic& material) {
-  const auto [lambda_, mu_, kappa] = elastic_moduli(material);
-  const auto law = [lambda = lambda_, mu = mu_](const Matrix3& f, Wanted wanted, PointStress& result) {
+class SaintVenantKirchhoff {
+ public:
+  using Material = cases::LinearElastic;
+  static constexpr LawTraits traits{Kinematics::finite, TangentSymmetry::symmetric, Split::none};
+
+  explicit SaintVenantKirchhoff(const Material& material) : moduli_(mechanics::elastic_moduli(material)) {}
+
+  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
+    const auto [lambda, mu, kappa] = moduli_;
     const Matrix3 strain = 0.5 * (f.transpose() * f - Matrix3::Identity());
     const Matrix3 second = lambda * strain.trace() * Matrix3::Identity() + 2 * mu * strain;
     result.stress = flatten(f * second);
@@ -18,8 +27,10 @@ Formulation saint_venant_kirchhoff(const cases::LinearElastic& material) {
           for (int b = 0; b < 3; ++b)
             result.tangent(3 * i + a, 3 * k + b) = (i == k ? second(a, b) : 0) + lambda * f(i, a) * f(k, b) +
                                                    mu * (f(i, b) * f(k, a) + (a == b ? left(i, k) : 0));
-  };
-  return {law, std::nullopt, Kinematics::finite, TangentSymmetry::symmetric};
-}
+  }
+
+ private:
+  mechanics::ElasticModuli moduli_;
+};
 
 } // namespace springproof::fem_reference

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fem_reference/element.hpp"
+
+#include <cmath>
+
+namespace springproof::fem_reference {
+
+/// The element loop's part that depends on the law, which is inlined at every point.
+template<class Law>
+class LawKernel final : public CellKernel {
+ public:
+  LawKernel(const ElementType& element, Law law) : CellKernel(element), law_(std::move(law)) {}
+
+ private:
+  static constexpr Kinematics kinematics = Law::traits.kinematics;
+
+  bool add_points(const CellGeometry& g, const double* displacement, const double* pressure,
+                  Wanted wanted) override {
+    for (int q = 0; q < g.n_points; ++q) {
+      const auto point = static_cast<std::size_t>(q);
+      const Matrix3 f = deformation_gradient(g, q, displacement);
+      const double ratio = volume_ratio(kinematics, f);
+      // linear kinematics have no inverted state; written so that NaN is refused
+      const bool is_admissible = kinematics == Kinematics::linear ? std::isfinite(ratio) : ratio > 0;
+      if (!is_admissible) return false;
+      volume_ratio_[point] = ratio;
+      law_.stress(f, wanted, stress_);
+      if constexpr (Law::traits.split == Split::pressure) {
+        cofactor_[point] = cofactor(kinematics, f);
+        add_pressure(f, q, pressure_at(g, q, ratio, pressure), wanted);
+      }
+      add_point(g, q, wanted);
+    }
+    return true;
+  }
+
+  /// With modes the pressure is interpolated and its slope left to condensation.
+  ValueAndSlope pressure_at(const CellGeometry& g, int q, double ratio, const double* pressure) {
+    if (element_.pressure == Pressure::pointwise) return law_.pressure(ratio);
+    double p = 0;
+    for (int m = 0; m < element_.n_pressure_modes; ++m)
+      p += g.modes[q * element_.n_pressure_modes + m] * pressure[m];
+    target_[static_cast<std::size_t>(q)] = law_.volume_ratio(p);
+    return {p, 0};
+  }
+
+  void add_pressure(const Matrix3& f, int q, const ValueAndSlope& pressure, Wanted wanted) {
+    const Vector9 area = flatten(cofactor_[static_cast<std::size_t>(q)]);
+    stress_.stress += pressure.value * area;
+    if (wanted == Wanted::stress) return;
+    add_cofactor_derivative(kinematics, f, pressure.value, stress_.tangent);
+    if (element_.pressure == Pressure::pointwise)
+      stress_.tangent.noalias() += pressure.slope * area * area.transpose();
+  }
+
+  Law law_;
+};
+
+} // namespace springproof::fem_reference

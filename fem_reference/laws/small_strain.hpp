@@ -1,0 +1,37 @@
+#pragma once
+
+#include "fem_reference/laws/point.hpp"
+#include "mechanics/elastic_moduli.hpp"
+
+namespace springproof::fem_reference {
+
+/// Linear elasticity: sigma = 2 mu dev(eps) + kappa tr(eps) I with eps = sym(F - I). The stress does not turn
+/// with the body.
+class SmallStrain {
+ public:
+  using Material = cases::LinearElastic;
+  static constexpr LawTraits traits{Kinematics::linear, TangentSymmetry::symmetric, Split::pressure};
+
+  explicit SmallStrain(const Material& material) {
+    const auto moduli = mechanics::elastic_moduli(material);
+    kappa_ = moduli.kappa;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        tangent_(3 * i + j, 3 * i + j) += moduli.mu;
+        tangent_(3 * i + j, 3 * j + i) += moduli.mu;
+        tangent_(4 * i, 4 * j) -= 2 * moduli.mu / 3;
+      }
+  }
+  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
+    result.stress.noalias() = tangent_ * flatten(f - Matrix3::Identity());
+    if (wanted == Wanted::stress_and_tangent) result.tangent = tangent_;
+  }
+  ValueAndSlope pressure(double j) const { return {kappa_ * (j - 1), kappa_}; }
+  ValueAndSlope volume_ratio(double p) const { return {1 + p / kappa_, 1 / kappa_}; }
+
+ private:
+  Matrix9 tangent_ = Matrix9::Zero(); ///< 2 mu (sym - 1/3 I x I)
+  double kappa_;
+};
+
+} // namespace springproof::fem_reference

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fem_reference/laws/in_principal_stretches.hpp"
+#include "fem_reference/laws/saint_venant_kirchhoff.hpp"
+#include "fem_reference/laws/small_strain.hpp"
+#include "mechanics/laws/log_strain.hpp"
+#include "mechanics/laws/ogden.hpp"
+
+#include <functional>
+
+using namespace springproof;
+
+/// Laws at a point, without an element around them.
+namespace point_laws {
+
+using namespace fem_reference;
+
+/// A law with its type left behind.
+struct PointLaw : LawTraits {
+  std::function<void(const Matrix3& f, Wanted wanted, PointStress& result)> stress;
+  std::function<ValueAndSlope(double)> pressure, volume_ratio; ///< none without a pressure of its own
+};
+
+template<class Law>
+PointLaw point_law(const typename Law::Material& material) {
+  const Law l(material);
+  PointLaw result{
+      {Law::traits}, [l](const Matrix3& f, Wanted w, PointStress& p) { l.stress(f, w, p); }, {}, {}};
+  if constexpr (Law::traits.split == Split::pressure) {
+    result.pressure = [l](double j) { return l.pressure(j); };
+    result.volume_ratio = [l](double p) { return l.volume_ratio(p); };
+  }
+  return result;
+}
+
+/// P with the pressure p(J) pointwise.
+inline Vector9 whole_stress(const PointLaw& law, const Matrix3& f) {
+  PointStress point;
+  law.stress(f, Wanted::stress, point);
+  if (law.pressure)
+    point.stress +=
+        law.pressure(volume_ratio(law.kinematics, f)).value * flatten(cofactor(law.kinematics, f));
+  return point.stress;
+}
+
+inline Matrix9 whole_tangent(const PointLaw& law, const Matrix3& f) {
+  PointStress point;
+  law.stress(f, Wanted::stress_and_tangent, point);
+  if (law.pressure) {
+    const ValueAndSlope p = law.pressure(volume_ratio(law.kinematics, f));
+    const Vector9 area = flatten(cofactor(law.kinematics, f));
+    add_cofactor_derivative(law.kinematics, f, p.value, point.tangent);
+    point.tangent += p.slope * area * area.transpose();
+  }
+  return point.tangent;
+}
+
+} // namespace point_laws
