@@ -2,10 +2,10 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/cube/plot_design.hpp"
+#include "compare/cube/write_design.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/whole_file.hpp"
-#include "compare/write/write_design.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <fmt/format.h>

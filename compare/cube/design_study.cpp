@@ -1,11 +1,11 @@
 #include "compare/cube/design_study.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/provenance/mpi_rank.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <list>
 
 namespace springproof::compare {
 
@@ -16,7 +16,8 @@ void add_stability(DesignAttempt& attempt, const msm::DesignRequest& request) {
   if (attempt.design && edge > 0) attempt.stability = msm::stability_range(attempt.design->stiffness, edge);
 }
 
-DesignAttempt attempt(const std::string& name, const msm::DesignRequest& request) {
+DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
+  request.options.design = method;
   DesignAttempt result{name, std::nullopt, "", std::nullopt, std::nullopt};
   try {
     result.design = msm::design(request);
@@ -29,9 +30,12 @@ DesignAttempt attempt(const std::string& name, const msm::DesignRequest& request
   return result;
 }
 
-DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
-  request.options.design = method;
-  return attempt(name, request);
+cases::Msm given(const msm::CellStiffness& k) {
+  cases::Msm springs;
+  springs.design = cases::Design::given;
+  springs.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+  springs.volume_stiffness = k.volume;
+  return springs;
 }
 
 } // namespace
@@ -45,8 +49,8 @@ DesignAttempt attempt_one(const msm::DesignRequest& request) {
 
 std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request) {
   std::vector<DesignAttempt> attempts;
-  for (const auto& [method, name] : cases::names<cases::Design>())
-    if (method != cases::Design::given) attempts.push_back(attempt(name, request, method));
+  for (const cases::Design method : msm::methods())
+    attempts.push_back(attempt(cases::name_of(method), request, method));
   return attempts;
 }
 
@@ -68,15 +72,23 @@ std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request) {
 }
 
 void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request) {
-  if (!(std::abs(msm::cube_edge(request.cell) - 1) <= 1e-12))
-    throw cases::InputError("the cube of the thesis has cells of 1 mm: measure with --edge 1");
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
-  const CubeReference reference =
-      solve_cube_reference(request.material, is_ogden ? LoadSets::small_and_large : LoadSets::small);
-  const int rank = mpi_rank();
-  if (rank != 0) return;
-  for (DesignAttempt& a : attempts)
-    if (a.design) a.cube = cube_errors(reference, a.design->stiffness);
+  const double edge = msm::cube_edge(request.cell);
+  if (!(edge > 0)) throw cases::InputError("--measure solves the thesis's cube, whose cells are cubes");
+  std::vector<Comparison> fem;
+  for (const CubeTest& test : cube_tests)
+    fem.push_back(compare_case(cube_case(test, request.material, edge), {{}, cases::Side::fem}));
+  for (DesignAttempt& a : attempts) {
+    if (!a.design) continue;
+    std::list<Comparison> msm; // whose elements are referred to
+    std::vector<CubeSolve> solves;
+    for (const Comparison& test : fem) {
+      cases::Case definition = test.scene.definition;
+      definition.msm = given(a.design->stiffness);
+      msm.push_back(compare_case(definition, {{}, cases::Side::msm}));
+      solves.push_back({test, msm.back()});
+    }
+    a.cube = cube_errors(solves);
+  }
 }
 
 double stable_strain(const msm::StabilityRange& range) {

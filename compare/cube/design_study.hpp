@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/cube/cube_study.hpp"
+#include "compare/cube/cube_benchmark.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
 
@@ -30,7 +30,8 @@ std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request);
 /// multi-load fits without a volume term.
 std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request);
 
-/// Solves the cube with every design. Collective.  @throws InputError unless the cell is the cube's: 1 mm
+/// Solves the cube with every design, of cells like the request's. Collective over MPI_COMM_WORLD.
+/// @throws InputError unless the cell is a cube
 void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request);
 
 /// Smaller of the logarithmic strains to which a lattice can be stretched and compressed.

@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
+#include "msm/design/design.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,9 +15,6 @@ using cases::Element;
 using cases::Formulation;
 
 constexpr std::array<Element, 3> elements{Element::q1, Element::q1_bbar, Element::q2};
-constexpr std::array<cases::Design, 5> designs{cases::Design::linear_method, cases::Design::nonlinear_method,
-                                               cases::Design::moduli, cases::Design::hybrid,
-                                               cases::Design::multi_load};
 constexpr double tight = 1e-9;
 constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
 
@@ -48,7 +46,7 @@ Variant finite_elements(Formulation formulation, Element element, const std::arr
 }
 
 void add_springs(Plan& plan, Extent extent) {
-  for (const cases::Design design : designs)
+  for (const cases::Design design : msm::methods())
     for (const auto& cells : plan.levels)
       for (const double tolerance : tolerances)
         if (extent == Extent::full || tolerance == tight)

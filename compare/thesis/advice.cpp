@@ -1,20 +1,12 @@
 #include "cases/case/names.hpp"
 #include "compare/thesis/build_results.hpp"
-#include "compare/thesis/measured_pair.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace springproof::compare {
 
 namespace {
-
-bool is_sound(const Comparison& msm) {
-  return msm.answers.msm.solution.status == cases::Status::converged &&
-         msm.answers.msm.solution.outcome == cases::Outcome::stable_equilibrium &&
-         msm.answers.msm.solution.inverted_cells == 0;
-}
 
 /// The case file's material and cell, which the stiffnesses are made independent of.
 msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const cases::Scene& scene) {
@@ -24,75 +16,37 @@ msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const case
   return {k.edge / scale, k.face_diagonal / scale, k.internal_diagonal / scale, k.volume / youngs_modulus};
 }
 
-/// Errors of one load set, gathered measure by measure.
-class ErrorSum {
- public:
-  void add(const std::string& measure, double error, const Trace& trace) {
-    const double size = std::abs(error);
-    if (measure == "volume") {
-      worst_volume_ = std::max(worst_volume_, size);
-      return;
-    }
-    sum_ += size;
-    ++n_;
-    if (n_ > 1 && size <= worst_) return;
-    worst_ = size;
-    trace_ = trace;
-  }
-  void write_into(Advice::Errors& errors) const {
-    if (n_ == 0) return;
-    errors.worst = worst_;
-    errors.mean = sum_ / n_;
-    errors.worst_volume = worst_volume_;
-    errors.trace = trace_;
-  }
-
- private:
-  double worst_ = 0, sum_ = 0, worst_volume_ = 0;
-  int n_ = 0;
-  Trace trace_;
-};
-
-Advice::Errors errors_on_cube(PublishedFigure figure, const std::string& load_set, SolveSet& solves,
-                              Advice& advice) {
-  Advice::Errors errors;
-  errors.is_stable = true;
-  ErrorSum sum;
-  bool is_whole = true;
-  figure.load_set = load_set;
-  for (const char* test : {"tensile", "shear", "torsion"}) {
-    figure.test = test;
-    const SolveJob fem_side = fem_job(figure, references_of(figure).front()),
-                   msm_side = designed_msm_job(figure, advice.design);
-    const Comparison &fem = solves.get(fem_side), &msm = solves.get(msm_side);
-    errors.is_stable = errors.is_stable && is_sound(msm);
-    if (msm.answers.design)
-      advice.stiffness = over_modulus_and_edge(msm.answers.design->stiffness, msm.scene);
-    for (const MeasuredValue& measure : fem.measures) {
-      const MeasuredPair pair = measured_pair(fem, msm, measure.name);
-      if (const std::optional<double> error = error_of(pair)) {
-        sum.add(measure.name, *error, trace_of(fem_side, msm_side));
-        continue;
-      }
-      is_whole = false;
-      if (advice.refusal.empty()) advice.refusal = fmt::format("{} {}: {}", load_set, test, pair.reason);
-    }
-  }
-  if (is_whole) sum.write_into(errors);
-  return errors;
+/// In the order of cube_tests.
+std::vector<JobPair> cube_jobs(const AdviceQuestion& asked) {
+  const auto& [poissons_ratio, design] = asked;
+  std::vector<JobPair> jobs;
+  for (const CubeTest& test : cube_tests)
+    jobs.push_back(designed_jobs(
+        {"", "linear_elastic", poissons_ratio, design, poissons_ratio, test.load_set, test.test, "", "%", 0},
+        design));
+  return jobs;
 }
 
-Advice advise_on(double poissons_ratio, const std::string& design, SolveSet& solves) {
+Advice::Errors with_trace(const LoadSetErrors& errors, const std::vector<JobPair>& jobs) {
+  return {errors, errors.worst ? trace_of(jobs[errors.worst_test]) : Trace{}};
+}
+
+Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   Advice advice;
-  advice.poissons_ratio = poissons_ratio;
-  advice.design = design;
-  const PublishedFigure figure{"", "linear_elastic", poissons_ratio, design, poissons_ratio, "", "", "", "%",
-                               0};
-  advice.small = errors_on_cube(figure, "small", solves, advice);
-  advice.large = errors_on_cube(figure, "large", solves, advice);
+  advice.poissons_ratio = asked.poissons_ratio;
+  advice.design = asked.design;
+  const std::vector<JobPair> jobs = cube_jobs(asked);
+  std::vector<CubeSolve> solves;
+  for (const JobPair& test : jobs) solves.push_back({solutions.at(test.fem), solutions.at(test.msm)});
+  const Comparison& msm = solves.front().msm;
+  if (msm.answers.design) advice.stiffness = over_modulus_and_edge(msm.answers.design->stiffness, msm.scene);
+  const CubeErrors errors = cube_errors(solves);
+  advice.small = with_trace(errors.small, jobs);
+  advice.large = with_trace(errors.large, jobs);
+  advice.refusal = errors.small.failure.empty() ? errors.large.failure : errors.small.failure;
   // With E = 1 MPa and a cell of 1 mm, the stiffnesses in N/m are a thousand times those over E L0.
   advice.trace.command = shell_command({"build/springproof", "design", "--young", "1", "--poisson",
-                                        fmt::format("{}", poissons_ratio), "--method", design});
+                                        fmt::format("{}", asked.poissons_ratio), "--method", asked.design});
   return advice;
 }
 
@@ -117,11 +71,22 @@ void recommend(std::vector<Advice>& advice) {
   }
 }
 
-std::vector<Advice> advise(SolveSet& solves) {
-  std::vector<Advice> advice;
+std::vector<AdviceQuestion> advice_questions() {
+  std::vector<AdviceQuestion> questions;
   for (const double nu : {0.2, 0.3, 0.35, 0.45, 0.49})
-    for (const auto& [method, name] : cases::names<cases::Design>())
-      if (method != cases::Design::given) advice.push_back(advise_on(nu, name, solves));
+    for (const cases::Design method : msm::methods()) questions.push_back({nu, cases::name_of(method)});
+  return questions;
+}
+
+std::vector<SolveJob> advice_jobs(const AdviceQuestion& asked) {
+  std::vector<SolveJob> jobs;
+  for (const JobPair& test : cube_jobs(asked)) append(jobs, test);
+  return jobs;
+}
+
+std::vector<Advice> advise(const std::vector<AdviceQuestion>& questions, const Solutions& solutions) {
+  std::vector<Advice> advice;
+  for (const AdviceQuestion& asked : questions) advice.push_back(advise_on(asked, solutions));
   recommend(advice);
   return advice;
 }

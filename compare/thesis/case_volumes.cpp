@@ -19,7 +19,8 @@ ModelVolumes volumes_of(const cases::Solution& solution) {
 }
 
 /// The springs' case with the finite elements' answer put in.
-Comparison join(const Comparison& fem, const Comparison& msm) {
+Comparison join(const Solutions& solutions, const JobPair& jobs) {
+  const Comparison &fem = solutions.at(jobs.fem), &msm = solutions.at(jobs.msm);
   Answers both = msm.answers;
   both.fem = fem.answers.fem;
   both.resolved = fem.answers.resolved;
@@ -34,14 +35,13 @@ bool has_own_poissons_ratio(const PublishedFigure& figure, const std::string& ca
 }
 
 /// Solved for tables 4.5 and 4.6 anyway.
-void add_figure_4_15(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
+void add_figure_4_15(const std::vector<PublishedFigure>& figures, const Solutions& solutions,
+                     ThesisResults& results) {
   std::set<std::string> seen;
   for (const PublishedFigure& figure : figures) {
     if (figure.table != "4.5" && figure.table != "4.6") continue;
-    if (figure.poissons_ratio != 0.25 || !seen.insert(case_file_of(figure)).second) continue;
-    const Comparison& fem = solves.get(fem_job(figure, references_of(figure).front()));
-    const Comparison& msm = solves.get(thesis_msm_job(figure));
-    if (!msm.scene.mesh.cells.empty()) results.figure_4_15.push_back(join(fem, msm));
+    if (figure.poissons_ratio == 0.25 && seen.insert(case_file_of(figure)).second)
+      results.figure_4_15.push_back(join(solutions, thesis_jobs(figure)));
   }
 }
 
@@ -68,32 +68,31 @@ CaseVolumes volumes_of(const Comparison& comparison) {
           {}};
 }
 
-void add_cases(const std::vector<PublishedFigure>& figures, SolveSet& solves, ThesisResults& results) {
+void add_cases(const std::vector<PublishedFigure>& figures, const Solutions& solutions,
+               ThesisResults& results) {
   std::set<std::string> seen;
   for (const PublishedFigure& figure : figures) {
     if (figure.test == "cell") continue;
-    const SolveJob fem = fem_job(figure, references_of(figure).front()), msm = thesis_msm_job(figure);
-    const Comparison &fem_side = solves.get(fem), &msm_side = solves.get(msm);
-    if (msm_side.scene.mesh.cells.empty()) continue; // not solved yet
+    const JobPair jobs = thesis_jobs(figure);
     // The first set of springs that the thesis has for the case file's own material stands for the case.
-    if (!has_own_poissons_ratio(figure, fem.case_file)) continue;
-    if (!seen.insert(fem.case_file).second) continue;
-    results.cases.push_back(join(fem_side, msm_side));
-    results.case_traces.push_back(trace_of(fem, msm));
+    if (!has_own_poissons_ratio(figure, jobs.fem.case_file)) continue;
+    if (!seen.insert(jobs.fem.case_file).second) continue;
+    results.cases.push_back(join(solutions, jobs));
+    results.case_traces.push_back(trace_of(jobs));
     results.volumes.push_back(volumes_of(results.cases.back()));
     results.volumes.back().trace = results.case_traces.back();
   }
-  add_figure_4_15(figures, solves, results);
+  add_figure_4_15(figures, solutions, results);
 }
 
 std::vector<CellVolumeChange> cell_volume_changes(const std::vector<PublishedFigure>& figures,
-                                                  SolveSet& solves) {
+                                                  const Solutions& solutions) {
   std::vector<CellVolumeChange> changes;
   for (const char* load_set : {"small", "large"}) {
     std::vector<std::optional<double>> of_tests;
     for (const PublishedFigure& figure : figures)
       if (figure.table == "5.2" && figure.load_set == load_set)
-        of_tests.push_back(largest_change(volumes_of(solves.get(thesis_msm_job(figure)))));
+        of_tests.push_back(largest_change(volumes_of(solutions.at(thesis_jobs(figure).msm))));
     if (of_tests.empty()) continue;
     const bool is_whole =
         std::all_of(of_tests.begin(), of_tests.end(), [](const auto& c) { return c.has_value(); });

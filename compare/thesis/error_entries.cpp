@@ -1,5 +1,4 @@
 #include "compare/thesis/build_results.hpp"
-#include "compare/thesis/measured_pair.hpp"
 
 #include <cmath>
 
@@ -7,8 +6,8 @@ namespace springproof::compare {
 
 namespace {
 
-/// The figure that print has for another test of the same material and springs, in whichever table.
-std::optional<double> printed_value(const PublishedFigure& figure) {
+/// The published figure of another test of the same material and springs, in whichever table.
+std::optional<double> published_value(const PublishedFigure& figure) {
   static const std::vector<PublishedFigure> all = read_published_figures();
   for (const PublishedFigure& other : all)
     if (other.material == figure.material && other.poissons_ratio == figure.poissons_ratio &&
@@ -18,54 +17,73 @@ std::optional<double> printed_value(const PublishedFigure& figure) {
   return std::nullopt;
 }
 
-/// What a beta_1 would err by if it were 45 deg + beta_2 of the small test: with our springs, and with
-/// springs that have the printed error of beta_2.
-void add_readings_from_beta_2(ComputedFigure& computed, PublishedFigure figure, const FemChoice& reference,
-                              SolveSet& solves) {
+/// Of the small test that a beta_1 is compared with.
+PublishedFigure small_beta_2(PublishedFigure figure) {
   figure.load_set = "small";
   figure.measure = "beta_2";
-  const MeasuredPair beta = measured_pair(solves.get(fem_job(figure, reference)),
-                                          solves.get(thesis_msm_job(figure)), figure.measure);
+  return figure;
+}
+
+/// What a beta_1 would err by if it were 45 deg + beta_2 of the small test: with our springs, and with
+/// springs that have the published error of beta_2.
+void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& figure,
+                              const FemChoice& reference, const Solutions& solutions) {
+  const MeasuredPair beta = measured_pair(solutions, thesis_jobs(figure, reference), figure.measure);
   if (!beta.fem) return;
   const auto with_error = [&](const std::optional<double>& error) { // (45 + b (1 + r))/(45 + b) - 1
     return error ? std::optional(*beta.fem * *error / (45 + *beta.fem)) : std::nullopt;
   };
   computed.from_beta_2 = with_error(error_of(beta));
-  computed.from_printed_beta_2 = with_error(printed_value(figure));
+  computed.from_printed_beta_2 = with_error(published_value(figure));
 }
 
-ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference, SolveSet& solves) {
-  const SolveJob fem_side = fem_job(figure, reference), msm_side = thesis_msm_job(figure);
-  const Comparison &fem = solves.get(fem_side), &msm = solves.get(msm_side);
-  const MeasuredPair pair = measured_pair(fem, msm, figure.measure);
+ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference,
+                       const Solutions& solutions) {
+  const JobPair jobs = thesis_jobs(figure, reference);
+  const MeasuredPair pair = measured_pair(solutions, jobs, figure.measure);
   ComputedFigure computed;
   computed.reference = reference.name();
   computed.fem = pair.fem;
   computed.msm = pair.msm;
   computed.value = figure.unit == "mm3" ? pair.msm : error_of(pair);
   if (!computed.value) computed.reason = pair.reason;
-  if (figure.measure == "beta_1") add_readings_from_beta_2(computed, figure, reference, solves);
-  computed.trace = trace_of(fem_side, msm_side);
+  if (figure.measure == "beta_1")
+    add_readings_from_beta_2(computed, small_beta_2(figure), reference, solutions);
+  computed.trace = trace_of(jobs);
   return computed;
 }
 
 } // namespace
 
+std::optional<double> TableEntry::difference(const ComputedFigure& of) const {
+  return of.value ? std::optional(*of.value - published.value) : std::nullopt;
+}
+
 const ComputedFigure* TableEntry::nearest() const {
   const ComputedFigure* best = nullptr;
-  const auto distance = [&](const ComputedFigure& c) { return std::abs(*c.value - published.value); };
   for (const ComputedFigure& candidate : computed)
-    if (candidate.value && (!best || distance(candidate) < distance(*best))) best = &candidate;
+    if (candidate.value && (!best || std::abs(*difference(candidate)) < std::abs(*difference(*best))))
+      best = &candidate;
   return best;
 }
 
-std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figures, SolveSet& solves) {
+std::vector<SolveJob> entry_jobs(const PublishedFigure& figure) {
+  std::vector<SolveJob> jobs;
+  for (const FemChoice& reference : references_of(figure)) {
+    append(jobs, thesis_jobs(figure, reference));
+    if (figure.measure == "beta_1") append(jobs, thesis_jobs(small_beta_2(figure), reference));
+  }
+  return jobs;
+}
+
+std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figures,
+                                      const Solutions& solutions) {
   std::vector<TableEntry> entries;
   for (const PublishedFigure& figure : figures) {
     if (figure.test == "cell") continue;
     TableEntry entry{figure, {}, ""};
     for (const FemChoice& reference : references_of(figure))
-      entry.computed.push_back(compute(figure, reference, solves));
+      entry.computed.push_back(compute(figure, reference, solutions));
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -1,10 +1,12 @@
 #include "compare/thesis/regenerate.hpp"
 
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace springproof::compare {
 
@@ -30,17 +32,46 @@ void check_known(const std::vector<std::string>& tables) {
                       table == "4.4" ? " (4.4 lists the loads, which the case files hold)" : ""));
 }
 
-/// All that stands on solves. Called twice: see SolveSet.
-ThesisResults build(const std::vector<PublishedFigure>& figures, bool is_everything, SolveSet& solves) {
+/// Every solve that the tables need, once.
+std::vector<SolveJob> jobs_for(const std::vector<PublishedFigure>& figures, bool is_everything) {
+  std::set<SolveJob> jobs;
+  const auto add = [&](const std::vector<SolveJob>& more) { jobs.insert(more.begin(), more.end()); };
+  for (const PublishedFigure& figure : figures) {
+    if (figure.test == "cell") continue;
+    add(entry_jobs(figure));
+    if (is_everything) add(design_jobs(figure));
+  }
+  if (!is_everything) return {jobs.begin(), jobs.end()};
+  for (const AdviceQuestion& asked : advice_questions()) add(advice_jobs(asked));
+  return {jobs.begin(), jobs.end()};
+}
+
+ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_everything,
+                          const Solutions& solutions) {
   ThesisResults results;
-  results.entries = error_entries(figures, solves);
-  add_cases(figures, solves, results);
-  results.cell_volume_changes = cell_volume_changes(figures, solves);
+  results.cells = analyse_cells(figures);
+  results.entries = cell_entries(figures, results.cells);
+  const std::vector<TableEntry> errors = error_entries(figures, solutions);
+  results.entries.insert(results.entries.end(), errors.begin(), errors.end());
+  explain(results.entries);
+  add_cases(figures, solutions, results);
+  results.cell_volume_changes = cell_volume_changes(figures, solutions);
   if (is_everything) {
-    results.designs = design_rows(figures, solves);
-    results.advice = advise(solves);
+    results.designs = design_rows(figures, solutions);
+    results.advice = advise(advice_questions(), solutions);
   }
   return results;
+}
+
+/// Summed over all solves of one side.
+double seconds(const Solutions& solutions, cases::Side side) {
+  double sum = 0;
+  for (const auto& [job, comparison] : solutions) {
+    if (job.only != side) continue;
+    const Answer& solved = side == cases::Side::fem ? comparison.answers.fem : comparison.answers.msm;
+    sum += solved.setup_seconds + solved.solve_seconds;
+  }
+  return sum;
 }
 
 } // namespace
@@ -62,20 +93,18 @@ ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOpti
   const bool is_everything = tables.empty();
   const std::vector<PublishedFigure> figures = figures_of(is_everything ? known_tables() : tables);
   Stopwatch stopwatch;
-  SolveSet solves;
-  build(figures, is_everything, solves);
+  const std::vector<SolveJob> jobs = jobs_for(figures, is_everything);
   const double collecting = stopwatch.lap();
-  solves.solve(options, progress);
+  std::vector<Solved> solved = solve_jobs(jobs, solve_fem, options, progress);
   const double solving = stopwatch.lap();
-  ThesisResults results = build(figures, is_everything, solves);
-  results.cells = analyse_cells(figures);
-  std::vector<TableEntry> cells = cell_entries(figures, results.cells);
-  results.entries.insert(results.entries.begin(), cells.begin(), cells.end());
-  explain(results.entries);
+  Solutions solutions;
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    solutions[jobs[j]] = comparison_of(std::move(solved[j].scene), std::move(solved[j].answers));
+  ThesisResults results = tables_from(figures, is_everything, solutions);
   results.n_workers = options.n_workers > 0 ? options.n_workers : cores();
-  results.times = {{fmt::format("{} solves on {} workers", solves.size(), results.n_workers), solving},
-                   {"  of which finite elements, all workers", solves.seconds(cases::Side::fem)},
-                   {"  of which springs, all workers", solves.seconds(cases::Side::msm)},
+  results.times = {{fmt::format("{} solves on {} workers", jobs.size(), results.n_workers), solving},
+                   {"  of which finite elements, all workers", seconds(solutions, cases::Side::fem)},
+                   {"  of which springs, all workers", seconds(solutions, cases::Side::msm)},
                    {"tables", collecting + stopwatch.lap()}};
   return results;
 }

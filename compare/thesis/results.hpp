@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/gates/comparison.hpp"
+#include "compare/cube/cube_benchmark.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/modes/eigenspaces.hpp"
 #include "compare/thesis/published.hpp"
@@ -39,7 +39,8 @@ struct TableEntry {
   std::vector<ComputedFigure> computed; ///< the declared reference first; at least one
   std::string finding;                  ///< what is known to be wrong with the printed figure; empty for most
   const ComputedFigure& declared() const { return computed.front(); }
-  /// Of the computed ones that nearest to print; null when none has a value.
+  std::optional<double> difference(const ComputedFigure& of) const; ///< its value less the published one
+  /// The computed figure closest to the published one; null when none has a value.
   const ComputedFigure* nearest() const;
 };
 
@@ -82,12 +83,12 @@ struct CellVolumeChange {
 struct DesignRow {
   std::string table;
   std::string design; ///< "printed" (the thesis's own figures), "thesis's set", or a method's name
-  int n_figures;      ///< that have a value
-  int n_missing;      ///< refused or failed
-  std::optional<double> worst, mean; ///< of |error|, percent
-  std::string worst_at;              ///< "large shear alpha_1 nu = 0.49"
-  std::vector<std::string> reasons;  ///< of what is missing, each once
-  Trace worst_trace{};               ///< gives the worst figure
+  int n_figures = 0;  ///< that have a value
+  int n_missing = 0;  ///< refused or failed
+  std::optional<double> worst{}, mean{}; ///< of |error|, percent
+  std::string worst_at{};                ///< "large shear alpha_1 nu = 0.49"
+  std::vector<std::string> reasons{};    ///< of what is missing, each once
+  Trace worst_trace{};                   ///< gives the worst figure
 };
 
 /// A design for linear elasticity at one Poisson's ratio, for any Young's modulus E and edge L0, with its
@@ -96,10 +97,8 @@ struct Advice {
   double poissons_ratio;
   std::string design;
   std::optional<msm::CellStiffness> stiffness; ///< over E L0 (volume: over E), no unit; absent when refused
-  struct Errors {
-    std::optional<double> worst, mean, worst_volume; ///< of |error|, percent; absent when a test failed
-    bool is_stable = false; ///< every test converged to a stable equilibrium without inverted cells
-    Trace trace{};          ///< gives the worst error
+  struct Errors : LoadSetErrors {
+    Trace trace{}; ///< gives the worst error
   };
   Errors small, large;         ///< the cube's load sets
   std::string refusal;         ///< why there are no stiffnesses or errors; empty otherwise

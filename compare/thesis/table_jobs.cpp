@@ -6,7 +6,6 @@
 #include "compare/provenance/cases_folder.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <fmt/format.h>
 
 namespace springproof::compare {
@@ -36,6 +35,36 @@ std::string quoted(const std::string& word) {
   return word.find_first_not_of(plain) == std::string::npos ? word : "'" + word + "'";
 }
 
+SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
+  std::vector<std::string> settings = material_settings(figure);
+  if (!reference.is_declared) {
+    settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
+    settings.push_back("fem.element=" + cases::name_of(reference.element));
+  }
+  return {path_of(figure), settings, cases::Side::fem};
+}
+
+SolveJob designed_springs(const PublishedFigure& figure, const std::string& design) {
+  std::vector<std::string> settings = material_settings(figure);
+  // The Ogden cases give their springs: the whole block goes, or the stiffnesses would contradict the design.
+  settings.push_back(is_linear_elastic(figure) ? "msm.design=" + design
+                                               : fmt::format("msm={{design=\"{}\"}}", design));
+  return {path_of(figure), settings, cases::Side::msm};
+}
+
+SolveJob thesis_springs(const PublishedFigure& figure) {
+  if (figure.load_set.empty()) return {path_of(figure), {}, cases::Side::msm};
+  const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio);
+  if (k)
+    return {path_of(figure),
+            {"msm.design=given", fmt::format("msm.stiffness=[{},{},{}]", (*k)[0], (*k)[1], (*k)[2])},
+            cases::Side::msm};
+  SolveJob job = designed_springs(figure, figure.design);
+  if (figure.design_poissons_ratio != figure.poissons_ratio)
+    job.settings.push_back(fmt::format("msm.poissons_ratio={}", figure.design_poissons_ratio));
+  return job;
+}
+
 } // namespace
 
 std::string FemChoice::name() const {
@@ -56,39 +85,26 @@ std::string case_file_of(const PublishedFigure& figure) {
   return fmt::format("thesis/{}/cube_{}_{}.toml", figure.material, figure.test, figure.load_set);
 }
 
-SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
-  std::vector<std::string> settings = material_settings(figure);
-  if (!reference.is_declared) {
-    settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
-    settings.push_back("fem.element=" + cases::name_of(reference.element));
-  }
-  return {path_of(figure), settings, cases::Side::fem};
+void append(std::vector<SolveJob>& jobs, const JobPair& pair) {
+  jobs.push_back(pair.fem);
+  jobs.push_back(pair.msm);
 }
 
-SolveJob designed_msm_job(const PublishedFigure& figure, const std::string& design) {
-  std::vector<std::string> settings = material_settings(figure);
-  // The Ogden cases give their springs: the whole block goes, or the stiffnesses would contradict the design.
-  settings.push_back(is_linear_elastic(figure) ? "msm.design=" + design
-                                               : fmt::format("msm={{design=\"{}\"}}", design));
-  return {path_of(figure), settings, cases::Side::msm};
+JobPair thesis_jobs(const PublishedFigure& figure, const FemChoice& reference) {
+  return {fem_job(figure, reference), thesis_springs(figure)};
 }
 
-SolveJob thesis_msm_job(const PublishedFigure& figure) {
-  if (figure.load_set.empty()) return {path_of(figure), {}, cases::Side::msm};
-  const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio);
-  if (k)
-    return {path_of(figure),
-            {"msm.design=given", fmt::format("msm.stiffness=[{},{},{}]", (*k)[0], (*k)[1], (*k)[2])},
-            cases::Side::msm};
-  SolveJob job = designed_msm_job(figure, figure.design);
-  if (figure.design_poissons_ratio != figure.poissons_ratio)
-    job.settings.push_back(fmt::format("msm.poissons_ratio={}", figure.design_poissons_ratio));
-  return job;
+JobPair thesis_jobs(const PublishedFigure& figure) {
+  return thesis_jobs(figure, references_of(figure).front());
 }
 
-Trace trace_of(const SolveJob& fem, const SolveJob& msm) {
-  Trace trace{fem.case_file.substr(cases_folder().size() + 1), fem.settings, ""};
-  append(trace.settings, msm.settings);
+JobPair designed_jobs(const PublishedFigure& figure, const std::string& design) {
+  return {fem_job(figure, references_of(figure).front()), designed_springs(figure, design)};
+}
+
+Trace trace_of(const JobPair& jobs) {
+  Trace trace{jobs.fem.case_file.substr(cases_folder().size() + 1), jobs.fem.settings, ""};
+  append(trace.settings, jobs.msm.settings);
   std::vector<std::string> words{"build/springproof", "run", "cases/" + trace.case_file};
   for (const std::string& setting : trace.settings) {
     words.push_back("--set");
@@ -104,28 +120,8 @@ std::string shell_command(const std::vector<std::string>& words) {
   return line;
 }
 
-const Comparison& SolveSet::get(const SolveJob& job) {
-  assert(!is_solved_ || solves_.count(job) == 1);
-  return solves_[job];
-}
-
-void SolveSet::solve(const SolveOptions& options, const std::function<void(int done, int all)>& progress) {
-  std::vector<SolveJob> jobs;
-  for (const auto& entry : solves_) jobs.push_back(entry.first);
-  std::vector<Solved> solved = solve_jobs(jobs, solve_fem, options, progress);
-  for (std::size_t j = 0; j < jobs.size(); ++j)
-    solves_[jobs[j]] = comparison_of(std::move(solved[j].scene), std::move(solved[j].answers));
-  is_solved_ = true;
-}
-
-double SolveSet::seconds(cases::Side side) const {
-  double sum = 0;
-  for (const auto& [job, comparison] : solves_) {
-    if (job.only != side) continue;
-    const Answer& solved = side == cases::Side::fem ? comparison.answers.fem : comparison.answers.msm;
-    sum += solved.setup_seconds + solved.solve_seconds;
-  }
-  return sum;
+MeasuredPair measured_pair(const Solutions& solutions, const JobPair& jobs, const std::string& measure) {
+  return measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), measure);
 }
 
 } // namespace springproof::compare

@@ -38,11 +38,10 @@ void write_tables_csv(std::ostream& out, const std::vector<TableEntry>& entries)
   for (const TableEntry& entry : entries)
     for (const ComputedFigure& c : entry.computed) {
       const PublishedFigure& p = entry.published;
-      const auto off = c.value ? std::optional(*c.value - p.value) : std::nullopt;
       fmt::print(out, "{},{},{:g},{},{:g},{},{},{},{:g},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                  p.table, p.material, p.poissons_ratio, p.design, p.design_poissons_ratio, p.load_set, p.test,
                  p.measure, p.value, p.unit, c.reference, field(c.value), field(c.fem), field(c.msm),
-                 field(off), &c == &entry.declared() ? 1 : 0, &c == entry.nearest() ? 1 : 0,
+                 field(entry.difference(c)), &c == &entry.declared() ? 1 : 0, &c == entry.nearest() ? 1 : 0,
                  field(c.from_beta_2), field(c.from_printed_beta_2), csv_text(entry.finding),
                  csv_text(c.reason), c.trace.case_file, joined(c.trace.settings), csv_text(c.trace.command));
     }

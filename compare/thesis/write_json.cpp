@@ -1,4 +1,6 @@
+#include "compare/cube/write_design.hpp"
 #include "compare/thesis/write.hpp"
+#include "compare/write/json.hpp"
 
 #include "compare/write/or_null.hpp"
 
@@ -20,7 +22,7 @@ Json entry_to_json(const TableEntry& entry) {
   const ComputedFigure& declared = entry.declared();
   Json other = Json::object(), other_command = Json::object();
   for (std::size_t k = 1; k < entry.computed.size(); ++k) {
-    other[entry.computed[k].reference] = or_null(entry.computed[k].value);
+    other[entry.computed[k].reference] = entry.computed[k].value;
     other_command[entry.computed[k].reference] = entry.computed[k].trace.command;
   }
   const ComputedFigure* nearest = entry.nearest();
@@ -34,13 +36,13 @@ Json entry_to_json(const TableEntry& entry) {
            {"measure", p.measure},
            {"unit", p.unit},
            {"published", p.value},
-           {"computed", or_null(declared.value)},
-           {"difference", declared.value ? Json(*declared.value - p.value) : Json(nullptr)},
+           {"computed", declared.value},
+           {"difference", entry.difference(declared)},
            {"reference", declared.reference},
            {"other", other},
            {"nearest", nearest ? Json(nearest->reference) : Json(nullptr)},
-           {"fem", or_null(declared.fem)},
-           {"msm", or_null(declared.msm)},
+           {"fem", declared.fem},
+           {"msm", declared.msm},
            {"finding", text_or_null(entry.finding)},
            {"reason", text_or_null(declared.reason)},
            {"case", text_or_null(declared.trace.case_file)},
@@ -49,7 +51,7 @@ Json entry_to_json(const TableEntry& entry) {
            {"other_command", other_command}};
   if (p.measure == "beta_1") {
     row["from_beta_2"] = Json::object();
-    for (const ComputedFigure& c : entry.computed) row["from_beta_2"][c.reference] = or_null(c.from_beta_2);
+    for (const ComputedFigure& c : entry.computed) row["from_beta_2"][c.reference] = c.from_beta_2;
   }
   return row;
 }
@@ -86,8 +88,8 @@ Json design_to_json(const DesignRow& row) {
           {"design", row.design},
           {"figures", row.n_figures},
           {"missing", row.n_missing},
-          {"mean_error_percent", or_null(row.mean)},
-          {"worst_error_percent", or_null(row.worst)},
+          {"mean_error_percent", row.mean},
+          {"worst_error_percent", row.worst},
           {"worst_at", row.worst_at},
           {"reasons", row.reasons},
           {"command_of_worst", text_or_null(row.worst_trace.command)}};
@@ -102,12 +104,10 @@ Json box_to_json(const ModelVolumes& v) {
           {"outliers", b.outliers}};
 }
 
-Json errors_to_json(const Advice::Errors& errors) {
-  return {{"worst_error_percent", or_null(errors.worst)},
-          {"mean_error_percent", or_null(errors.mean)},
-          {"worst_volume_error_percent", or_null(errors.worst_volume)},
-          {"stable", errors.is_stable},
-          {"command_of_worst", text_or_null(errors.trace.command)}};
+Json with_command(const Advice::Errors& errors) {
+  Json document = errors_to_json(errors);
+  document["command_of_worst"] = text_or_null(errors.trace.command);
+  return document;
 }
 
 Json advice_to_json(const Advice& a) {
@@ -119,8 +119,8 @@ Json advice_to_json(const Advice& a) {
                                  a.stiffness->internal_diagonal};
     row["volume_stiffness_per_E"] = a.stiffness->volume;
   }
-  row["small"] = errors_to_json(a.small);
-  row["large"] = errors_to_json(a.large);
+  row["small"] = with_command(a.small);
+  row["large"] = with_command(a.large);
   row["reason"] = text_or_null(a.refusal);
   row["command"] = a.trace.command;
   return row;
@@ -157,7 +157,7 @@ Json results_to_json(const ThesisResults& results) {
                                        [](const CellVolumeChange& change) {
                                          return Json{{"load_set", change.load_set},
                                                      {"published_percent", change.published},
-                                                     {"computed_percent", or_null(change.computed)}};
+                                                     {"computed_percent", change.computed}};
                                        })},
           {"advice", list(results.advice, advice_to_json)},
           {"summary", summary}};

@@ -41,8 +41,7 @@ class MeasureRows {
          [](const TableEntry& entry) { return number(entry.published.value, entry.published); });
     line("", "", "difference", [](const TableEntry& entry) {
       const ComputedFigure* nearest = entry.nearest();
-      return number(nearest ? std::optional(*nearest->value - entry.published.value) : std::nullopt,
-                    entry.published);
+      return number(nearest ? entry.difference(*nearest) : std::nullopt, entry.published);
     });
     const bool has_large = std::any_of(sheet_.columns.begin(), sheet_.columns.end(),
                                        [](const auto& c) { return c[2] == "large"; });

@@ -136,7 +136,7 @@ struct Method {
   DesignResult (*run)(const DesignRequest&); ///< fills stiffness and residual; null: not available yet
 };
 
-constexpr std::array<Method, 6> methods = {{
+constexpr std::array<Method, 6> known_methods = {{
     {cases::Design::linear_method, from_linear_method},
     {cases::Design::nonlinear_method, from_nonlinear_method},
     {cases::Design::moduli, from_moduli_method},
@@ -146,12 +146,19 @@ constexpr std::array<Method, 6> methods = {{
 }};
 
 const Method& find(cases::Design id) {
-  for (const Method& method : methods)
+  for (const Method& method : known_methods)
     if (method.id == id) return method;
   throw cases::InputError("unknown design method");
 }
 
 } // namespace
+
+std::vector<cases::Design> methods() {
+  std::vector<cases::Design> all;
+  for (const Method& method : known_methods)
+    if (method.id != cases::Design::given) all.push_back(method.id);
+  return all;
+}
 
 cases::LinearElastic small_strain_material(const cases::Material& material) {
   if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;

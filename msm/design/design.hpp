@@ -37,6 +37,9 @@ struct DesignResult {
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 
+/// The methods that design from a material: all but "given".
+std::vector<cases::Design> methods();
+
 /// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
 /// a bulk modulus.
 cases::LinearElastic small_strain_material(const cases::Material& material);

@@ -108,8 +108,8 @@ TEST_CASE("the design with the smallest worst error is recommended among those t
   const auto advice = [](double nu, double small, double large, bool is_stable) {
     compare::Advice a;
     a.poissons_ratio = nu;
-    a.small = {small, small, 0.0, true};
-    a.large = {large, large, 0.0, is_stable};
+    a.small = {{small, small, 0.0, true}, {}};
+    a.large = {{large, large, 0.0, is_stable}, {}};
     return a;
   };
   compare::Advice failed = advice(0.3, 0.1, 0.1, true);

@@ -1,4 +1,4 @@
-#include "compare/thesis/measured_pair.hpp"
+#include "compare/cube/measured_pair.hpp"
 
 #include "compare/measure/measure.hpp"
 

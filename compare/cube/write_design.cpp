@@ -1,22 +1,17 @@
-#include "compare/write/write_design.hpp"
+#include "compare/cube/write_design.hpp"
 
 #include "compare/write/gnuplot.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/whole_file.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json finite_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 /// An end of the search is a bound, not a limit that was found.
 std::string limit(double found, double end) {
@@ -27,38 +22,44 @@ std::string percent(const std::optional<double>& error) {
   return error ? fmt::format("{:+.2f}", *error) : "failed";
 }
 
-void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
-  const CubeErrors* any = nullptr;
-  for (const DesignAttempt& a : attempts)
-    if (a.cube) any = &*a.cube;
-  if (!any) return;
-  fmt::print(out, "\nerrors on the cube, %\n{:<17}", "");
-  for (const CubeError& m : any->measures) {
-    const std::string load_set = m.test.find("large") == std::string::npos ? "" : "L ";
-    fmt::print(out, "{:>10}", load_set + m.measure);
+/// A column per measure, then what they come to.
+void write_load_set(std::ostream& out, const std::string& name,
+                    const std::vector<std::pair<std::string, const LoadSetErrors*>>& designs) {
+  if (designs.empty()) return;
+  fmt::print(out, "\nerrors on the cube under {} loads, %\n{:<17}", name, "");
+  for (const CubeError& m : designs.front().second->measures) fmt::print(out, "{:>10}", m.measure);
+  fmt::print(out, "{:>8}{:>8}{:>8}\n", "worst", "mean", "stable");
+  for (const auto& [design, errors] : designs) {
+    fmt::print(out, "{:<17}", design);
+    for (const CubeError& m : errors->measures) fmt::print(out, "{:>10}", percent(m.error_percent));
+    for (const auto& of_all : {errors->worst, errors->mean})
+      fmt::print(out, "{:>8}", of_all ? fmt::format("{:.2f}", *of_all) : "-");
+    fmt::print(out, "{:>8}\n", errors->is_stable ? "yes" : "NO");
   }
-  fmt::print(out, "{:>8}{:>8}\n", "worst", "stable");
-  for (const DesignAttempt& a : attempts) {
-    if (!a.cube) continue;
-    fmt::print(out, "{:<17}", a.name);
-    for (const CubeError& m : a.cube->measures) fmt::print(out, "{:>10}", percent(m.error_percent));
-    const auto worst = a.cube->worst();
-    fmt::print(out, "{:>8}{:>8}\n", worst ? fmt::format("{:.2f}", *worst) : "-",
-               a.cube->is_stable ? "yes" : "NO");
+}
+
+void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
+  for (const auto& [name, load_set] :
+       {std::pair("small", &CubeErrors::small), std::pair("large", &CubeErrors::large)}) {
+    std::vector<std::pair<std::string, const LoadSetErrors*>> designs;
+    for (const DesignAttempt& a : attempts)
+      if (a.cube) designs.emplace_back(a.name, &((*a.cube).*load_set));
+    write_load_set(out, name, designs);
   }
 }
 
 Json cube_to_json(const CubeErrors& cube) {
   Json measures = Json::array();
-  for (const CubeError& m : cube.measures) {
-    measures.push_back({{"case", m.test}, {"measure", m.measure}});
-    measures.back()["error_percent"] = m.error_percent ? Json(*m.error_percent) : Json(nullptr);
-    if (!m.error_percent) measures.back()["message"] = m.message;
-  }
-  const auto worst = cube.worst(), volume = cube.worst_volume();
-  return {{"worst_error_percent", worst ? Json(*worst) : Json(nullptr)},
-          {"worst_volume_error_percent", volume ? Json(*volume) : Json(nullptr)},
-          {"stable", cube.is_stable},
+  for (const LoadSetErrors* errors : {&cube.small, &cube.large})
+    for (const CubeError& m : errors->measures) {
+      measures.push_back({{"case", m.test}, {"measure", m.measure}, {"error_percent", m.error_percent}});
+      if (!m.error_percent) measures.back()["message"] = m.message;
+    }
+  return {{"worst_error_percent", cube.worst()},
+          {"worst_volume_error_percent", cube.worst_volume()},
+          {"stable", cube.small.is_stable && cube.large.is_stable},
+          {"small", errors_to_json(cube.small)},
+          {"large", errors_to_json(cube.large)},
           {"measures", measures}};
 }
 
@@ -107,25 +108,30 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
   write_cube_errors(out, attempts);
 }
 
-Json moduli_to_json(const msm::LatticeModuli& moduli) {
-  return {{"C11", finite_or_null(moduli.c11)},
-          {"C12", finite_or_null(moduli.c12)},
-          {"C44", finite_or_null(moduli.c44)},
-          {"zener", finite_or_null(moduli.zener)},
-          {"youngs_modulus", finite_or_null(moduli.youngs_modulus)},
-          {"poissons_ratio", finite_or_null(moduli.poissons_ratio)},
-          {"shear_modulus", finite_or_null(moduli.shear_modulus)}};
+Json errors_to_json(const LoadSetErrors& errors) {
+  return {{"worst_error_percent", errors.worst},
+          {"mean_error_percent", errors.mean},
+          {"worst_volume_error_percent", errors.worst_volume},
+          {"stable", errors.is_stable}};
 }
 
 Json attempt_to_json(const DesignAttempt& attempt) {
   if (!attempt.design) return {{"method", attempt.name}, {"refused", attempt.refusal}};
   const msm::DesignResult& design = *attempt.design;
   const msm::CellStiffness& k = design.stiffness;
+  const msm::LatticeModuli& m = design.moduli;
   Json document{{"method", attempt.name},
                 {"stiffness_N_per_m", {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal}},
                 {"volume_stiffness_MPa", k.volume},
-                {"residual", design.residual ? finite_or_null(*design.residual) : Json(nullptr)},
-                {"moduli", moduli_to_json(design.moduli)},
+                {"residual", design.residual},
+                {"moduli",
+                 {{"C11", m.c11},
+                  {"C12", m.c12},
+                  {"C44", m.c44},
+                  {"zener", m.zener},
+                  {"youngs_modulus", m.youngs_modulus},
+                  {"poissons_ratio", m.poissons_ratio},
+                  {"shear_modulus", m.shear_modulus}}},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
   if (attempt.stability)

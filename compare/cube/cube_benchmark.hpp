@@ -1,0 +1,67 @@
+#pragma once
+
+#include "compare/gates/comparison.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// The thesis's cube, on which designs are measured: 10x10x10 cells under tension, shear and torsion, with a
+/// small and a large set of loads. `design --measure`, the advice of `tables` and the README's picture all
+/// come from here.
+///
+/// The one reference of every material is what the cube's case files (cases/thesis) declare in [fem], for
+/// both load sets:
+///   linear elasticity: log_strain with q1_bbar. The springs' law is geometrically nonlinear, so its
+///   reference
+///     is too; the thesis's table 4.5 is reproduced with it at every Poisson's ratio.
+///   Ogden: hyperelastic with q1_p0, its mean-dilatation element (table 5.1).
+/// Loads grow with E L0², so that the strains, and with them all errors in percent, depend neither on Young's
+/// modulus nor on the cells' edge.
+namespace springproof::compare {
+
+struct CubeTest {
+  const char *test, *load_set;
+};
+inline constexpr std::array<CubeTest, 6> cube_tests{{{"tensile", "small"},
+                                                     {"shear", "small"},
+                                                     {"torsion", "small"},
+                                                     {"tensile", "large"},
+                                                     {"shear", "large"},
+                                                     {"torsion", "large"}}};
+
+/// A test's case for another material and other cells.  @param edge  of a cell, mm, > 0
+cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge);
+
+/// A measure of a test, or the test's failure (no error_percent).
+struct CubeError {
+  std::string test; ///< "cube-shear-small", ...
+  std::string measure;
+  std::optional<double> error_percent;
+  std::string message; ///< why there is none
+};
+
+/// Errors of springs on the cube under one set of loads.
+struct LoadSetErrors {
+  std::optional<double> worst, mean;  ///< of |error|, percent, volumes apart; absent when a test failed
+  std::optional<double> worst_volume; ///< the same of volumes
+  bool is_stable = true;              ///< every test converged to a stable equilibrium without inverted cells
+  std::vector<CubeError> measures{};
+  std::size_t worst_test = 0; ///< index in cube_tests
+  std::string failure{};      ///< first test without an error, and why; empty when all have one
+};
+
+struct CubeErrors {
+  LoadSetErrors small, large;
+  std::optional<double> worst() const, worst_volume() const; ///< over both; absent when a test failed
+};
+
+/// A test with its finite elements solved, and with springs solved.
+struct CubeSolve {
+  const Comparison &fem, &msm;
+};
+
+/// @param solves  in the order of cube_tests
+CubeErrors cube_errors(const std::vector<CubeSolve>& solves);
+
+} // namespace springproof::compare
