@@ -11,23 +11,25 @@ namespace springproof::compare {
 
 namespace {
 
-void add_stability(DesignAttempt& attempt, const msm::DesignRequest& request) {
+DesignAttempt designed(const std::string& name, const msm::DesignRequest& request) {
+  DesignAttempt result{name, msm::design(request), "", std::nullopt, std::nullopt};
   const double edge = msm::cube_edge(request.cell);
-  if (attempt.design && edge > 0) attempt.stability = msm::stability_range(attempt.design->stiffness, edge);
+  if (edge > 0) result.stability = msm::stability_range(result.design->stiffness, edge);
+  return result;
 }
 
 DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
+  const auto refused = [&](const std::exception& error) {
+    return DesignAttempt{name, std::nullopt, error.what(), std::nullopt, std::nullopt};
+  };
   request.options.design = method;
-  DesignAttempt result{name, std::nullopt, "", std::nullopt, std::nullopt};
   try {
-    result.design = msm::design(request);
+    return designed(name, request);
   } catch (const cases::InputError& error) {
-    result.refusal = error.what();
+    return refused(error);
   } catch (const cases::SolveError& error) {
-    result.refusal = error.what();
+    return refused(error);
   }
-  add_stability(result, request);
-  return result;
 }
 
 cases::Msm given(const msm::CellStiffness& k) {
@@ -38,13 +40,16 @@ cases::Msm given(const msm::CellStiffness& k) {
   return springs;
 }
 
+Comparison solved(const cases::Case& definition, cases::Side side) {
+  Request request;
+  request.only = side;
+  return compare_case(definition, request);
+}
+
 } // namespace
 
 DesignAttempt attempt_one(const msm::DesignRequest& request) {
-  DesignAttempt result{cases::name_of(request.options.design), msm::design(request), "", std::nullopt,
-                       std::nullopt};
-  add_stability(result, request);
-  return result;
+  return designed(cases::name_of(request.options.design), request);
 }
 
 std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request) {
@@ -76,7 +81,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
   if (!(edge > 0)) throw cases::InputError("--measure solves the thesis's cube, whose cells are cubes");
   std::vector<Comparison> fem;
   for (const CubeTest& test : cube_tests)
-    fem.push_back(compare_case(cube_case(test, request.material, edge), {{}, cases::Side::fem}));
+    fem.push_back(solved(cube_case(test, request.material, edge), cases::Side::fem));
   for (DesignAttempt& a : attempts) {
     if (!a.design) continue;
     std::list<Comparison> msm; // whose elements are referred to
@@ -84,7 +89,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     for (const Comparison& test : fem) {
       cases::Case definition = test.scene.definition;
       definition.msm = given(a.design->stiffness);
-      msm.push_back(compare_case(definition, {{}, cases::Side::msm}));
+      msm.push_back(solved(definition, cases::Side::msm));
       solves.push_back({test, msm.back()});
     }
     a.cube = cube_errors(solves);

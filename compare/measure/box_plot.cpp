@@ -34,4 +34,8 @@ BoxPlot box_plot(std::vector<double> values) {
   return box;
 }
 
+std::optional<double> median(const std::vector<double>& values) {
+  return values.empty() ? std::nullopt : std::optional(box_plot(values).median);
+}
+
 } // namespace springproof::compare

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace springproof::compare {
@@ -16,5 +17,8 @@ struct BoxPlot {
 /// of the program that drew the thesis's figures; Hyndman and Fan's fifth).
 /// @param values  at least one, all finite, in any order
 BoxPlot box_plot(std::vector<double> values);
+
+/// Nothing without values.
+std::optional<double> median(const std::vector<double>& values);
 
 } // namespace springproof::compare

@@ -111,10 +111,8 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
   const auto& measures = reference.scene.definition.measures;
   std::vector<std::optional<double>> errors;
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    const bool is_field = measures[m].kind == cases::MeasureKind::displacement_field_l2 ||
-                          measures[m].kind == cases::MeasureKind::displacement_field_max;
     errors.push_back(
-        is_field
+        is_field_norm(measures[m].kind)
             ? measure_error_percent(measures[m], reference.scene, reference.solution, solution)
             : error_percent(reference.measures[m].value, evaluate(measures[m], reference.scene, solution)));
   }

@@ -69,11 +69,6 @@ void finish(Sweep& sweep, SweepRow& row) {
   row.run.first.cell_volume = {};
 }
 
-std::optional<double> median(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return box_plot(values).median;
-}
-
 } // namespace
 
 Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,

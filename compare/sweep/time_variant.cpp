@@ -27,22 +27,19 @@ namespace springproof::compare {
 
 namespace {
 
-/// One model made and solved twice.
+/// One model made and solved twice: from rest, and after the change of the load.
 struct Round {
-  cases::Solution first, again;
-  std::optional<double> setup_seconds, first_seconds, again_seconds;
+  std::optional<double> setup_seconds; ///< absent where they are part of the first solve's
+  Answer first, again;
 };
 
-/// The seconds that one solve takes; nothing when it fails.
-std::optional<double> timed(cases::Solution& solution, const std::function<cases::Solution()>& solve) {
-  const Stopwatch stopwatch;
-  try {
-    solution = solve();
-    return stopwatch.seconds();
-  } catch (const cases::SolveError& error) {
-    solution = failed_solution(error);
-    return std::nullopt;
-  }
+/// One solve of a model that is there.
+Answer timed(const std::function<cases::Solution()>& solve) {
+  return solve_side([] { return 0; }, [&](int) { return solve(); });
+}
+
+bool is_solved(const Answer& answer) {
+  return answer.solution.status == cases::Status::converged;
 }
 
 cases::Scene with_load(cases::Scene scene, double factor) {
@@ -70,17 +67,17 @@ Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Poin
   mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;
   settings.stability = mechanics::Stability::ignore;
-  round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
-  if (round.first_seconds)
-    round.again_seconds = timed(round.again, [&] { return model.solve(settings, before); });
+  round.first = timed([&] { return model.solve(settings); });
+  if (is_solved(round.first)) round.again = timed([&] { return model.solve(settings, before); });
   return round;
 }
 
-/// The displacement under the smaller load, where the equilibrium has to be stable.  @throws SolveError
-msm::Points springs_before(const cases::Scene& scene, double tolerance) {
+/// Under the smaller load, where the equilibrium has to be stable.
+Answer springs_before(const cases::Scene& scene, double tolerance) {
   mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;
-  return make_springs(with_load(scene, 1 - load_change)).solve(settings).displacement;
+  return solve_side([&] { return make_springs(with_load(scene, 1 - load_change)); },
+                    [&](msm::Model& model) { return model.solve(settings); });
 }
 
 /// All ranks go by what rank 0 measured.
@@ -113,42 +110,33 @@ Round solve_finite_elements(const cases::Scene& scene, const Variant& variant, c
   mechanics::EquilibriumSettings settings = fem_reference::default_settings();
   settings.tolerance = variant.tolerance;
   settings.stability = mechanics::Stability::ignore;
-  round.first_seconds = timed(round.first, [&] { return model.solve(settings); });
-  if (!round.first_seconds) return round;
+  round.first = timed([&] { return model.solve(settings); });
+  if (!is_solved(round.first)) return round;
   if (field_cells(variant) != variant.cells)
-    round.first.displacement = on_grid(
+    round.first.solution.displacement = on_grid(
         model.node_displacements(), std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
-  if (agreed(*round.first_seconds) > rules.budget_seconds) {
-    round.again.message = "left out: the first solve took longer than the budget";
+  if (agreed(round.first.solve_seconds) > rules.budget_seconds) {
+    round.again.solution.message = "left out: the first solve took longer than the budget";
     return round;
   }
-  cases::Solution before;
-  if (timed(before, [&] { return model.solve_again(1 - load_change, settings); }))
-    round.again_seconds = timed(round.again, [&] { return model.solve_again(1, settings); });
-  else
-    round.again = before;
+  round.again = timed([&] { return model.solve_again(1 - load_change, settings); });
+  if (is_solved(round.again)) round.again = timed([&] { return model.solve_again(1, settings); });
   return round;
 }
 
 /// A program of its own: reading its input and writing its output are part of the only time there is.
 Round ask_calculix_once(const cases::Scene& scene) {
-  Round round;
-  round.first_seconds = timed(round.first, [&] { return solve_with_calculix(scene); });
-  if (round.first.status != cases::Status::converged) round.first_seconds.reset();
-  return round;
+  return {std::nullopt, timed([&] { return solve_with_calculix(scene); }), {}};
 }
 
 void append(VariantRun& run, Round round) {
-  run.first = std::move(round.first);
-  run.again = std::move(round.again);
+  if (round.setup_seconds) run.setup_seconds.push_back(*round.setup_seconds);
+  if (is_solved(round.first)) run.first_seconds.push_back(round.first.solve_seconds);
+  if (is_solved(round.again)) run.again_seconds.push_back(round.again.solve_seconds);
+  run.first = std::move(round.first.solution);
+  run.again = std::move(round.again.solution);
   run.again.displacement.clear();
   run.again.cell_volume.clear();
-  const auto add = [](std::vector<double>& all, const std::optional<double>& seconds) {
-    if (seconds) all.push_back(*seconds);
-  };
-  add(run.setup_seconds, round.setup_seconds);
-  add(run.first_seconds, round.first_seconds);
-  add(run.again_seconds, round.again_seconds);
 }
 
 VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
@@ -157,7 +145,7 @@ VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
   const Stopwatch stopwatch;
   Round trial = solve();
   const double seconds = agree(stopwatch.seconds());
-  const int n = trial.first_seconds ? n_repetitions(seconds, rules) : 0;
+  const int n = is_solved(trial.first) ? n_repetitions(seconds, rules) : 0;
   run.is_warm = n > 0;
   if (n == 0) append(run, std::move(trial));
   for (int i = 0; i < n; ++i) append(run, solve());
@@ -165,15 +153,13 @@ VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
 }
 
 VariantRun time_springs(const cases::Scene& scene, double tolerance, const TimingRules& rules) {
-  try {
-    const msm::Points before = springs_before(scene, tolerance);
-    return repeat([&] { return solve_springs(scene, tolerance, before); }, rules,
+  const Answer before = springs_before(scene, tolerance);
+  if (is_solved(before))
+    return repeat([&] { return solve_springs(scene, tolerance, before.solution.displacement); }, rules,
                   [](double seconds) { return seconds; });
-  } catch (const cases::SolveError& error) {
-    VariantRun run;
-    run.first = failed_solution(error);
-    return run;
-  }
+  VariantRun run;
+  run.first = before.solution;
+  return run;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/write/or_null.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 namespace springproof::compare {
@@ -47,9 +48,9 @@ Json reference_to_json(const Sweep& sweep) {
 
 Json row_to_json(const Sweep& sweep, const SweepRow& row) {
   const VariantRun& run = row.run;
-  Json errors{{"field", or_null(row.field_error_percent)}};
+  Json errors{{"field", row.field_error_percent}};
   for (std::size_t m = 0; m < row.measure_error_percent.size(); ++m)
-    errors[sweep.definition.measures[m].name] = or_null(row.measure_error_percent[m]);
+    errors[sweep.definition.measures[m].name] = row.measure_error_percent[m];
   return {
       {"method", method_name(row.variant)},
       {"cells", row.variant.cells},
@@ -66,7 +67,7 @@ Json row_to_json(const Sweep& sweep, const SweepRow& row) {
       {"first", counters(run.first)},
       {"again", run.again.status == cases::Status::skipped ? Json(nullptr) : counters(run.again)},
       {"again_message", run.again.message},
-      {"memory_MB", {{"start", or_null(run.start_megabytes)}, {"peak", or_null(run.peak_megabytes)}}},
+      {"memory_MB", {{"start", run.start_megabytes}, {"peak", run.peak_megabytes}}},
       {"error_percent", errors}};
 }
 

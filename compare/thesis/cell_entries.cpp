@@ -12,12 +12,12 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double edge = 2;           // mm; thesis section 4.2.2
+constexpr double cell_edge = 2;      // mm; thesis section 4.2.2
 constexpr double youngs_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
 
 CellAnalysis analyse_cell(double poissons_ratio) {
   const cases::LinearElastic material{youngs_modulus, poissons_ratio};
-  const msm::CellVertices cell = msm::cube(edge);
+  const msm::CellVertices cell = msm::cube(cell_edge);
   const msm::CellStiffness stiffness = msm::design(design_request(material, cell, cases::Msm{})).stiffness;
   return {
       poissons_ratio, stiffness,
@@ -76,7 +76,7 @@ std::string explain_cell(const PublishedFigure& figure, double computed) {
   if (off <= half_digit) return "";
   if (figure.measure.rfind("msm_eigenvalue", 0) == 0)
     if (const auto k = printed_stiffness(figure.poissons_ratio)) {
-      const Spectrum springs = full_spectrum(msm::cell_stiffness_matrix(msm::cube(edge), *k));
+      const Spectrum springs = full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), *k));
       const auto value = spectrum_figure(figure.measure, analyse_eigenspaces(springs, springs));
       if (value && std::abs(*value - figure.value) <= half_digit)
         return fmt::format("met with the stiffnesses of table 4.1 as printed: {:.4f}", *value);

@@ -5,35 +5,31 @@
 #include "compare/provenance/cases_folder.hpp"
 #include "compare/thesis/plot_bodies.hpp"
 #include "compare/thesis/plot_volumes.hpp"
+#include "compare/write/whole_file.hpp"
 #include "compare/write/write_eigen.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
 namespace {
 
-const std::string all_figures = "build/springproof tables --out DIR";
-
-/// The cube's six tests in the order of figures 4.15 and 5.9: a row per test, small loads left and large ones
-/// right.
-struct CubeTest {
-  const char *test, *load_set;
-};
-constexpr CubeTest cube_tests[] = {{"tensile", "small"}, {"tensile", "large"}, {"shear", "small"},
-                                   {"shear", "large"},   {"torsion", "small"}, {"torsion", "large"}};
-
-template<class Record, class Name>
-const Record* find_named(const std::vector<Record>& records, const std::string& name, const Name& name_of) {
-  const auto found = std::find_if(records.begin(), records.end(),
-                                  [&](const Record& record) { return name_of(record) == name; });
-  return found == records.end() ? nullptr : &*found;
-}
+/// The order of figures 4.15 and 5.9: a row per test, small loads left and large ones right.
+constexpr std::array<CubeTest, 6> panel_order{{{"tensile", "small"},
+                                               {"tensile", "large"},
+                                               {"shear", "small"},
+                                               {"shear", "large"},
+                                               {"torsion", "small"},
+                                               {"torsion", "large"}}};
 
 const Comparison* find_case(const std::vector<Comparison>& cases, const std::string& name) {
-  return find_named(cases, name, [](const Comparison& c) { return c.scene.definition.name; });
+  const auto found = std::find_if(cases.begin(), cases.end(),
+                                  [&](const Comparison& c) { return c.scene.definition.name == name; });
+  return found == cases.end() ? nullptr : &*found;
 }
 
 msm::CellStiffness published_cell(const std::string& design, const std::string& material,
@@ -43,26 +39,17 @@ msm::CellStiffness published_cell(const std::string& design, const std::string& 
   return {1e-3 * (*k)[0], 1e-3 * (*k)[1], 1e-3 * (*k)[2], 0};
 }
 
+/// A figure's number, caption and command, which are data.
+Figure described(const std::string& name) {
+  static const nlohmann::json all =
+      nlohmann::json::parse(read_file(cases_folder() + "/published/figures.json"));
+  const nlohmann::json& entry = all.at(name);
+  return {entry["number"], name, entry["caption"], entry["command"]};
+}
+
 void draw_linear_designs(const std::string& folder, std::vector<Figure>& figures) {
   plot_linear_method(folder, cases::Element::q1);
-  const std::string command =
-      "build/springproof design --young 1 --poisson 0.35 --method linear_method --out DIR";
-  figures.push_back(
-      {"4.6", "figure_4_6",
-       "Pulled cells of the linear method, one curve per Poisson's ratio, with the nonlinear spring law: "
-       "engineering stress per unit of Young's modulus; the right panel enlarges the lower part. The finite "
-       "element's answer is the line of slope 1. Data: linear_method_curves.csv.",
-       command});
-  figures.push_back({"4.7", "figure_4_7",
-                     "The same cells: how much their sides draw in. Dashed, in the same colour, the finite "
-                     "element, whose slope is "
-                     "-ν. Data: linear_method_curves.csv.",
-                     command});
-  figures.push_back({"4.8", "figure_4_8",
-                     "What the linear method's minimisation leaves over: the Frobenius norm of the "
-                     "difference of both stiffness "
-                     "matrices. Data: linear_method_residual.csv.",
-                     command});
+  for (const char* name : {"figure_4_6", "figure_4_7", "figure_4_8"}) figures.push_back(described(name));
 }
 
 void draw_nonlinear_designs(const std::string& folder, std::vector<Figure>& figures) {
@@ -80,25 +67,8 @@ void draw_nonlinear_designs(const std::string& folder, std::vector<Figure>& figu
   plot_contributions(folder, "figure_5_8",
                      {{"Ogden (14, 17, 63 N/m)", ogden_cell, 1, ogden_curve.axial_strain},
                       {"linear elastic (23, 43, 509 N/m)", linear_cell, 1, linear_curve.axial_strain}});
-  figures.push_back({"5.4", "figure_5_4",
-                     "A cell before its adjustment (all springs 50 N/m, edge 1 mm) beside the Ogden "
-                     "reference that it is to follow.",
-                     all_figures});
-  figures.push_back(
-      {"5.5", "figure_5_5",
-       "All stiffnesses from 0 to 0.1 N/mm in steps of 0.02 whose lateral strain follows an incompressible "
-       "material's: the second term of eq. 5.9 is at most 0.01.",
-       all_figures});
-  figures.push_back(
-      {"5.6", "figure_5_6", "The printed Ogden set (14, 17, 63 N/m) beside its reference.", all_figures});
-  figures.push_back({"5.7", "figure_5_7",
-                     "The printed set (23, 43, 509 N/m) for E = 0.3 MPa and ν = 0.5 beside its reference.",
-                     all_figures});
-  figures.push_back({"5.8", "figure_5_8",
-                     "What each kind of spring contributes to the stress of a pulled cell. A stiff spring "
-                     "contributes little "
-                     "where it is hardly stretched.",
-                     all_figures});
+  for (const char* name : {"figure_5_4", "figure_5_5", "figure_5_6", "figure_5_7", "figure_5_8"})
+    figures.push_back(described(name));
 }
 
 /// Appendix A groups the Poisson's ratios whose diagrams have the same pattern.
@@ -132,56 +102,30 @@ void draw_dot_diagrams(const std::string& folder, const ThesisResults& results,
   }
 }
 
-std::string label_of(const CubeTest& test) {
-  return fmt::format("{}, {} load", test.test, test.load_set);
+void draw_cubes(const std::string& folder, const std::string& name, const std::vector<Comparison>& cases,
+                const std::string& ending, std::vector<Figure>& figures) {
+  std::vector<Overlay> panels;
+  for (const auto& [test, load_set] : panel_order)
+    if (const Comparison* cube = find_case(cases, fmt::format("cube-{}-{}{}", test, load_set, ending)))
+      panels.push_back(overlay_of(*cube, fmt::format("{}, {} load", test, load_set)));
+  if (panels.empty()) return;
+  plot_bodies(folder, name, panels, 2);
+  figures.push_back(described(name));
 }
 
-void draw_cubes(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
-  std::vector<Overlay> panels;
-  for (const CubeTest& test : cube_tests)
-    if (const Comparison* cube =
-            find_case(results.figure_4_15, fmt::format("cube-{}-{}", test.test, test.load_set)))
-      panels.push_back(overlay_of(*cube, label_of(test)));
-  if (!panels.empty()) {
-    plot_bodies(folder, "figure_4_15", panels, 2);
-    figures.push_back(
-        {"4.15", "figure_4_15",
-         "The cube with E = 0.3 MPa and ν = 0.25, springs of the printed set (25, 36, 23 N/m) over finite "
-         "elements (log_strain, q1_bbar). Displacements at true scale.",
-         "build/springproof run cases/thesis/linear_elastic/cube_*.toml --set "
-         "material.poissons_ratio=0.25 --set "
-         "msm.design=given --set 'msm.stiffness=[25,36,23]' --out DIR"});
-  }
-  panels.clear();
+void draw_volumes(const std::string& folder, const std::vector<CaseVolumes>& all,
+                  std::vector<Figure>& figures) {
   std::vector<const CaseVolumes*> volumes;
   std::vector<std::string> labels;
-  for (const CubeTest& test : cube_tests) {
-    const std::string name = fmt::format("cube-{}-{}-ogden", test.test, test.load_set);
-    if (const Comparison* cube = find_case(results.cases, name))
-      panels.push_back(overlay_of(*cube, label_of(test)));
-    if (const CaseVolumes* of_case =
-            find_named(results.volumes, name, [](const CaseVolumes& v) { return v.name; })) {
-      volumes.push_back(of_case);
-      labels.push_back(fmt::format("{}\\n{}", test.test, test.load_set));
-    }
-  }
-  const std::string command = "build/springproof run cases/thesis/ogden/cube_*.toml --out DIR";
-  if (!panels.empty()) {
-    plot_bodies(folder, "figure_5_9", panels, 2);
-    figures.push_back({"5.9", "figure_5_9",
-                       "The Ogden cube, springs of the printed set (14, 17, 63 N/m) over finite elements "
-                       "(hyperelastic, q1_p0). "
-                       "Displacements at true scale.",
-                       command});
-  }
-  if (!volumes.empty()) {
-    plot_volumes(folder, "figure_5_10", volumes, labels);
-    figures.push_back(
-        {"5.10", "figure_5_10",
-         "Volumes of the 1000 cells of the springs' Ogden cube, each 1 mm³ at rest; the finite elements are "
-         "incompressible.",
-         command});
-  }
+  for (const auto& [test, load_set] : panel_order)
+    for (const CaseVolumes& of_case : all)
+      if (of_case.name == fmt::format("cube-{}-{}-ogden", test, load_set)) {
+        volumes.push_back(&of_case);
+        labels.push_back(fmt::format("{}\\n{}", test, load_set));
+      }
+  if (volumes.empty()) return;
+  plot_volumes(folder, "figure_5_10", volumes, labels);
+  figures.push_back(described("figure_5_10"));
 }
 
 void draw_bars(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
@@ -191,11 +135,7 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
       panels.push_back(thesis_overlay(results, *bar, fmt::format("springs {}", cells)));
   if (panels.empty()) return;
   plot_bodies(folder, "figure_5_12", panels, 3);
-  figures.push_back({"5.12", "figure_5_12",
-                     "The bar, held at its foot, 0.05 N to the left shared by an edge of its free end: "
-                     "springs at three resolutions "
-                     "over 4x4x16 finite elements. Displacements at true scale.",
-                     "build/springproof run cases/thesis/ogden/bar_*.toml --out DIR"});
+  figures.push_back(described("figure_5_12"));
 }
 
 } // namespace
@@ -213,7 +153,9 @@ std::vector<Figure> draw_figures(const std::string& folder, const ThesisResults&
   draw_linear_designs(folder, figures);
   draw_dot_diagrams(folder, results, figures);
   draw_nonlinear_designs(folder, figures);
-  draw_cubes(folder, results, figures);
+  draw_cubes(folder, "figure_4_15", results.figure_4_15, "", figures);
+  draw_cubes(folder, "figure_5_9", results.cases, "-ogden", figures);
+  draw_volumes(folder, results.volumes, figures);
   draw_bars(folder, results, figures);
   return figures;
 }

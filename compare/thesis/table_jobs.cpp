@@ -30,7 +30,7 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
     if (std::find(to.begin(), to.end(), word) == to.end()) to.push_back(word);
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
   return word.find_first_not_of(plain) == std::string::npos ? word : "'" + word + "'";
 }
@@ -116,7 +116,7 @@ Trace trace_of(const JobPair& jobs) {
 
 std::string shell_command(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
   return line;
 }
 
