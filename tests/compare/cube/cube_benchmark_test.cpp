@@ -50,7 +50,7 @@ void check_same(const compare::LoadSetErrors& a, const compare::LoadSetErrors& b
 } // namespace
 
 TEST_CASE("design --measure finds the errors that tables advises with, whatever Young's modulus and edge",
-          "[verification][long]") {
+          "[verification-long]") {
   const compare::Advice advice = advised();
   for (const auto& [youngs_modulus, edge] : {std::pair(0.05, 1.0), std::pair(7.0, 2.5)}) {
     CAPTURE(youngs_modulus, edge);
