@@ -14,7 +14,7 @@ namespace {
 constexpr double poissons_ratio = 0.45;
 
 /// As `design --young E --edge L0 --poisson 0.45 --method hybrid --measure`.
-compare::CubeErrors measured(double youngs_modulus, double edge) {
+compare::CubeErrors measured_by_design(double youngs_modulus, double edge) {
   cases::Msm options;
   options.design = cases::Design::hybrid;
   const msm::DesignRequest request =
@@ -54,7 +54,7 @@ TEST_CASE("design --measure finds the errors that tables advises with, whatever 
   const compare::Advice advice = advised();
   for (const auto& [youngs_modulus, edge] : {std::pair(0.05, 1.0), std::pair(7.0, 2.5)}) {
     CAPTURE(youngs_modulus, edge);
-    const compare::CubeErrors errors = measured(youngs_modulus, edge);
+    const compare::CubeErrors errors = measured_by_design(youngs_modulus, edge);
     check_same(errors.small, advice.small);
     check_same(errors.large, advice.large);
   }
