@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace springproof::cases {
 
@@ -36,8 +37,10 @@ Grid empty_grid(const Surface& surface, const Voxels& voxels) {
   grid.spacing.setConstant(voxels.edge);
   double n_cells = 1;
   for (int a = 0; a < 3; ++a) {
-    // A body of exactly n edges has n cells, whatever the rounding of its size.
-    const double n = std::max(1.0, std::ceil((upper[a] - lower[a]) / voxels.edge - 1e-6));
+    // A body of exactly n edges has n cells, whatever the rounding of its coordinates to single precision.
+    const double rounding =
+        std::numeric_limits<float>::epsilon() * std::max(std::abs(lower[a]), std::abs(upper[a]));
+    const double n = std::max(1.0, std::ceil((upper[a] - lower[a] - rounding) / voxels.edge - 1e-6));
     n_cells *= n;
     if (!(n_cells <= most_cells))
       throw InputError(voxels.where,
@@ -87,6 +90,8 @@ void cast(const std::array<Vector3d, 3>& t, const Grid& grid, const Vector3d& fi
     }
 }
 
+/// Marks the cells whose centre has a winding number other than 0. VTK's stencil of a surface has the same
+/// cells where parts do not overlap; where they do, it counts crossings and leaves a hole.
 void fill(Grid& grid, const Surface& surface) {
   const double edge = grid.spacing.x();
   // A ray along the common edge of two triangles would miss both. Edges of drawn bodies pass through centres
@@ -108,35 +113,28 @@ void fill(Grid& grid, const Surface& surface) {
 
 /// Sizes of the pieces that hang together by faces, the largest first.
 std::vector<std::size_t> pieces(const Grid& grid) {
-  std::vector<std::size_t> sizes;
-  std::vector<bool> seen(grid.present.size(), false);
-  const auto number = [&](const std::array<int, 3>& c) {
-    return index(c[0]) + index(grid.cells[0]) * (index(c[1]) + index(grid.cells[1]) * index(c[2]));
+  std::vector<std::size_t> sizes, to_visit;
+  std::vector<bool> is_left = grid.present;
+  const auto visit = [&](std::size_t cell) {
+    if (!is_left[cell]) return;
+    is_left[cell] = false;
+    to_visit.push_back(cell);
   };
-  std::vector<std::array<int, 3>> to_visit;
-  const auto visit = [&](const std::array<int, 3>& c) {
-    if (!grid.has(c[0], c[1], c[2]) || seen[number(c)]) return;
-    seen[number(c)] = true;
-    to_visit.push_back(c);
-  };
-  for (int k = 0; k < grid.cells[2]; ++k)
-    for (int j = 0; j < grid.cells[1]; ++j)
-      for (int i = 0; i < grid.cells[0]; ++i) {
-        visit({i, j, k});
-        if (to_visit.empty()) continue;
-        sizes.push_back(0);
-        while (!to_visit.empty()) {
-          const std::array<int, 3> cell = to_visit.back();
-          to_visit.pop_back();
-          ++sizes.back();
-          for (std::size_t a = 0; a < 3; ++a)
-            for (const int step : {-1, 1}) {
-              std::array<int, 3> neighbour = cell;
-              neighbour[a] += step;
-              visit(neighbour);
-            }
-        }
+  for (std::size_t first = 0; first < is_left.size(); ++first) {
+    if (!is_left[first]) continue;
+    sizes.push_back(0);
+    for (visit(first); !to_visit.empty(); ++sizes.back()) {
+      const std::size_t cell = to_visit.back();
+      to_visit.pop_back();
+      std::size_t stride = 1;
+      for (const int n_cells : grid.cells) {
+        const std::size_t n = index(n_cells), place = cell / stride % n;
+        if (place > 0) visit(cell - stride);
+        if (place + 1 < n) visit(cell + stride);
+        stride *= n;
       }
+    }
+  }
   std::sort(sizes.rbegin(), sizes.rend());
   return sizes;
 }

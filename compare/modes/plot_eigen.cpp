@@ -86,7 +86,7 @@ void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::
 /// brackets.
 void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
                       const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
-  std::vector<PointField> fields;
+  std::vector<cases::PointField> fields;
   std::string script =
       "unset border\nunset tics\nunset key\nunset grid\nset view 65,25\nset view equal xyz\n";
   const int n_pictures = static_cast<int>(spaces.size()) - 1;
@@ -143,7 +143,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
                             const cases::HexMesh& mesh) {
-  std::vector<PointField> fields;
+  std::vector<cases::PointField> fields;
   write_file(folder + "/body_modes.csv", [&](std::ostream& out) {
     fmt::print(out, "# mode,fem_eigenvalue,msm_eigenvalue,ratio,angle_degrees\n");
     for (std::size_t m = 0; m < modes.pairs.size(); ++m) {

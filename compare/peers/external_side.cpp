@@ -1,11 +1,9 @@
 #include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/vtk.hpp"
 
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 namespace springproof::compare {
 
@@ -17,61 +15,27 @@ std::string shown(const Vector3d& point) {
   return fmt::format("({:.10g}, {:.10g}, {:.10g})", point.x(), point.y(), point.z());
 }
 
-/// Nodes by the box of space that they lie in. The boxes are wider than the tolerance, so that a node within
-/// it lies in the point's own box or in a neighbour.
-class NodesByPlace {
- public:
-  explicit NodesByPlace(const std::vector<Vector3d>& nodes) : nodes_(nodes) {
-    for (std::size_t n = 0; n < nodes.size(); ++n) boxes_.emplace(box_of(nodes[n], {0, 0, 0}), n);
-  }
-
-  std::optional<std::size_t> find(const Vector3d& point) const {
-    for (int i = 0; i < 27; ++i) {
-      const int k = (i + 13) % 27; // the point's own box first
-      const auto range = boxes_.equal_range(box_of(point, {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1}));
-      for (auto it = range.first; it != range.second; ++it)
-        if ((nodes_[it->second] - point).norm() <= same_place) return it->second;
-    }
-    return std::nullopt;
-  }
-
- private:
-  using Box = std::array<double, 3>;
-  static Box box_of(const Vector3d& point, const std::array<int, 3>& neighbour) {
-    constexpr double width = 4 * same_place;
-    Box box;
-    for (int a = 0; a < 3; ++a)
-      box[static_cast<std::size_t>(a)] =
-          std::floor(point[a] / width) + neighbour[static_cast<std::size_t>(a)];
-    return box;
-  }
-  const std::vector<Vector3d>& nodes_;
-  std::multimap<Box, std::size_t> boxes_;
-};
-
-Vector3d nearest(const std::vector<Vector3d>& nodes, const Vector3d& point) {
-  Vector3d best = nodes.front();
-  for (const Vector3d& node : nodes)
-    if ((node - point).squaredNorm() < (best - point).squaredNorm()) best = node;
-  return best;
-}
-
 } // namespace
 
 std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
                                   const std::string& path) {
-  const NodesByPlace places(mesh.nodes);
+  std::vector<Vector3d> positions;
+  for (const GivenDisplacement& next : given) positions.push_back(next.position);
+  const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes, positions);
   std::vector<const GivenDisplacement*> of_node(mesh.nodes.size(), nullptr);
-  for (const GivenDisplacement& next : given) {
-    const auto node = places.find(next.position);
-    if (!node)
-      throw cases::InputError(fmt::format(
-          "{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}", next.where,
-          same_place, shown(next.position), shown(nearest(mesh.nodes, next.position))));
-    if (of_node[*node])
+  for (std::size_t g = 0; g < given.size(); ++g) {
+    const GivenDisplacement& next = given[g];
+    const Vector3d& node = mesh.nodes[nearest[g]];
+    const double tolerance = same_place + next.rounding;
+    if (!((node - next.position).norm() <= tolerance))
+      throw cases::InputError(
+          fmt::format("{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}",
+                      next.where, tolerance, shown(next.position), shown(node)));
+    const GivenDisplacement*& known = of_node[nearest[g]];
+    if (known)
       throw cases::InputError(fmt::format("{}: the node {} is given twice, first in {}", next.where,
-                                          shown(next.position), of_node[*node]->where));
-    of_node[*node] = &next;
+                                          shown(next.position), known->where));
+    known = &next;
   }
   std::vector<Vector3d> displacement;
   for (std::size_t n = 0; n < of_node.size(); ++n) {

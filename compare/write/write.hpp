@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/mesh/vtk.hpp"
 #include "compare/gates/comparison.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -41,13 +42,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
 /// mm and mm³.
 void write_vtu(std::ostream& out, const Comparison& comparison);
 
-/// A vector at every node, for write_vtu().
-struct PointField {
-  std::string name;
-  std::vector<Eigen::Vector3d> values;
-};
-
 /// Any vectors on a mesh's nodes as a .vtu.
-void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<PointField>& fields);
+void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
 
 } // namespace springproof::compare

@@ -90,15 +90,16 @@ TEST_CASE("what is no STL, is cut short or has a position that is not finite is 
   const TemporaryFolder folder;
   const std::string binary = as_binary(read_stl(folder.write("good.stl", tetrahedron), {}));
   const std::vector<std::pair<std::string, std::string>> broken{
-      {"", "is empty"},
+      {"", "Premature EOF"},
       {"solid nothing\nendsolid\n", "has no triangles"},
-      {"$MeshFormat\n", "is no STL"},
-      {std::string(100, 'x'), "is no STL"},
-      {binary.substr(5, 50) + std::string(60, 'b'), "is no STL"},
-      {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 one 0"), "bad.stl:5"},
-      {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 1"), "bad.stl:5"},
-      {case_text::replaced(tetrahedron, "    vertex 0 1 0\n", ""), "a facet of 2 vertices"},
-      {tetrahedron.substr(0, tetrahedron.find("endloop")), "ends within a facet"},
+      {"$MeshFormat\n", "at line 1: Parse error. Expecting 'solid' found '$meshformat'"},
+      {std::string(100, 'x'), "Expecting 'solid'"},
+      {binary.substr(5, 50) + std::string(60, 'b'), "Expecting 'solid'"},
+      {binary.substr(0, binary.size() - 1), "ends within a triangle"},
+      {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 one 0"), "at line 5: Parse error"},
+      {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 1"), "at line 5: Parse error"},
+      {case_text::replaced(tetrahedron, "    vertex 0 1 0\n", ""), "Expecting 'vertex' found 'endloop'"},
+      {tetrahedron.substr(0, tetrahedron.find("endloop")), "Premature EOF while reading 'endloop'"},
       {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 inf 0"), "not finite"}};
   for (const auto& [text, says] : broken) {
     CAPTURE(says);

@@ -65,6 +65,12 @@ TEST_CASE("a cuboid becomes the box that it is, wherever it lies") {
   CHECK((mesh.nodes.back() - Vector3d(1, 3, 2)).norm() <= 1e-14); // rounding of 8 * 0.25
 }
 
+TEST_CASE("a cuboid far from the origin has no layer of cells more for the rounding of its coordinates") {
+  const HexMesh mesh = voxels(cuboid({-1.1, 2.3, 100.7}, {-0.5, 2.6, 101.6}), 0.3);
+  CHECK(mesh.grid->cells == std::array<int, 3>{2, 1, 3});
+  CHECK(mesh.cells.size() == 2 * 1 * 3);
+}
+
 TEST_CASE("a ball of cubes has nearly its volume, and is as symmetric") {
   const HexMesh mesh = voxels(ball(), 0.1);
   const double volume = 1e-3 * static_cast<double>(mesh.cells.size());

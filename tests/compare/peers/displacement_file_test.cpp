@@ -1,9 +1,12 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/peers/external_side.hpp"
 #include "compare/write/write.hpp"
+#include "tests/cases/case/case_text.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <sstream>
 
 using namespace springproof;
@@ -16,10 +19,12 @@ namespace {
 std::string ascii_vtu(const std::string& points, const std::string& point_data) {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
          "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-         "<Piece NumberOfPoints=\"2\" NumberOfCells=\"0\">\n<Points>\n<DataArray type=\"Float32\" "
+         "<Piece NumberOfPoints=\"2\" NumberOfCells=\"0\">\n<Points>\n<DataArray type=\"Float64\" "
          "NumberOfComponents=\"3\" format=\"ascii\">\n" +
          points + "\n</DataArray>\n</Points>\n<PointData>\n" + point_data +
-         "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+         "</PointData>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\"/>\n"
+         "<DataArray type=\"Int64\" Name=\"offsets\"/>\n<DataArray type=\"UInt8\" Name=\"types\"/>\n"
+         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 std::string vectors(const std::string& name, const std::string& values) {
@@ -28,6 +33,7 @@ std::string vectors(const std::string& name, const std::string& values) {
 }
 
 const std::string two_points = "0 0 0 1 2.5 -3e-1", moves = "0 0 1 0 0.5 0";
+const std::string one_array = ascii_vtu(two_points, vectors("a", moves));
 
 } // namespace
 
@@ -81,25 +87,56 @@ TEST_CASE("the .vtu that this program writes is read back to the last bit") {
   CHECK_THROWS_AS(read_displacement_vtu(cut, "a.vtu"), cases::InputError);
 }
 
+TEST_CASE("a displacement that is not finite is refused with its point") {
+  const cases::HexMesh mesh = cases::make_box_mesh({1, 2, 3}, {1, 1, 1});
+  std::vector<Eigen::Vector3d> moved(8, {0, 0, 1});
+  moved[5].y() = std::numeric_limits<double>::quiet_NaN();
+  std::ostringstream out;
+  compare::write_vtu(out, mesh, {{"displacement", moved}});
+  CHECK_THROWS_WITH(read_displacement_vtu(out.str(), "a.vtu"), "a.vtu: is not finite at point 5");
+}
+
+TEST_CASE("a .vtu by VTK's writer as it comes, compressed and in single precision, matches the nodes that it "
+          "rounds") {
+  // vtkXMLUnstructuredGridWriter: the nodes of a box of 100.1 x 100.2 x 100.3 mm with displacement = position
+  // / 1000
+  const std::string path = SPRINGPROOF_SOURCE_DIR "/tests/compare/peers/single_precision.vtu";
+  const auto nodes = compare::read_displacements(path);
+  REQUIRE(nodes.size() == 8);
+  const cases::HexMesh mesh = cases::make_box_mesh({100.1, 100.2, 100.3}, {1, 1, 1});
+  const auto displacement = compare::match_nodes(mesh, nodes, path);
+  CHECK(nodes[7].position != mesh.nodes[7]);
+  for (std::size_t n = 0; n < 8; ++n)
+    CHECK((displacement[n] - mesh.nodes[n] / 1000).norm() <= 1e-6 * 0.1); // single precision
+}
+
+TEST_CASE("points that several pieces have in common are one node, if they move together") {
+  const std::string text = ascii_vtu(two_points, vectors("U", moves));
+  const std::size_t begin = text.find("<Piece"), end = text.find("</UnstructuredGrid>");
+  const std::string piece = text.substr(begin, end - begin);
+  const auto with = [&](const std::string& other) { return text.substr(0, end) + other + text.substr(end); };
+  CHECK(read_displacement_vtu(with(piece), "a.vtu").size() == 2);
+  CHECK(read_displacement_vtu(with(case_text::replaced(piece, moves, two_points)), "a.vtu").size() == 4);
+}
+
 TEST_CASE("a .vtu that cannot be used is refused with the reason") {
   const auto [text, message] = GENERATE(table<std::string, std::string>({
-      {"", "is no VTK file"},
-      {"<VTKFile type=\"PolyData\">", "is no VTK file of type UnstructuredGrid"},
-      {"<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\">", "compressed"},
-      {"<VTKFile type=\"UnstructuredGrid\" byte_order=\"BigEndian\">", "LittleEndian"},
-      {"<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"-2\">", "no whole number"},
+      {"", "is no complete VTK file of type UnstructuredGrid"},
+      {"<VTKFile type=\"PolyData\"></VTKFile>", "is no complete VTK file of type UnstructuredGrid"},
+      {"<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"2\">", "no element found"},
+      {case_text::replaced(one_array, "NumberOfPoints=\"2\"", "NumberOfPoints=\"-2\""),
+       "\"a\" from PointData"},
       {ascii_vtu(two_points, vectors("a", moves) + vectors("b", moves)), "it has 'a' 'b'"},
       {ascii_vtu(two_points, ""), "it has none"},
-      {ascii_vtu(two_points, vectors("a", "0 0 0")),
-       "the array 'a' has 3 numbers, must have 3 for each of 2"},
-      {ascii_vtu(two_points, vectors("a", "0 0 0 0 0 x")), "'x"},
-      {ascii_vtu(two_points, vectors("a", "0 0 0 0 0 inf")), "not finite at point 1"},
+      {ascii_vtu(two_points, vectors("a", "0 0 0")), "\"a\" from PointData in piece 0"},
+      {ascii_vtu(two_points, vectors("a", "0 0 0 0 0 x")), "\"a\" from PointData in piece 0"},
+      {ascii_vtu(two_points, vectors("a", "0 0 0 0 0 inf")), "\"a\" from PointData in piece 0"},
       {ascii_vtu(two_points,
                  "<DataArray Name=\"a\" type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">"),
-       "must be ascii or appended"},
-      {ascii_vtu(two_points,
-                 "<DataArray Name=\"a\" type=\"Int64\" NumberOfComponents=\"3\" format=\"ascii\">"),
-       "must be Float32 or Float64"},
+       "mismatched tag"},
+      {ascii_vtu(two_points, "<DataArray Name=\"a\" type=\"Int64\" NumberOfComponents=\"3\" "
+                             "format=\"ascii\">0 0 1 0 1 0</DataArray>"),
+       "(Float32 or Float64)"},
   }));
   CHECK_THROWS_WITH(read_displacement_vtu(text, "a.vtu"),
                     Catch::Contains(message) && Catch::StartsWith("a.vtu: "));

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/surface.hpp"
+
+/// VTK's readers and writers for callers that include none of VTK's headers.
+namespace springproof::cases {
+
+/// A vector at every node.
+struct PointField {
+  std::string name;
+  std::vector<Eigen::Vector3d> values;
+};
+
+/// A number for every cell.
+struct CellField {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// The points of an unstructured grid and their vectors in a file's order; a point that several pieces share
+/// occurs several times.
+struct PointCloud {
+  std::vector<Eigen::Vector3d> points;
+  bool is_single_precision = false; ///< the points, in the file
+  std::vector<PointField> fields;   ///< point data of three components in single or double precision
+};
+
+/// The functions of the shared object springproof_vtk. They throw std::runtime_error with VTK's message.
+struct VtkFunctions {
+  /// Content of a .vtu: doubles, appended raw.
+  std::string (*write_unstructured_grid)(const HexMesh&, const std::vector<PointField>&,
+                                         const std::vector<CellField>&);
+  PointCloud (*read_unstructured_grid)(const std::string& content);
+  /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
+  Surface (*read_triangles)(const std::string& path);
+  /// The index of the point closest to each position.  @param points  at least one
+  std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
+                                             const std::vector<Eigen::Vector3d>& positions);
+};
+
+/// The symbol by which vtk() finds them.
+extern "C" const VtkFunctions springproof_vtk;
+
+} // namespace springproof::cases
