@@ -27,10 +27,11 @@ bool all_met(const std::vector<GatedCase>& cases) {
 }
 
 bool asks_for_mesh_study(const cases::Case& definition) {
-  return std::any_of(
-      definition.expectations.begin(), definition.expectations.end(), [](const auto& expected) {
-        return expected.reference == cases::ReferenceKind::converged && expected.quantity != Quantity::msm;
-      });
+  return std::any_of(definition.expectations.begin(), definition.expectations.end(),
+                     [](const auto& expected) {
+                       return expected.reference == cases::ReferenceKind::converged &&
+                              expected.quantity != cases::Quantity::msm;
+                     });
 }
 
 GatedCase judge_gates(const Comparison& comparison) {
