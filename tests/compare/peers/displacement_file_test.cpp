@@ -3,7 +3,7 @@
 #include "cases/case/error.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/write/write.hpp"
-#include "tests/cases/case/case_text.hpp"
+#include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
