@@ -9,7 +9,9 @@ namespace {
 compare::DesignAttempt measured(double error_percent, double compression) {
   compare::DesignAttempt attempt;
   attempt.stability = msm::StabilityRange{3, compression, 2};
-  attempt.cube = compare::CubeErrors{{error_percent}, {error_percent / 2}};
+  attempt.cube.emplace();
+  attempt.cube->small.worst = error_percent;
+  attempt.cube->large.worst = error_percent / 2;
   return attempt;
 }
 
