@@ -1,5 +1,6 @@
 #include "compare/cube/write_design.hpp"
 
+#include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/whole_file.hpp"
@@ -149,22 +150,15 @@ Json attempt_to_json(const DesignAttempt& attempt) {
 void plot_pareto_front(const std::string& folder, const std::vector<DesignAttempt>& attempts) {
   const std::vector<bool> front = on_pareto_front(attempts);
   write_file(folder + "/pareto.csv", [&](std::ostream& out) {
-    fmt::print(out, "# design,worst_error_percent,stable_strain,on_front\n");
+    CsvWriter csv(out, 6);
+    csv.row("# design", "worst_error_percent", "stable_strain", "on_front");
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       const DesignAttempt& a = attempts[i];
       if (a.cube && a.cube->worst() && a.stability)
-        fmt::print(out, "{},{:.6g},{:.6g},{}\n", a.name, *a.cube->worst(), stable_strain(*a.stability),
-                   front[i] ? 1 : 0);
+        csv.row(a.name, a.cube->worst(), stable_strain(*a.stability), front[i] ? 1 : 0);
     }
   });
-  draw(folder, "pareto",
-       "set key top left\nset logscale x\nset xlabel 'worst error on the cube, %'\nset ylabel 'logarithmic "
-       "strain to which the "
-       "lattice is stable'\nset offsets graph 0.1, graph 0.3, graph 0.1, graph 0.1\n"
-       "plot 'pareto.csv' using 2:($4 == 0 ? $3 : 1/0) with points pt 6 lc rgb '#777777' title 'dominated', "
-       "'' using 2:($4 == 1 ? $3 : 1/0) with points pt 7 ps 1.3 lc rgb '#D55E00' title 'Pareto front', "
-       "'' using 2:3:(stringcolumn(1)) with labels left offset 1,0 font ',9' notitle\n",
-       900, 600);
+  draw(folder, "pareto", "pareto", {{"width", 900.}});
 }
 
 } // namespace springproof::compare

@@ -1,10 +1,10 @@
+#include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/whole_file.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_eigen.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 namespace springproof::compare {
 
@@ -16,10 +16,12 @@ bool is_equivalent(const EigenspaceAnalysis& analysis, std::size_t fem, std::siz
   return false;
 }
 
-/// A dot for every pair of eigenvectors whose spaces are not orthogonal. Its size is the spaces' coupling,
-/// not the vectors' projection, which depends on the basis that the solver happened to return.
-void write_dots(std::ostream& out, const EigenspaceAnalysis& analysis) {
-  fmt::print(out, "# msm_vector,fem_vector,size,equivalent\n");
+/// A panel's blocks: a dot for every pair of eigenvectors whose spaces are not orthogonal, lines between the
+/// eigenspaces of both cells, blocks of equivalent ones. A dot's size is the spaces' coupling, not the
+/// vectors' projection, which depends on the basis that the solver happened to return.
+void write_panel(std::ostream& out, const EigenspaceAnalysis& analysis) {
+  CsvWriter csv(out);
+  csv.row("# msm_vector", "fem_vector", "size", "equivalent");
   for (std::size_t i = 0; i < analysis.fem_spaces.size(); ++i)
     for (std::size_t j = 0; j < analysis.msm_spaces.size(); ++j) {
       const Eigenspace &fem = analysis.fem_spaces[i], &msm = analysis.msm_spaces[j];
@@ -27,33 +29,25 @@ void write_dots(std::ostream& out, const EigenspaceAnalysis& analysis) {
       if (share < 1e-12) continue; // orthogonal: the square of round-off is left
       for (int a = 0; a < fem.dimension; ++a)
         for (int b = 0; b < msm.dimension; ++b)
-          fmt::print(out, "{},{},{:.6f},{}\n", msm.offset + b + 1, fem.offset + a + 1, 0.4 + std::sqrt(share),
-                     is_equivalent(analysis, i, j) ? 1 : 0);
+          csv.row(msm.offset + b + 1, fem.offset + a + 1, 0.4 + std::sqrt(share),
+                  is_equivalent(analysis, i, j) ? 1 : 0);
     }
-}
-
-/// One panel: lines between the eigenspaces of both cells, blocks of equivalent ones shaded, and the dots.
-/// @param block  of the data file that holds the panel's dots
-std::string dot_panel(const EigenspaceAnalysis& analysis, const std::string& title, const std::string& data,
-                      std::size_t block) {
-  std::string script =
-      fmt::format("unset arrow\nunset object\nset title '{} h = {:.2f}'\n", title, analysis.h);
+  csv.end_block();
+  csv.row("# line from", "", "to");
   for (const Eigenspace& space : analysis.msm_spaces)
-    script += fmt::format("set arrow from {0},0.5 to {0},24.5 nohead lc rgb '#999999'\n", space.offset + 0.5);
+    csv.row(space.offset + 0.5, 0.5, space.offset + 0.5, 24.5);
   for (const Eigenspace& space : analysis.fem_spaces)
-    script += fmt::format("set arrow from 0.5,{0} to 24.5,{0} nohead lc rgb '#999999'\n", space.offset + 0.5);
+    csv.row(0.5, space.offset + 0.5, 24.5, space.offset + 0.5);
+  csv.end_block();
+  csv.row("# equivalent from", "", "to");
   for (const Equivalence& e : analysis.equivalent) {
     const Eigenspace &fem = analysis.fem_spaces[static_cast<std::size_t>(e.fem_space)],
                      &msm = analysis.msm_spaces[static_cast<std::size_t>(e.msm_space)];
-    script +=
-        fmt::format("set object rectangle from {},{} to {},{} fc rgb '#f5d3bd' fs solid noborder behind\n",
-                    msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
-                    fem.offset + fem.dimension + 0.5);
+    csv.row(msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
+            fem.offset + fem.dimension + 0.5);
   }
-  return script +
-         fmt::format("plot '{0}' index {1} using 1:($4 > 0 ? 1/0 : $2):3 with points pt 7 ps variable lt 1, "
-                     "'' index {1} using 1:($4 > 0 ? $2 : 1/0):3 with points pt 5 ps variable lt 2\n",
-                     data, block);
+  if (analysis.equivalent.empty()) csv.row("nan", "nan", "nan", "nan"); // an empty block would not be counted
+  csv.end_block();
 }
 
 std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
@@ -72,13 +66,13 @@ cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
 /// The 12 edges as separate lines: rest position and displaced one.
 void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::VectorXd& mode) {
   const double size = 0.35 * (rest[7] - rest[0]).norm() / mode.cwiseAbs().maxCoeff() / 2;
+  CsvWriter csv(out, 6);
   for (const auto& edge : cases::cell_edges) {
     for (const int v : edge) {
       const Eigen::Vector3d x = rest[static_cast<std::size_t>(v)], y = x + size * mode.segment<3>(3 * v);
-      fmt::print(out, "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", x.x(), x.y(), x.z(), y.x(), y.y(),
-                 y.z());
+      csv.row(x.x(), x.y(), x.z(), y.x(), y.y(), y.z());
     }
-    fmt::print(out, "\n\n");
+    csv.end_block();
   }
 }
 
@@ -87,10 +81,7 @@ void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::
 void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
                       const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
   std::vector<cases::PointField> fields;
-  std::string script =
-      "unset border\nunset tics\nunset key\nunset grid\nset view 65,25\nset view equal xyz\n";
-  const int n_pictures = static_cast<int>(spaces.size()) - 1;
-  script += fmt::format("set multiplot layout {},3\n", (n_pictures + 2) / 3);
+  std::vector<std::string> titles;
   for (std::size_t s = 0; s < spaces.size(); ++s) {
     const Eigen::MatrixXd shapes = canonical_basis(basis(spectrum, spaces[s]));
     for (Eigen::Index c = 0; c < shapes.cols(); ++c)
@@ -98,12 +89,11 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
     if (s == 0) continue; // rigid motions
     const std::string data = fmt::format("{}_{}.csv", name, s + 1);
     write_file(folder + "/" + data, [&](std::ostream& out) { write_edges(out, rest, shapes.col(0)); });
-    script += fmt::format(
-        "set title '({}) {:.3g}, dimension {}'\nsplot '{}' using 1:2:3 with lines lt 8 lw 1 dt solid, "
-        "'' using 4:5:6 with lines lt 2 dt solid\n",
-        s + 1, spaces[s].eigenvalue, spaces[s].dimension, data);
+    titles.push_back(
+        fmt::format("({}) {:.3g}, dimension {}", s + 1, spaces[s].eigenvalue, spaces[s].dimension));
   }
-  draw(folder, name, script + "unset multiplot\n", 900, 300 * ((n_pictures + 2) / 3));
+  const double height = 300 * static_cast<double>((titles.size() + 2) / 3);
+  draw(folder, name, "mode_sheet", {{"titles", titles}, {"width", 900.}, {"height", height}});
   write_file(folder + "/" + name + ".vtu",
              [&](std::ostream& out) { write_vtu(out, cell_mesh(rest), fields); });
 }
@@ -112,30 +102,23 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
 
 void plot_dot_diagrams(const std::string& folder, const std::string& name,
                        const std::vector<DotDiagram>& panels) {
-  const int n = static_cast<int>(panels.size());
-  std::string script = fmt::format(
-      "set multiplot layout 1,{}\nset border 15\nunset grid\nset size square\nset xrange [0.5:24.5]\n"
-      "set yrange [24.5:0.5]\nset xtics 4\nset ytics 4\nunset key\n"
-      "set xlabel 'eigenvectors of the mass-spring cell'\n"
-      "set ylabel 'eigenvectors of the finite element'\n",
-      n);
-  for (std::size_t p = 0; p < panels.size(); ++p)
-    script += dot_panel(*panels[p].analysis, panels[p].title, name + ".csv", p);
+  std::vector<std::string> titles;
   write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
-    for (std::size_t p = 0; p < panels.size(); ++p) {
-      if (p > 0) fmt::print(out, "\n\n"); // gnuplot's mark of a new block
-      write_dots(out, *panels[p].analysis);
+    for (const DotDiagram& panel : panels) {
+      titles.push_back(fmt::format("{} h = {:.2f}", panel.title, panel.analysis->h));
+      write_panel(out, *panel.analysis);
     }
   });
-  draw(folder, name, script + "unset multiplot\n", 100 + 500 * n, 580);
+  const double width = 100 + 500 * static_cast<double>(panels.size());
+  draw(folder, name, "dot_diagram", {{"titles", titles}, {"width", width}, {"height", 580.}});
 }
 
 void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
                              const msm::CellVertices& vertices) {
   plot_dot_diagrams(folder, "dot_diagram", {{"", &analysis}});
   write_file(folder + "/coupling.csv", [&](std::ostream& out) {
-    const Eigen::IOFormat csv(8, Eigen::DontAlignCols, ",", "\n");
-    out << analysis.coupling.format(csv) << '\n';
+    CsvWriter csv(out);
+    for (const auto row : analysis.coupling.rowwise()) csv.row(std::vector<double>(row.begin(), row.end()));
   });
   write_mode_sheet(folder, "fem_modes", analysis.fem, analysis.fem_spaces, vertices);
   write_mode_sheet(folder, "msm_modes", analysis.msm, analysis.msm_spaces, vertices);
@@ -145,11 +128,11 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
                             const cases::HexMesh& mesh) {
   std::vector<cases::PointField> fields;
   write_file(folder + "/body_modes.csv", [&](std::ostream& out) {
-    fmt::print(out, "# mode,fem_eigenvalue,msm_eigenvalue,ratio,angle_degrees\n");
+    CsvWriter csv(out);
+    csv.row("# mode", "fem_eigenvalue", "msm_eigenvalue", "ratio", "angle_degrees");
     for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
       const ModePair& pair = modes.pairs[m];
-      fmt::print(out, "{},{:.8g},{:.8g},{:.6g},{:.6g}\n", m + 1, pair.fem.eigenvalue, pair.msm.eigenvalue,
-                 pair.ratio, pair.angle_degrees);
+      csv.row(m + 1, pair.fem.eigenvalue, pair.msm.eigenvalue, pair.ratio, pair.angle_degrees);
       for (const auto& [model, spectrum, space] :
            {std::tuple("fem", &modes.fem, &pair.fem), std::tuple("msm", &modes.msm, &pair.msm)})
         fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
@@ -157,10 +140,7 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
     }
   });
   write_file(folder + "/body_modes.vtu", [&](std::ostream& out) { write_vtu(out, mesh, fields); });
-  draw(folder, "body_modes",
-       "set multiplot layout 2,1\nset key off\nset xlabel 'mode'\nset ylabel 'eigenvalue, msm/fem'\n"
-       "plot 'body_modes.csv' using 1:4 with linespoints lt 2\nset ylabel 'angle, degrees'\n"
-       "plot 'body_modes.csv' using 1:5 with linespoints lt 2\nunset multiplot\n");
+  draw(folder, "body_modes", "body_modes");
 }
 
 } // namespace springproof::compare

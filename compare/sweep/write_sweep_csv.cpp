@@ -1,7 +1,7 @@
 #include "cases/case/names.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/write/csv_text.hpp"
+#include "compare/write/csv.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

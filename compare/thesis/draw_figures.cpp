@@ -121,7 +121,7 @@ void draw_volumes(const std::string& folder, const std::vector<CaseVolumes>& all
     for (const CaseVolumes& of_case : all)
       if (of_case.name == fmt::format("cube-{}-{}-ogden", test, load_set)) {
         volumes.push_back(&of_case);
-        labels.push_back(fmt::format("{}\\n{}", test, load_set));
+        labels.push_back(fmt::format("{} {}", test, load_set));
       }
   if (volumes.empty()) return;
   plot_volumes(folder, "figure_5_10", volumes, labels);

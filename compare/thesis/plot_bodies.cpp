@@ -119,16 +119,15 @@ Drawing drawing_of(const Overlay& overlay, const View& view) {
   return drawing;
 }
 
-/// The same window for all panels, so that they have one scale.
-std::string window(const std::vector<Drawing>& drawings, const View& view) {
+/// The window that holds all panels, so that they have one scale.
+Eigen::AlignedBox2d window(const std::vector<Drawing>& drawings, const View& view) {
   Eigen::AlignedBox2d box;
   for (const Drawing& drawing : drawings)
     for (const std::vector<Line>* lines : {&drawing.fem, &drawing.springs, &drawing.rest})
       for (const Line& line : *lines)
         for (const Eigen::Vector3d& point : line)
           box.extend(Eigen::Vector2d(point.dot(view.across), point.dot(view.up)));
-  return fmt::format("set xrange [{:.3f}:{:.3f}]\nset yrange [{:.3f}:{:.3f}]\n", box.min().x() - 0.5,
-                     box.max().x() + 0.5, box.min().y() - 0.5, box.max().y() + 0.5);
+  return box;
 }
 
 } // namespace
@@ -153,23 +152,20 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
     }
   });
 
-  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns, height = size * rows + 90;
-  std::string script = fmt::format(
-      "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}\n"
-      "set datafile missing '?'\nunset grid\nset size ratio -1\nset xlabel 'across, mm'\nset ylabel 'up, "
-      "mm'\n{}"
-      "set key noautotitle at screen 0.5,screen {:.4f} center bottom\n",
-      rows, columns, 75.0 / (size * columns), 1 - 10.0 / (size * columns), 135.0 / height, 1 - 40.0 / height,
-      75.0 / (size * columns), 100.0 / height, window(drawings, view), 8.0 / height);
-  for (std::size_t p = 0; p < drawings.size(); ++p)
-    script += fmt::format(
-        "{5}set title '{0}'\nplot '{1}.csv' index {2} using 4:5 with filledcurves closed fc rgb '#dcecf6' fs "
-        "solid "
-        "border lt 1 lw 0.8, '' index {3} using 4:5 with lines lt 2 lw 1 dt solid, '' index {4} using "
-        "4:5 with lines lt 7 lw 0.8, 1/0 with lines lt 1 title 'finite elements', 1/0 with lines lt 2 "
-        "dt solid title 'springs', 1/0 with lines lt 7 lw 1 title 'at rest'\n",
-        drawings[p].title, name, 3 * p, 3 * p + 1, 3 * p + 2, p == 1 ? "unset key\n" : "");
-  draw(folder, name, script + "unset multiplot\n", size * columns, height);
+  std::vector<std::string> titles;
+  for (const Drawing& drawing : drawings) titles.push_back(drawing.title);
+  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  const Eigen::AlignedBox2d box = window(drawings, view);
+  draw(folder, name, "bodies",
+       {{"titles", titles},
+        {"rows", 1. * rows},
+        {"columns", 1. * columns},
+        {"width", 1. * size * columns},
+        {"height", 1. * size * rows + 90},
+        {"left", box.min().x() - 0.5},
+        {"right", box.max().x() + 0.5},
+        {"bottom", box.min().y() - 0.5},
+        {"top", box.max().y() + 0.5}});
 }
 
 } // namespace springproof::compare

@@ -1,5 +1,5 @@
 #include "compare/thesis/write.hpp"
-#include "compare/write/csv_text.hpp"
+#include "compare/write/csv.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

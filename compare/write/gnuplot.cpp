@@ -3,58 +3,104 @@
 #include "cases/case/error.hpp"
 #include "compare/write/whole_file.hpp"
 
-#include <cstdlib>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace springproof::compare {
 
 namespace {
 
-std::string shell_quoted(const std::string& text) {
+/// gnuplot interprets nothing between single quotes; a quote is doubled there, and a line break would end it.
+std::string literal(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  for (const char c : text)
+    result += c == '\'' ? "''" : std::string(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
   return result + "'";
 }
 
-/// Colours of Okabe and Ito (2008), which the colour-blind tell apart, each with its own dashes and marker,
-/// so that a figure survives a black-and-white printer. The finite elements are linetype 1 and the springs
-/// linetype 2 everywhere.
-constexpr const char* style = R"(set linetype 1 lc rgb '#0072B2' lw 2 dt solid pt 7
-set linetype 2 lc rgb '#D55E00' lw 2 dt (12,5) pt 5
-set linetype 3 lc rgb '#009E73' lw 2 dt (3,4) pt 9
-set linetype 4 lc rgb '#CC79A7' lw 2 dt (12,4,3,4) pt 13
-set linetype 5 lc rgb '#E69F00' lw 2 dt (20,5) pt 11
-set linetype 6 lc rgb '#56B4E9' lw 2 dt (6,6) pt 4
-set linetype 7 lc rgb '#000000' lw 2 dt (3,8) pt 6
-set linetype 8 lc rgb '#777777' lw 2 dt (20,4,3,4,3,4) pt 8
-set linetype cycle 8
-set border 3 lc rgb '#333333'
-set tics nomirror
-set grid lc rgb '#dddddd' lt 1 lw 0.5 dt solid
-set key Left reverse samplen 4 spacing 1.2
-)";
+std::string literal(double number) {
+  return std::isfinite(number) ? fmt::format("{}", number) : "NaN";
+}
+
+template<class Value>
+std::string literal(const std::vector<Value>& values) {
+  std::vector<std::string> literals;
+  for (const Value& value : values) literals.push_back(literal(value));
+  return fmt::format("[{}]", fmt::join(literals, ", "));
+}
+
+template<class Value>
+std::string assignment(const std::string& name, const Value& value) {
+  return fmt::format("{} = {}\n", name, literal(value));
+}
+
+template<class Value>
+std::string assignment(const std::string& name, const std::vector<Value>& values) {
+  return fmt::format("array {}[{}] = {}\n", name, values.size(), literal(values));
+}
+
+void write_script(std::ostream& out, const std::string& name, const std::string& script,
+                  const PlotValues& values) {
+  fmt::print(out, "# gnuplot {0}.gp draws {0}.svg and {0}.png from the data beside it.\n", name);
+  for (const auto& [key, value] : values)
+    out << std::visit([&name_of = key](const auto& known) { return assignment(name_of, known); }, value);
+  const std::string plots = SPRINGPROOF_PLOTS_DIR "/";
+  for (const char* format : {"svg", "png"})
+    fmt::print(out, "\nformat = '{}'\n{}\n{}", format, read_file(plots + "style.gp"),
+               read_file(plots + script + ".gp"));
+}
+
+/// Runs gnuplot on FOLDER/NAME.gp, without a shell and without the user's settings.
+/// @param part  ending of the pictures' names
+void run_gnuplot(const std::string& folder, const std::string& name, const std::string& part) {
+  const std::string script = name + ".gp", setting = "part = " + literal(part),
+                    log = name + ".gnuplot.log" + part;
+  const char* words[] = {"gnuplot", "-d", "-e", setting.c_str(), script.c_str(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t process = 0;
+  const int error = posix_spawnp(&process, words[0], &actions, nullptr, const_cast<char**>(words), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw cases::InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(error)));
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  const std::string said = read_file(folder + "/" + log);
+  std::filesystem::remove(folder + "/" + log);
+  if (status != 0) throw cases::InputError(fmt::format("{}/{}: gnuplot failed: {}", folder, script, said));
+}
+
+/// gnuplot does not notice a full disk.
+void check_end(const std::string& picture, const std::string& end) {
+  const std::string content = read_file(picture);
+  if (content.size() < end.size() || content.compare(content.size() - end.size(), end.size(), end) != 0)
+    throw cases::InputError("cannot write '" + picture + "'");
+}
 
 } // namespace
 
-void draw(const std::string& folder, const std::string& name, const std::string& script, int width,
-          int height) {
-  write_file(folder + "/" + name + ".gp", [&](std::ostream& out) {
-    fmt::print(out, "# gnuplot {0}.gp draws {0}.svg and {0}.png from the data beside it.\n", name);
-    for (const char* format : {"svg enhanced background 'white'", "pngcairo enhanced"}) {
-      const std::string suffix = format[0] == 's' ? "svg" : "png";
-      fmt::print(out,
-                 "\nreset\nset encoding utf8\nset datafile separator ','\nset terminal {} size {},{} font "
-                 "'Sans,12'\n{}set output '{}.{}'\n{}\nunset output\n",
-                 format, width, height, style, name, suffix, script);
-    }
+void draw(const std::string& folder, const std::string& name, const std::string& script, PlotValues values) {
+  values.insert({{"name", name}, {"width", 800.0}, {"height", 600.0}});
+  const std::string file = folder + "/" + name;
+  write_file(file + ".gp", [&](std::ostream& out) { write_script(out, name, script, values); });
+  make_file(file + ".svg", [&](const std::string& svg) {
+    make_file(file + ".png", [&](const std::string& png) {
+      run_gnuplot(folder, name, svg.substr(file.size() + std::strlen(".svg")));
+      check_end(svg, "</svg>\n\n");
+      check_end(png, "IEND\xae\x42\x60\x82");
+    });
   });
-  const std::string command = fmt::format("cd {} && gnuplot {} 2>{}", shell_quoted(folder),
-                                          shell_quoted(name + ".gp"), shell_quoted(name + ".gnuplot.log"));
-  if (std::system(command.c_str()) != 0)
-    throw cases::InputError(folder + "/" + name + ".gp: gnuplot could not draw it; see " + name +
-                            ".gnuplot.log");
-  std::remove((folder + "/" + name + ".gnuplot.log").c_str());
 }
 
 } // namespace springproof::compare

@@ -30,25 +30,32 @@ bool is_special(const fs::path& path) {
 
 } // namespace
 
-void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
+void make_file(const std::string& path, const std::function<void(const std::string& temporary)>& make) {
   const bool is_renamed = !is_special(path);
   const fs::path target(path), place = is_renamed ? path + ".part" : path;
-  std::error_code error;
+  std::error_code error, ignored;
   if (is_renamed) {
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
-    fs::remove(place, error); // of a run that was killed
+    if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
+    fs::remove(place, ignored); // of a run that was killed
   }
-  error.clear();
-  errno = 0;
-  std::ofstream file(place, std::ios::binary);
-  if (file) write(file);
-  file.close();
-  if (!file) error.assign(errno != 0 ? errno : EIO, std::generic_category());
-  if (!error && is_renamed) fs::rename(place, target, error);
-  if (!error) return;
-  std::error_code ignored;
-  if (is_renamed) fs::remove(place, ignored);
-  refuse(path, error.message());
+  try {
+    make(place);
+    if (is_renamed) fs::rename(place, target, error);
+    if (error) refuse(path, error.message());
+  } catch (...) {
+    if (is_renamed) fs::remove(place, ignored);
+    throw;
+  }
+}
+
+void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  make_file(path, [&](const std::string& place) {
+    errno = 0;
+    std::ofstream file(place, std::ios::binary);
+    if (file) write(file);
+    file.close();
+    if (!file) refuse(path, std::generic_category().message(errno != 0 ? errno : EIO));
+  });
 }
 
 std::string read_file(const std::string& path) {

@@ -12,6 +12,11 @@ namespace springproof::compare {
 /// @throws InputError if it cannot be written, with the reason
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
+/// The same for whoever writes a file by its name, such as another program.
+/// @param make  leaves the content under the name that it is given: the path with an ending of its own
+/// @throws what `make` throws
+void make_file(const std::string& path, const std::function<void(const std::string& temporary)>& make);
+
 /// Content of a file, byte by byte.
 /// @throws InputError if it cannot be read
 std::string read_file(const std::string& path);

@@ -1,7 +1,7 @@
 #include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/write/csv_text.hpp"
+#include "compare/write/csv.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

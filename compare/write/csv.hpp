@@ -1,0 +1,61 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace springproof::compare {
+
+/// A field of a comma-separated file as RFC 4180 has it: a text with a comma, a quote or a line break stands
+/// in quotes, and its quotes are doubled.
+inline std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// Writes comma-separated rows: numbers to so many digits, whole numbers and texts as they are, nothing for a
+/// value that is absent, the fields of a vector one after the other.
+class CsvWriter {
+ public:
+  explicit CsvWriter(std::ostream& out, int digits = 8) : out_(out), digits_(digits) {}
+
+  template<class... Fields>
+  void row(const Fields&... fields) {
+    const char* comma = "";
+    ((out_ << std::exchange(comma, ",") << field(fields)), ...);
+    out_ << '\n';
+  }
+  /// gnuplot counts blocks of rows by the two empty lines between them.
+  void end_block() { out_ << "\n\n"; }
+
+ private:
+  std::string field(const std::string& text) const { return csv_text(text); }
+  template<class Number>
+  std::enable_if_t<std::is_arithmetic_v<Number>, std::string> field(Number value) const {
+    if constexpr (std::is_floating_point_v<Number>)
+      return fmt::format("{:.{}g}", value, digits_);
+    else
+      return std::to_string(value);
+  }
+  template<class Value>
+  std::string field(const std::optional<Value>& value) const {
+    return value ? field(*value) : "";
+  }
+  template<class Value>
+  std::string field(const std::vector<Value>& values) const {
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ",") + field(values[i]);
+    return text;
+  }
+
+  std::ostream& out_;
+  int digits_;
+};
+
+} // namespace springproof::compare
