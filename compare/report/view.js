@@ -3,7 +3,7 @@
 // static picture only when it has been drawn, so the picture stays where there is no WebGL.
 "use strict";
 (function () {
-  const data = JSON.parse(document.getElementById("view-data").textContent);
+  const data = report.views;
   const colours = { fem: 0x0072b2, springs: 0xd55e00 };
 
   let shared = null; // the renderer, made when the first view needs it

@@ -1,67 +1,150 @@
 #include "compare/report/write_report.hpp"
 
-#include "compare/provenance/version.hpp"
-#include "compare/report/html.hpp"
-#include "compare/report/sections.hpp"
+#include "cases/case/names.hpp"
+#include "compare/report/views.hpp"
+#include "compare/thesis/sheet.hpp"
+#include "compare/thesis/write.hpp"
+#include "compare/write/escape_markup.hpp"
 #include "compare/write/whole_file.hpp"
+#include "compare/write/write.hpp"
 
+#include <cstdint>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
-struct Section {
-  std::string id, heading, content;
-};
+std::string base64(const std::string& bytes) {
+  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+/// A drawn picture, which is shown where scripts are off and taken to its place by the page's script
+/// elsewhere.
+std::string picture(const std::string& folder, const std::string& name, const std::string& kind,
+                    const std::string& caption) {
+  // Thousands of faces make a vector picture larger than its pixels.
+  const std::string svg = read_file(folder + "/" + name + ".svg");
+  const bool is_small = kind == "figure" && svg.size() < 150'000;
+  return fmt::format("<figure class=\"{}\" id=\"picture-{}\"><img src=\"data:image/{};base64,{}\" "
+                     "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                     kind, escape_markup(name), is_small ? "svg+xml" : "png",
+                     base64(is_small ? svg : read_file(folder + "/" + name + ".png")), escape_markup(name),
+                     escape_markup(caption));
+}
+
+Json trace_to_json(const Trace& trace) {
+  return {{"case", trace.case_file}, {"settings", trace.settings}, {"command", trace.command}};
+}
+
+Json computed_to_json(const std::vector<ComputedFigure>& computed) {
+  Json list = Json::array();
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  for (const ComputedFigure& c : computed) {
+    list.push_back({{"reference", c.reference},
+                    {"value", or_null(c.value)},
+                    {"fem", or_null(c.fem)},
+                    {"msm", or_null(c.msm)},
+                    {"reason", c.reason}});
+    list.back().update(trace_to_json(c.trace));
+  }
+  return list;
+}
+
+Json cases_to_json(const ThesisResults& results) {
+  Json cases = to_json(results.cases)["cases"];
+  for (std::size_t c = 0; c < results.cases.size(); ++c) {
+    const cases::Fem& fem = results.cases[c].answers.resolved;
+    cases[c]["reference"] =
+        fmt::format("{} {}", cases::name_of(fem.formulation), cases::name_of(fem.element));
+    cases[c].update(trace_to_json(results.case_traces[c]));
+  }
+  return cases;
+}
 
 std::string page_file(const std::string& name) {
   return read_file(SPRINGPROOF_REPORT_DIR "/" + name);
 }
 
-/// The static picture of each view, which stays on the page where scripts are off.
-void draw_stills(const std::string& folder, const std::vector<BodyView>& views) {
-  for (const BodyView& view : views) plot_bodies(folder, view.id, {view.overlay}, 1, 300);
-}
-
-std::string page(const std::vector<Section>& sections, const std::vector<BodyView>& views) {
-  std::string contents, body;
-  for (const auto& [id, heading, content] : sections) {
-    if (content.empty()) continue;
-    contents += fmt::format("<a href='#{}'>{}</a>\n", id, heading);
-    body += fmt::format("<section id='{}'>\n<h2>{}</h2>\n{}</section>\n", id, heading, content);
+/// page.html with every {{name}} replaced: by its value, or else by the file of that name.
+std::string fill_page(const std::map<std::string, std::string>& values) {
+  const std::string text = page_file("page.html");
+  std::string result;
+  std::size_t from = 0;
+  for (std::size_t open = text.find("{{"); open != std::string::npos; open = text.find("{{", from)) {
+    const std::size_t close = text.find("}}", open);
+    const std::string name = text.substr(open + 2, close - open - 2);
+    const auto value = values.find(name);
+    result += text.substr(from, open - from) + (value == values.end() ? page_file(name) : value->second);
+    from = close + 2;
   }
-  return html::fill(page_file("template.html"),
-                    {{"style", page_file("report.css")},
-                     {"version", html::escape(program_version() + " (" + program_commit() + ")")},
-                     {"contents", contents},
-                     {"sections", body},
-                     {"licence", html::escape(page_file("three_licence.txt"))},
-                     {"geometry", views_to_json(views).dump()},
-                     {"three", read_file(SPRINGPROOF_THREE_JS)},
-                     {"controls", read_file(SPRINGPROOF_ORBIT_CONTROLS_JS)},
-                     {"script", page_file("view.js") + page_file("page.js")}});
+  return result + text.substr(from);
 }
 
 } // namespace
 
+Json report_to_json(const ThesisResults& results, const std::vector<Figure>& figures) {
+  Json document = results_to_json(results);
+  for (std::size_t e = 0; e < results.entries.size(); ++e)
+    document["entries"][e]["computed_by"] = computed_to_json(results.entries[e].computed);
+  const std::vector<SummaryGroup> groups = summarise(results.entries);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    document["summary"]["groups"][g]["command"] = groups[g].trace.command;
+  for (const char* list : {"sheets", "figures", "times"}) document[list] = Json::array();
+  for (const Sheet& sheet : sheets_of(results.entries))
+    document["sheets"].push_back(
+        {{"table", sheet.table}, {"name", name_of(sheet)}, {"subject", subject_of(sheet)}});
+  for (const Figure& f : figures)
+    document["figures"].push_back(
+        {{"number", f.number}, {"name", f.name}, {"caption", f.caption}, {"command", f.command}});
+  for (const PhaseTime& time : results.times)
+    document["times"].push_back({{"phase", time.phase}, {"seconds", time.seconds}});
+  document["cases"] = cases_to_json(results);
+  document["views"] = views_to_json(body_views(results));
+  document["provenance"] = provenance();
+  document["workers"] = results.n_workers;
+  document["licence"] = page_file("three_licence.txt");
+  return document;
+}
+
+std::string embedded(const Json& document) {
+  std::string result;
+  for (const char c : document.dump(-1, ' ', true, Json::error_handler_t::replace))
+    result += c == '<' ? "\\u003c" : std::string(1, c);
+  return result;
+}
+
 void write_report(const std::string& folder, const ThesisResults& results,
                   const std::vector<Figure>& figures) {
-  const std::string pictures = folder + "/figures";
-  const std::vector<BodyView> views = body_views(results);
-  draw_stills(pictures, views);
-  const std::string text =
-      page({{"summary", "What is reproduced", html::summary_section(results)},
-            {"which-design", "Which design to use", html::advice_section(results)},
-            {"tables", "Tables", html::tables_section(results)},
-            {"designs", "Other designs", html::designs_section(results)},
-            {"volumes", "Volumes", html::volumes_section(results)},
-            {"figures", "Figures", html::figures_section(figures, pictures)},
-            {"views", "Deformed bodies", html::views_section(results, views, pictures)},
-            {"settings", "Settings, versions, machine and times", html::settings_section(results)}},
-           views);
-  write_file(folder + "/report.html", [&](std::ostream& out) { out << text; });
+  const std::string drawn = folder + "/figures";
+  std::string pictures;
+  for (const BodyView& view : body_views(results)) {
+    plot_bodies(drawn, view.id, {view.overlay}, 1, 300);
+    pictures += picture(drawn, view.id, "view", view.id + ": springs over finite elements");
+  }
+  for (const Figure& f : figures)
+    pictures += picture(drawn, f.name, "figure", "Figure " + f.number + ". " + f.caption);
+  const std::string page = fill_page({{"pictures", pictures},
+                                      {"data", embedded(report_to_json(results, figures))},
+                                      {"three", read_file(SPRINGPROOF_THREE_JS)},
+                                      {"controls", read_file(SPRINGPROOF_ORBIT_CONTROLS_JS)}});
+  write_file(folder + "/report.html", [&](std::ostream& out) { out << page; });
 }
 
 } // namespace springproof::compare

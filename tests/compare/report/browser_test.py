@@ -40,7 +40,7 @@ def run_chromium(chromium, page, *options):
 
 def views_alone(report, folder):
     """A copy of the report that shows nothing but the views."""
-    style = "<style>header, footer, section:not(#views) { display: none }</style>"
+    style = "<style>header, footer, section:not(#views, #pictures), #pictures figure:not(.view) { display: none }</style>"
     copy = folder / "views_alone.html"
     copy.write_text(report.read_text().replace("</head>", style + "</head>"))
     return copy
@@ -147,6 +147,8 @@ def main():
     report = folder / "report.html"
     text = report.read_text()
     assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", text), "the page refers to something outside itself"
+
+    assert "need scripts" in text.split("<script")[0], "nothing says that the page needs scripts"
 
     views = views_alone(report, folder)
     page = instrumented(views, folder)
