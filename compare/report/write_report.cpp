@@ -4,7 +4,7 @@
 #include "compare/report/views.hpp"
 #include "compare/thesis/sheet.hpp"
 #include "compare/thesis/write.hpp"
-#include "compare/write/escape_markup.hpp"
+#include "compare/write/escape.hpp"
 #include "compare/write/whole_file.hpp"
 #include "compare/write/write.hpp"
 
@@ -42,9 +42,9 @@ std::string picture(const std::string& folder, const std::string& name, const st
   const bool is_small = kind == "figure" && svg.size() < 150'000;
   return fmt::format("<figure class=\"{}\" id=\"picture-{}\"><img src=\"data:image/{};base64,{}\" "
                      "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     kind, escape_markup(name), is_small ? "svg+xml" : "png",
-                     base64(is_small ? svg : read_file(folder + "/" + name + ".png")), escape_markup(name),
-                     escape_markup(caption));
+                     kind, escape(name), is_small ? "svg+xml" : "png",
+                     base64(is_small ? svg : read_file(folder + "/" + name + ".png")), escape(name),
+                     escape(caption));
 }
 
 Json trace_to_json(const Trace& trace) {
