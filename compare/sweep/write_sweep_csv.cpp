@@ -16,7 +16,7 @@ Columns quartiles(const std::vector<double>& seconds) {
   return {box.lower_quartile, box.median, box.upper_quartile};
 }
 
-Columns counters(const cases::Solution& s) {
+Columns counter_columns(const cases::Solution& s) {
   return {s.newton_iterations, s.linear_iterations, s.factorisations, s.force_evaluations};
 }
 
@@ -44,8 +44,8 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
     csv.row(sweep.definition.name, method_name(row.variant), row.variant.cells[0], row.variant.cells[1],
             row.variant.cells[2], row.variant.tolerance, cases::name_of(run.first.status), run.first.message,
             run.first.unknowns, run.first_seconds.size(), run.is_warm, quartiles(run.setup_seconds),
-            quartiles(run.first_seconds), quartiles(run.again_seconds), counters(run.first),
-            run.again_seconds.empty() ? Columns(4) : counters(run.again), run.start_megabytes,
+            quartiles(run.first_seconds), quartiles(run.again_seconds), counter_columns(run.first),
+            run.again_seconds.empty() ? Columns(4) : counter_columns(run.again), run.start_megabytes,
             run.peak_megabytes, errors);
   }
 }
