@@ -17,10 +17,10 @@ using compare::Comparison;
 
 namespace {
 
-const std::string folder = SPRINGPROOF_SOURCE_DIR "/cases/";
+const std::string cases_path = SPRINGPROOF_SOURCE_DIR "/cases/";
 
 Case read(const std::string& file) {
-  return cases::read_case(folder + file);
+  return cases::read_case(cases_path + file);
 }
 
 compare::GatedCase solve_and_judge(const Case& definition) {

@@ -18,7 +18,7 @@ using compare::match_nodes;
 
 namespace {
 
-const std::string folder = SPRINGPROOF_SOURCE_DIR "/cases/external/";
+const std::string external_cases = SPRINGPROOF_SOURCE_DIR "/cases/external/";
 
 /// A node per vertex of the mesh, in another order, moved by its own position.
 std::vector<GivenDisplacement> given_for(const cases::HexMesh& mesh) {
@@ -57,12 +57,12 @@ TEST_CASE("every node is given once: one twice, one missing and one too many are
 }
 
 TEST_CASE("an independent program's springs are measured with our ruler and agree with ours", "[peer]") {
-  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  const cases::Case definition = cases::read_case(external_cases + "pulled_bar.toml");
   const compare::Comparison by_us = compare::compare_case(definition);
   CHECK(compare::judge_gates(by_us).met());
   const auto& ours = by_us.answers.msm.solution;
   const auto external =
-      compare::read_external({{cases::make_scene(definition), {}}}, folder + "pulled_bar.csv");
+      compare::read_external({{cases::make_scene(definition), {}}}, external_cases + "pulled_bar.csv");
   REQUIRE(external);
   const compare::Comparison by_them = compare::comparison_of(
       by_us.scene, compare::with_displacements(by_us.answers, by_us.scene.mesh, *external));
@@ -73,30 +73,31 @@ TEST_CASE("an independent program's springs are measured with our ruler and agre
 }
 
 TEST_CASE("the report of another program's springs says where they come from, without stiffness and counts") {
-  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  const cases::Case definition = cases::read_case(external_cases + "pulled_bar.toml");
   const compare::Comparison ours = compare::compare_case(definition);
   const auto external =
-      compare::read_external({{cases::make_scene(definition), {}}}, folder + "pulled_bar.csv");
+      compare::read_external({{cases::make_scene(definition), {}}}, external_cases + "pulled_bar.csv");
   const compare::Comparison comparison = compare::comparison_of(
       ours.scene, compare::with_displacements(ours.answers, ours.scene.mesh, *external));
   const auto side = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["msm"];
   CHECK(side["status"] == "converged");
-  CHECK(side["source"] == folder + "pulled_bar.csv");
+  CHECK(side["source"] == external_cases + "pulled_bar.csv");
   CHECK_FALSE(side.contains("stiffness_N_per_m"));
   CHECK(side["newton_iterations"].is_null());
   CHECK(side["residual"].is_null());
   CHECK(side["inverted_cells"] == 0);
   std::ostringstream text;
   compare::write_text(text, comparison);
-  CHECK_THAT(text.str(), Catch::Contains("msm  displacements of " + folder + "pulled_bar.csv at 45 nodes\n"));
+  CHECK_THAT(text.str(),
+             Catch::Contains("msm  displacements of " + external_cases + "pulled_bar.csv at 45 nodes\n"));
   CHECK(text.str().find("given k_e") == std::string::npos);
 }
 
 TEST_CASE("one file of displacements belongs to one case") {
-  const cases::Case definition = cases::read_case(folder + "pulled_bar.toml");
+  const cases::Case definition = cases::read_case(external_cases + "pulled_bar.toml");
   CHECK_THROWS_AS(
       compare::read_external({{cases::make_scene(definition), {}}, {cases::make_scene(definition), {}}},
-                             folder + "pulled_bar.csv"),
+                             external_cases + "pulled_bar.csv"),
       cases::InputError);
   CHECK_FALSE(compare::read_external({{cases::make_scene(definition), {}}}, ""));
 }

@@ -21,16 +21,16 @@ using Catch::Contains;
 
 namespace {
 
-const std::string folder = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/sweep/";
+const std::string sweep_cases = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/sweep/";
 
 /// A cube of two cells to a side, so that the levels are 1, 2 and 4.
 cases::Case tiny() {
-  cases::Case definition = cases::read_case(folder + "cube_tensile.toml");
+  cases::Case definition = cases::read_case(sweep_cases + "cube_tensile.toml");
   std::get<cases::Box>(definition.body).cells = {2, 2, 2};
   return definition;
 }
 
-Variant springs(int cells, double tolerance = 1e-9) {
+Variant spring_variant(int cells, double tolerance = 1e-9) {
   return {Program::springs, cases::Design::moduli, {}, {}, {cells, cells, cells}, tolerance};
 }
 
@@ -55,8 +55,8 @@ Sweep synthetic() {
   sweep.definition = tiny();
   sweep.plan.levels = {{1, 1, 1}, {2, 2, 2}, {4, 4, 4}};
   sweep.plan.reference = plan_sweep(sweep.definition, Extent::quick).reference;
-  sweep.rows = {measured(springs(1), 2, 9), measured(springs(2, 1e-2), 3, 8), measured(springs(2), 4, 7),
-                failed(springs(4))};
+  sweep.rows = {measured(spring_variant(1), 2, 9), measured(spring_variant(2, 1e-2), 3, 8),
+                measured(spring_variant(2), 4, 7), failed(spring_variant(4))};
   sweep.reason_without_reference = "none was asked for";
   return sweep;
 }
@@ -64,7 +64,7 @@ Sweep synthetic() {
 } // namespace
 
 TEST_CASE("every plan has the designs, both strains and the elements, and says what it leaves out") {
-  const Plan full = plan_sweep(cases::read_case(folder + "cube_shear.toml"), Extent::full);
+  const Plan full = plan_sweep(cases::read_case(sweep_cases + "cube_shear.toml"), Extent::full);
   CHECK(full.levels == std::vector<std::array<int, 3>>{{3, 3, 3}, {6, 6, 6}, {12, 12, 12}, {24, 24, 24}});
   const auto count = [&](const std::string& method) {
     return std::count_if(full.variants.begin(), full.variants.end(),
@@ -127,7 +127,7 @@ TEST_CASE("failed variants and missing values give no points") {
   CHECK(points_of(sweep, Error::field, Clock::re_solve).empty());
   CHECK(points_of(sweep, Error::worst_measure, Clock::first_answer)[0].error_percent ==
         18); // without its sign
-  CHECK_FALSE(worst_measure_error(failed(springs(4))));
+  CHECK_FALSE(worst_measure_error(failed(spring_variant(4))));
 }
 
 TEST_CASE("the errors of a design by level are those of its tightest tolerance") {
@@ -159,8 +159,8 @@ TEST_CASE(
   const TimingRules rules{2, 1e9}; // however slow the machine is
   const Variant elements{Program::finite_elements, {},        cases::Formulation::log_strain,
                          cases::Element::q2,       {2, 2, 2}, 1e-9};
-  for (const Variant& variant : {springs(2), elements}) {
-    const std::string job = timing_job(cases::read_case(folder + "cube_tensile.toml"), variant, rules);
+  for (const Variant& variant : {spring_variant(2), elements}) {
+    const std::string job = timing_job(cases::read_case(sweep_cases + "cube_tensile.toml"), variant, rules);
     const JobAnswer answer =
         run_in_processes(
             {{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, 1, [&](std::size_t) { return job; },
