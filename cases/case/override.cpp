@@ -59,7 +59,7 @@ toml::table parse_value(const std::string& text, const Where& where) {
   } catch (const toml::parse_error&) {
     // a bare word
   }
-  if (!is_line_of_text(text)) throw InputError(where, "has a value that is not one line of UTF-8 text");
+  if (!is_line_of_text(text)) throw InputError(where, "is not one line of UTF-8 text");
   return toml::table{{"value", text}};
 }
 
