@@ -4,8 +4,8 @@
 #include "compare/cube/plot_design.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <fmt/format.h>

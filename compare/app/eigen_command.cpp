@@ -3,9 +3,9 @@
 #include "cases/scene/scene.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
+#include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/write/whole_file.hpp"
-#include "compare/write/write_eigen.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "fem_reference/element_stiffness.hpp"
 
 #include <fmt/format.h>

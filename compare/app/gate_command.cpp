@@ -6,9 +6,9 @@
 #include "compare/gates/bless.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/finished.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/write/whole_file.hpp"
 #include "compare/write/write_gates.hpp"
 #include "compare/write/write_results.hpp"
 

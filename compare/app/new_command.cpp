@@ -3,7 +3,7 @@
 #include "compare/app/commands.hpp"
 #include "compare/provenance/cases_folder.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
 #include <filesystem>

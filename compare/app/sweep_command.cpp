@@ -1,9 +1,9 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "compare/app/commands.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/stopwatch.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/thesis/regenerate.hpp"
 #include "compare/thesis/write.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "compare/cube/plot_design.hpp"
 
+#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/design.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <cmath>

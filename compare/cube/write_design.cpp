@@ -1,9 +1,9 @@
 #include "compare/cube/write_design.hpp"
 
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

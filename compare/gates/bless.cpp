@@ -1,7 +1,7 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
 #include <cmath>

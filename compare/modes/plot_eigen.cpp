@@ -1,8 +1,8 @@
+#include "compare/modes/write_eigen.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_eigen.hpp"
 
 #include <fmt/format.h>
 

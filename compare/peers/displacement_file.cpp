@@ -1,7 +1,7 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
 #include <charconv>

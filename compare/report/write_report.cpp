@@ -1,11 +1,12 @@
 #include "compare/report/write_report.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/report/views.hpp"
 #include "compare/thesis/sheet.hpp"
 #include "compare/thesis/write.hpp"
 #include "compare/write/escape.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <cstdint>
@@ -53,14 +54,11 @@ Json trace_to_json(const Trace& trace) {
 
 Json computed_to_json(const std::vector<ComputedFigure>& computed) {
   Json list = Json::array();
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-  };
   for (const ComputedFigure& c : computed) {
     list.push_back({{"reference", c.reference},
-                    {"value", or_null(c.value)},
-                    {"fem", or_null(c.fem)},
-                    {"msm", or_null(c.msm)},
+                    {"value", c.value},
+                    {"fem", c.fem},
+                    {"msm", c.msm},
                     {"reason", c.reason}});
     list.back().update(trace_to_json(c.trace));
   }

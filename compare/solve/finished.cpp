@@ -3,9 +3,9 @@
 #include "compare/provenance/digest.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/version.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,7 +1,7 @@
+#include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "cases/case/names.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/write/or_null.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 

@@ -2,11 +2,11 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/cube/plot_design.hpp"
+#include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/thesis/plot_bodies.hpp"
 #include "compare/thesis/plot_volumes.hpp"
-#include "compare/write/whole_file.hpp"
-#include "compare/write/write_eigen.hpp"
 
 #include <algorithm>
 #include <array>

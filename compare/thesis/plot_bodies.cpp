@@ -1,7 +1,7 @@
 #include "compare/thesis/plot_bodies.hpp"
 
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

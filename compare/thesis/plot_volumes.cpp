@@ -1,8 +1,8 @@
 #include "compare/thesis/plot_volumes.hpp"
 
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/whole_file.hpp"
 
 #include <sstream>
 

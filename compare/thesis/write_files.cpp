@@ -1,5 +1,5 @@
+#include "compare/provenance/whole_file.hpp"
 #include "compare/thesis/write.hpp"
-#include "compare/write/whole_file.hpp"
 #include "compare/write/write.hpp"
 
 #include <nlohmann/json.hpp>

@@ -2,8 +2,6 @@
 #include "compare/thesis/write.hpp"
 #include "compare/write/json.hpp"
 
-#include "compare/write/or_null.hpp"
-
 #include <cmath>
 #include <fmt/format.h>
 

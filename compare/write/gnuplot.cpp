@@ -1,7 +1,7 @@
 #include "compare/write/gnuplot.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 
 #include <cmath>
 #include <cstring>

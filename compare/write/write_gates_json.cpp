@@ -1,7 +1,7 @@
 #include "compare/write/write_gates.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/write/or_null.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 namespace springproof::compare {
@@ -21,8 +21,8 @@ Json gate_to_json(const GatedCase& judged, const Gate& gate) {
           {"unit", gate.unit},
           {"interval", expected.interval},
           {"interval_reason", expected.reason},
-          {"value", or_null(gate.judgement.value)},
-          {"reference_uncertainty", or_null(gate.uncertainty)},
+          {"value", gate.judgement.value},
+          {"reference_uncertainty", gate.uncertainty},
           {"met", gate.met()},
           {"reason", reason_of(gate)},
           {"warning", gate.warning}};

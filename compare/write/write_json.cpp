@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/version.hpp"
-#include "compare/write/or_null.hpp"
+#include "compare/write/json.hpp"
 
 namespace springproof::compare {
 
@@ -41,10 +41,10 @@ Json comparison_to_json(const Comparison& comparison) {
   for (const MeasuredValue& m : comparison.measures) {
     measures.push_back({{"name", m.name},
                         {"unit", m.unit},
-                        {"fem", or_null(m.fem)},
-                        {"msm", or_null(m.msm)},
-                        {"error_percent", or_null(m.error_percent)}});
-    if (comparison.answers.peer) measures.back()["peer"] = or_null(m.peer);
+                        {"fem", m.fem},
+                        {"msm", m.msm},
+                        {"error_percent", m.error_percent}});
+    if (comparison.answers.peer) measures.back()["peer"] = m.peer;
   }
   Json expectations = Json::array();
   for (const Gate& gate : comparison.gates) {
@@ -53,7 +53,7 @@ Json comparison_to_json(const Comparison& comparison) {
                             {"quantity", cases::name_of(j.expectation.quantity)},
                             {"interval", j.expectation.interval},
                             {"reference", cases::name_of(j.expectation.reference)},
-                            {"value", or_null(j.value)},
+                            {"value", j.value},
                             {"met", gate.met()},
                             {"reason", j.reason}});
   }
@@ -83,8 +83,8 @@ Json side_to_json(const Answer& side) {
           {"relaxation_iterations", s.relaxation_iterations},
           {"force_evaluations", s.force_evaluations},
           {"factorisations", s.factorisations},
-          {"lowest_eigenvalue", or_null(s.lowest_eigenvalue)},
-          {"negative_eigenvalues", or_null(s.negative_eigenvalues)},
+          {"lowest_eigenvalue", s.lowest_eigenvalue},
+          {"negative_eigenvalues", s.negative_eigenvalues},
           {"inverted_cells", s.inverted_cells},
           {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
 }

@@ -1,4 +1,4 @@
-#include "compare/write/or_null.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void write_text(std::ostream& out, const MeshStudy& study) {
 void add_mesh_study(nlohmann::ordered_json& side, const MeshStudy& study) {
   Json errors = Json::object(), measures = Json::array();
   for (const StudiedMeasure& m : study.measures) {
-    errors[m.name] = or_null(m.discretisation_error_percent);
+    errors[m.name] = m.discretisation_error_percent;
     Json measure{{"name", m.name}, {"values", m.values}};
     if (m.limit) {
       measure["observed_order"] = m.limit->order;

@@ -1,4 +1,4 @@
-#include "compare/write/or_null.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Peer& peer) {
           {"newton_iterations", s.newton_iterations},
           {"inverted_cells", s.inverted_cells},
           {"seconds", {{"solve", peer.answer.solve_seconds}}},
-          {"largest_difference", or_null(peer.largest_difference)}};
+          {"largest_difference", peer.largest_difference}};
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,6 @@
 #include "compare/write/write_results.hpp"
 
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/write.hpp"
 
 #include <nlohmann/json.hpp>

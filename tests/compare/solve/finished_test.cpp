@@ -1,7 +1,7 @@
 #include "compare/solve/finished.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>

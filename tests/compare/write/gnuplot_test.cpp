@@ -1,8 +1,8 @@
 #include "compare/write/gnuplot.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
-#include "compare/write/whole_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

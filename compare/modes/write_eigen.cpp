@@ -1,4 +1,4 @@
-#include "compare/write/write_eigen.hpp"
+#include "compare/modes/write_eigen.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

@@ -1,4 +1,4 @@
-#include "compare/write/whole_file.hpp"
+#include "compare/provenance/whole_file.hpp"
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/mpi_rank.hpp"
