@@ -44,9 +44,9 @@ struct Session::Implementation {
 
 Session::Session() {
   reserve_standard_streams();
-  PETSC_STDOUT = stderr; // standard output is the results' alone
   start_alone();
   implementation_ = std::make_unique<Implementation>();
+  PETSC_STDOUT = stderr; // standard output is the results' alone
 }
 Session::~Session() = default;
 
