@@ -5,9 +5,8 @@
 
 namespace springproof::compare {
 
-/// Why refining the mesh of this scene leads nowhere, if it does not: forces on points or edges have no
-/// continuum limit, because the displacement under them grows without bound (thesis.md section 7 says which
-/// cases).
+/// Why this scene has no continuum limit, if it has none: the displacement under forces on points or edges
+/// grows without bound as the mesh is refined.
 std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);
 
 /// The scene with another [fem], such as the one that "auto" was found to mean.
