@@ -57,7 +57,7 @@ std::set<int> nodes_on(const cases::Selection& selection, const cases::Scene& sc
 Constraints::Constraints(const cases::Scene& scene, const Nodes& nodes, const Prescribed& prescribed,
                          MPI_Comm communicator)
     : is_constrained(3 * nodes.point.size()), at_full_load_(3 * nodes.point.size()) {
-  for (const auto& fixed : scene.fixed)
+  for (const auto& fixed : scene.constrained)
     for (const int node : nodes_on(fixed.selection, scene, nodes))
       for (std::size_t c = 0; c < 3; ++c)
         if (fixed.components[c]) is_constrained[3 * index(node) + c] = 1;

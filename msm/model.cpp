@@ -62,7 +62,7 @@ struct Model::Implementation {
   mechanics::Equilibrium solve(mechanics::EquilibriumSettings settings, const Points& start) {
     const Points rest(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
     Vector from = to_vector(start.empty() ? rest : start);
-    if (grid) grid::clear_still(grid->body, from);
+    if (grid) grid::clear_constrained(grid->body, from);
     if (solver != cases::Solver::newton) return relax(*system, from, solver, settings);
     if (grid && !grid->supports && start.empty() && settings.first_load_step == 1)
       settings.guess = grid::coarse_guess(*grid, n_threads);
@@ -83,9 +83,10 @@ Path Model::path() const {
 
 cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, const Points& start) {
   const mechanics::Equilibrium equilibrium = implementation_->solve(settings, start);
-  const std::vector<bool>& is_fixed = implementation_->problem.is_fixed;
+  const std::vector<bool>& is_constrained = implementation_->problem.is_constrained;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.unknowns = static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), false));
+  solution.unknowns =
+      static_cast<std::size_t>(std::count(is_constrained.begin(), is_constrained.end(), false));
   solution.displacement = implementation_->to_points(equilibrium.state);
   measure_cells(implementation_->problem.mesh, solution);
   return solution;

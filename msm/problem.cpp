@@ -22,11 +22,7 @@ std::function<Points(double)> moving_supports(const cases::Scene& scene) {
 } // namespace
 
 Problem make_problem(const cases::Scene& scene) {
-  return {scene.mesh,
-          {},
-          cases::nodal_forces(scene),
-          cases::fixed_degrees_of_freedom(scene),
-          moving_supports(scene)};
+  return {scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene), moving_supports(scene)};
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {

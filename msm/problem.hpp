@@ -13,8 +13,8 @@ namespace springproof::msm {
 struct Problem {
   cases::HexMesh mesh;
   Lattice lattice;
-  Points force;               ///< applied at full load, N, one per point
-  std::vector<bool> is_fixed; ///< constrained degrees of freedom: 3*point + component
+  Points force;                     ///< applied at full load, N, one per point
+  std::vector<bool> is_constrained; ///< constrained degrees of freedom: 3*point + component
   /// Displacement (mm) of constrained points at a load factor, one per point; empty: they stay at rest.
   std::function<Points(double load_factor)> supports{};
 };

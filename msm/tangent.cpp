@@ -33,10 +33,11 @@ int find_slot(const Tangent::Matrix& matrix, int row, int column) {
 
 } // namespace
 
-Tangent::Tangent(const Lattice& lattice, const std::vector<bool>& is_fixed) : lattice_(lattice) {
-  assert(is_fixed.size() == 3 * lattice.rest.size());
-  free_number_.resize(is_fixed.size());
-  for (std::size_t d = 0; d < is_fixed.size(); ++d) free_number_[d] = is_fixed[d] ? -1 : n_free_++;
+Tangent::Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained) : lattice_(lattice) {
+  assert(is_constrained.size() == 3 * lattice.rest.size());
+  free_number_.resize(is_constrained.size());
+  for (std::size_t d = 0; d < is_constrained.size(); ++d)
+    free_number_[d] = is_constrained[d] ? -1 : n_free_++;
 
   std::vector<Eigen::Triplet<double>> pattern;
   for (int d = 0; d < n_free_; ++d)

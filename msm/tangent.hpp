@@ -44,8 +44,8 @@ class Tangent {
   using Matrix = Eigen::SparseMatrix<double>;
 
   /// @param lattice   must outlive the tangent
-  /// @param is_fixed  degree of freedom 3*point + component, three entries per point
-  Tangent(const Lattice& lattice, const std::vector<bool>& is_fixed);
+  /// @param is_constrained  degree of freedom 3*point + component, three entries per point
+  Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained);
 
   /// Lower triangle, N/mm, at these positions (mm).
   const Matrix& assemble(const Points& positions, TransverseTerm term);

@@ -60,10 +60,10 @@ void serialize(Archive& archive, springproof::cases::Case& definition) {
   if constexpr (has_places<Archive>) archive(file);
 }
 
-SPRINGPROOF_FIELDS(springproof::cases::Scene::FixedNodes, selection, components)
+SPRINGPROOF_FIELDS(springproof::cases::Scene::ConstrainedNodes, selection, components)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
-SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, fixed, moved, loads)
+SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads)
 
 SPRINGPROOF_FIELDS(springproof::cases::Solution, status, message, outcome, displacement, cell_volume,
                    unknowns, residual, load_reached, newton_iterations, linear_iterations,

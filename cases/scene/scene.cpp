@@ -168,21 +168,21 @@ void check_measure(const HexMesh& mesh, const Measure& measure) {
 void resolve_supports(Scene& scene) {
   for (const auto* list : {&scene.definition.fixed, &scene.definition.symmetry})
     for (const Fixed& fixed : *list)
-      scene.fixed.push_back({select(scene.mesh, fixed.region), fixed.components});
+      scene.constrained.push_back({select(scene.mesh, fixed.region), fixed.components});
   for (const Moved& motion : scene.definition.moved) {
     scene.moved.push_back({select(scene.mesh, motion.region), motion});
-    scene.fixed.push_back({scene.moved.back().selection, motion.components});
+    scene.constrained.push_back({scene.moved.back().selection, motion.components});
   }
 }
 
 /// A degree of freedom is constrained once: not both fixed and moved, nor moved by two regions.
 void check_motions(const Scene& scene) {
   std::vector<bool> is_taken(3 * scene.mesh.nodes.size(), false);
-  const std::size_t n_resting = scene.fixed.size() - scene.moved.size();
-  for (std::size_t f = 0; f < scene.fixed.size(); ++f)
-    for (const int node : scene.fixed[f].selection.nodes)
+  const std::size_t n_resting = scene.constrained.size() - scene.moved.size();
+  for (std::size_t f = 0; f < scene.constrained.size(); ++f)
+    for (const int node : scene.constrained[f].selection.nodes)
       for (std::size_t a = 0; a < 3; ++a) {
-        if (!scene.fixed[f].components[a]) continue;
+        if (!scene.constrained[f].components[a]) continue;
         const std::size_t d = 3 * index(node) + a;
         if (f >= n_resting && is_taken[d])
           throw InputError(scene.moved[f - n_resting].motion.region.where,
@@ -291,13 +291,13 @@ Scene refine(const Scene& scene, int n) {
   return refine(fine, n - 1);
 }
 
-std::vector<bool> fixed_degrees_of_freedom(const Scene& scene) {
-  std::vector<bool> is_fixed(3 * scene.mesh.nodes.size(), false);
-  for (const auto& fixed : scene.fixed)
+std::vector<bool> constrained_dofs(const Scene& scene) {
+  std::vector<bool> is_constrained(3 * scene.mesh.nodes.size(), false);
+  for (const auto& fixed : scene.constrained)
     for (int node : fixed.selection.nodes)
       for (std::size_t a = 0; a < 3; ++a)
-        if (fixed.components[a]) is_fixed[3 * index(node) + a] = true;
-  return is_fixed;
+        if (fixed.components[a]) is_constrained[3 * index(node) + a] = true;
+  return is_constrained;
 }
 
 std::vector<Vector3d> point_forces(const Scene& scene) {

@@ -7,7 +7,7 @@ namespace springproof::cases {
 
 /// A case with its mesh built and its regions resolved: all that a model needs.
 struct Scene {
-  struct FixedNodes {
+  struct ConstrainedNodes {
     Selection selection;
     std::array<bool, 3> components;
   };
@@ -22,8 +22,8 @@ struct Scene {
   Case definition;
   HexMesh mesh;
   std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
-  std::vector<FixedNodes>
-      fixed; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
+  std::vector<ConstrainedNodes>
+      constrained; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
 };
@@ -49,7 +49,7 @@ Scene make_scene(const Case& definition);
 Scene refine(const Scene& scene, int n);
 
 /// Whether degree of freedom 3*node + component is constrained, for every node of the mesh.
-std::vector<bool> fixed_degrees_of_freedom(const Scene& scene);
+std::vector<bool> constrained_dofs(const Scene& scene);
 
 /// Displacement (mm) that a motion prescribes at a load factor for a point of rest position `rest` (mm); 0
 /// on components that the motion leaves free.

@@ -65,7 +65,7 @@ void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
 }
 
 void write_supports(std::ostream& out, const cases::Scene& scene) {
-  const std::vector<bool> fixed = cases::fixed_degrees_of_freedom(scene);
+  const std::vector<bool> fixed = cases::constrained_dofs(scene);
   fmt::print(out, "*BOUNDARY\n");
   for (std::size_t d = 0; d < fixed.size(); ++d)
     if (fixed[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
@@ -235,7 +235,7 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
   solution.newton_iterations = count_iterations(progress);
-  const std::vector<bool> fixed = cases::fixed_degrees_of_freedom(refined);
+  const std::vector<bool> fixed = cases::constrained_dofs(refined);
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
   // Refinement keeps the numbers of the body's own nodes.
   solution.displacement.assign(output.displacement.begin(),

@@ -75,7 +75,7 @@ using mechanics::Convexity;
 class DirectSystem : public SpringSystem {
  public:
   explicit DirectSystem(const Problem& problem)
-      : problem_(problem), tangent_(problem.lattice, problem.is_fixed),
+      : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
         load_(on_free(to_vector(problem, problem.force))) {
     factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
@@ -149,8 +149,8 @@ class DirectSystem : public SpringSystem {
   double reaction(const Vector& displacement) override {
     const Points force = internal_force(problem_.lattice, positions(displacement));
     double squared = 0;
-    for (std::size_t d = 0; d < problem_.is_fixed.size(); ++d)
-      if (problem_.is_fixed[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
+    for (std::size_t d = 0; d < problem_.is_constrained.size(); ++d)
+      if (problem_.is_constrained[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
     return std::sqrt(squared);
   }
 
@@ -215,15 +215,15 @@ void for_each_entry(const Problem& problem, const Action& action) {
   Eigen::Index next = 0;
   for (const bool constrained : {false, true}) {
     if (constrained && !problem.supports) return;
-    for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
-      if (problem.is_fixed[d] == constrained) action(d, next++);
+    for (std::size_t d = 0; d < problem.is_constrained.size(); ++d)
+      if (problem.is_constrained[d] == constrained) action(d, next++);
   }
 }
 
 } // namespace
 
 Points to_points(const Problem& problem, const Vector& vector) {
-  Points points(problem.is_fixed.size() / 3, Eigen::Vector3d::Zero());
+  Points points(problem.is_constrained.size() / 3, Eigen::Vector3d::Zero());
   for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
     points[d / 3][static_cast<int>(d % 3)] = vector[place];
   });
@@ -231,8 +231,8 @@ Points to_points(const Problem& problem, const Vector& vector) {
 }
 
 Vector to_vector(const Problem& problem, const Points& points) {
-  const auto n_free = std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false);
-  Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_fixed.size()) : n_free);
+  const auto n_free = std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false);
+  Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_constrained.size()) : n_free);
   for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
     vector[place] = points[d / 3][static_cast<int>(d % 3)];
   });

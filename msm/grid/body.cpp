@@ -93,7 +93,7 @@ Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
         c * fine.layout.size + fine.layout.at(std::min(factor[0] * i, fine.cells[0]),
                                               std::min(factor[1] * j, fine.cells[1]),
                                               std::min(factor[2] * k, fine.cells[2]));
-    return std::binary_search(fine.still.begin(), fine.still.end(), entry);
+    return std::binary_search(fine.constrained.begin(), fine.constrained.end(), entry);
   });
   return coarse;
 }

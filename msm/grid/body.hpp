@@ -23,7 +23,8 @@ struct Body {
   Eigen::Vector3d spacing;          ///< mm
   std::vector<CellSprings> springs; ///< of every cell, x fastest, all 0 where there is none; or one for all
   Layout layout;
-  std::vector<std::ptrdiff_t> still; ///< entries of a field that never change: held, or at no cell. Sorted.
+  std::vector<std::ptrdiff_t> constrained; ///< entries of a field that never change: constrained dofs, and
+                                           ///< entries without a cell. Sorted.
 
   bool is_uniform() const { return springs.size() == 1; }
   const CellSprings& cell(int i, int j, int k) const;
@@ -31,9 +32,9 @@ struct Body {
 
 Layout make_layout(const std::array<int, 3>& cells);
 
-/// Fills in layout and still.  @param is_held  (node i, j, k, component)
-template<class IsHeld>
-void set_layout(Body& body, const IsHeld& is_held);
+/// Fills in layout and constrained.  @param is_constrained  (node i, j, k, component)
+template<class IsConstrained>
+void set_layout(Body& body, const IsConstrained& is_constrained);
 
 /// Whether a node touches a cell.
 bool has_cell(const Body& body, int i, int j, int k);
@@ -49,16 +50,16 @@ Body coarsen(const Body& fine, const std::array<bool, 3>& axes);
 
 // ---- implementation ----
 
-template<class IsHeld>
-void set_layout(Body& body, const IsHeld& is_held) {
+template<class IsConstrained>
+void set_layout(Body& body, const IsConstrained& is_constrained) {
   body.layout = make_layout(body.cells);
-  body.still.clear();
+  body.constrained.clear();
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k <= body.cells[2]; ++k)
       for (int j = 0; j <= body.cells[1]; ++j)
         for (int i = 0; i <= body.cells[0]; ++i)
-          if (is_held(i, j, k, c) || !has_cell(body, i, j, k))
-            body.still.push_back(c * body.layout.size + body.layout.at(i, j, k));
+          if (is_constrained(i, j, k, c) || !has_cell(body, i, j, k))
+            body.constrained.push_back(c * body.layout.size + body.layout.at(i, j, k));
 }
 
 } // namespace springproof::msm::grid

@@ -7,7 +7,7 @@
 
 namespace springproof::msm::grid {
 
-/// Three arrays of a layout: a vector at every node of a grid. Ghosts and still entries are 0.
+/// Three arrays of a layout: a vector at every node of a grid. Ghosts and constrained entries are 0.
 template<class Real>
 using Field = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
@@ -50,8 +50,8 @@ void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {
 }
 
 template<class Real>
-void clear_still(const Body& body, Field<Real>& field) {
-  for (const std::ptrdiff_t entry : body.still) field[entry] = 0;
+void clear_constrained(const Body& body, Field<Real>& field) {
+  for (const std::ptrdiff_t entry : body.constrained) field[entry] = 0;
 }
 
 } // namespace springproof::msm::grid

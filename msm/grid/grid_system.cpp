@@ -174,19 +174,19 @@ class GridSystem : public SpringSystem {
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
     const Vector there = problem_.supports(load_factor);
-    for (const std::ptrdiff_t entry : problem_.body.still) displacement[entry] = there[entry];
+    for (const std::ptrdiff_t entry : problem_.body.constrained) displacement[entry] = there[entry];
   }
 
   double reaction(const Vector& displacement) override {
     if (!loose_springs_) {
       loose_body_ = problem_.body;
-      loose_body_.still.clear();
+      loose_body_.constrained.clear();
       loose_springs_.emplace(loose_body_, n_threads_);
     }
     Vector force = Vector::Zero(displacement.size());
     loose_springs_->force(displacement, force);
     double squared = 0;
-    for (const std::ptrdiff_t entry : problem_.body.still) squared += force[entry] * force[entry];
+    for (const std::ptrdiff_t entry : problem_.body.constrained) squared += force[entry] * force[entry];
     return std::sqrt(squared);
   }
 
@@ -258,7 +258,7 @@ class GridSystem : public SpringSystem {
         for (int j = 0; j < layout.nodes[1]; ++j)
           for (int i = 0; i < layout.nodes[0]; ++i)
             probe_[c * layout.size + layout.at(i, j, k)] = normal(generator);
-    clear_still(problem_.body, probe_);
+    clear_constrained(problem_.body, probe_);
     return probe_;
   }
 };
@@ -287,18 +287,18 @@ std::optional<GridProblem> make_grid_problem(const Problem& problem,
         }
   }
   body.layout = make_layout(body.cells);
-  std::vector<bool> is_held(static_cast<std::size_t>(3 * body.layout.size));
+  std::vector<bool> is_constrained(static_cast<std::size_t>(3 * body.layout.size));
   for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
     for (std::size_t c = 0; c < 3; ++c)
-      if (problem.is_fixed[3 * n + c])
-        is_held[c * static_cast<std::size_t>(body.layout.size) +
-                static_cast<std::size_t>(body.layout.at(i, j, k))] = true;
+      if (problem.is_constrained[3 * n + c])
+        is_constrained[c * static_cast<std::size_t>(body.layout.size) +
+                       static_cast<std::size_t>(body.layout.at(i, j, k))] = true;
   });
   set_layout(body, [&](int i, int j, int k, int c) {
-    return is_held[static_cast<std::size_t>(c * body.layout.size + body.layout.at(i, j, k))];
+    return is_constrained[static_cast<std::size_t>(c * body.layout.size + body.layout.at(i, j, k))];
   });
   result.load = to_field(problem, body, problem.force);
-  clear_still(body, result.load);
+  clear_constrained(body, result.load);
   if (problem.supports) {
     result.supports = [&problem, layout = body.layout](double load_factor) {
       Body shape; // to_field() wants the layout alone

@@ -10,11 +10,11 @@
 
 namespace springproof::msm::grid {
 
-/// A problem on a grid of cells: a body, and its loads as a field (N, 0 on still entries).
+/// A problem on a grid of cells: a body, and its loads as a field (N, 0 on constrained entries).
 struct GridProblem {
   Body body;
   Field<double> load;
-  /// Displacement (mm) of still entries at a load factor, as a field; empty: they stay at rest.
+  /// Displacement (mm) of constrained entries at a load factor, as a field; empty: they stay at rest.
   std::function<Field<double>(double load_factor)> supports{};
 };
 

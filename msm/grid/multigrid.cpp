@@ -45,7 +45,7 @@ Multigrid::Level::Level(const Body& body, int n_threads) : springs(body, n_threa
       for (int j = 0; j < body.layout.nodes[1]; ++j)
         for (int i = 0; i < body.layout.nodes[0]; ++i)
           rough[c * body.layout.size + body.layout.at(i, j, k)] = any_value(generator);
-  clear_still(body, rough);
+  clear_constrained(body, rough);
 }
 
 Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_(n_threads) {
@@ -58,7 +58,7 @@ Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_
       for (int j = 0; j < last.layout.nodes[1]; ++j)
         for (int i = 0; i < last.layout.nodes[0]; ++i) {
           const std::ptrdiff_t entry = c * last.layout.size + last.layout.at(i, j, k);
-          if (!std::binary_search(last.still.begin(), last.still.end(), entry))
+          if (!std::binary_search(last.constrained.begin(), last.constrained.end(), entry))
             coarsest_unknowns_.push_back(entry);
         }
 }

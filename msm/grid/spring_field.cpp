@@ -156,7 +156,7 @@ void SpringField<Real>::force(const Field<Real>& displacement, Field<Real>& forc
   for_each_slab(3, force.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().force(springs_, slab, displacement.data(), force.data());
   });
-  clear_still(body_, force);
+  clear_constrained(body_, force);
 }
 
 template<class Real>
@@ -165,7 +165,7 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
   for_each_slab(3, product.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().product(springs_, slab, clamp, displacement.data(), direction.data(), product.data());
   });
-  clear_still(body_, product);
+  clear_constrained(body_, product);
 }
 
 template<class Real>
@@ -176,8 +176,8 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
   for_each_slab(6, inverse.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data());
   });
-  std::vector<bool> is_still(index(3 * layout.size));
-  for (const std::ptrdiff_t entry : body_.still) is_still[index(entry)] = true;
+  std::vector<bool> is_constrained(index(3 * layout.size));
+  for (const std::ptrdiff_t entry : body_.constrained) is_constrained[index(entry)] = true;
 #pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_threads_ > 1 && layout.size > piece)
   for (int k = 0; k < layout.nodes[2]; ++k)
     for (int j = 0; j < layout.nodes[1]; ++j)
@@ -186,10 +186,10 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
         const auto entry = [&](int c) -> Real& { return at[c * layout.size]; };
         Eigen::Matrix3d block;
         block << entry(0), entry(5), entry(4), entry(5), entry(1), entry(3), entry(4), entry(3), entry(2);
-        bool still[3];
+        bool constrained[3];
         for (int a = 0; a < 3; ++a) {
-          still[a] = is_still[index(a * layout.size + layout.at(i, j, k))] || !(block(a, a) > 0);
-          if (!still[a]) continue;
+          constrained[a] = is_constrained[index(a * layout.size + layout.at(i, j, k))] || !(block(a, a) > 0);
+          if (!constrained[a]) continue;
           block.row(a).setZero();
           block.col(a).setZero();
           block(a, a) = 1;
@@ -199,7 +199,7 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
         if (!(block.determinant() > 1e-9 * block.diagonal().prod()))
           inverted = block.diagonal().cwiseInverse().asDiagonal();
         for (int a = 0; a < 3; ++a)
-          if (still[a]) inverted(a, a) = 0;
+          if (constrained[a]) inverted(a, a) = 0;
         entry(0) = static_cast<Real>(inverted(0, 0));
         entry(1) = static_cast<Real>(inverted(1, 1));
         entry(2) = static_cast<Real>(inverted(2, 2));

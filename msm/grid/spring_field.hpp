@@ -15,13 +15,13 @@ class SpringField {
   SpringField(const Body& body, int n_threads);
   SpringField(SpringField&&) = default;
 
-  /// Internal force, N, at a displacement (mm); 0 on still entries.
+  /// Internal force, N, at a displacement (mm); 0 on constrained entries.
   void force(const Field<Real>& displacement, Field<Real>& force) const;
-  /// Tangent (N/mm) at a displacement times a direction; 0 on still entries.
+  /// Tangent (N/mm) at a displacement times a direction; 0 on constrained entries.
   void product(Clamp clamp, const Field<Real>& displacement, const Field<Real>& direction,
                Field<Real>& product) const;
-  /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not still: six arrays, xx, yy, zz,
-  /// yz, xz, xy.
+  /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
+  /// yy, zz, yz, xz, xy.
   void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse) const;
   double energy(const Field<Real>& displacement) const;
 

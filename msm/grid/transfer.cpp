@@ -61,7 +61,7 @@ void Transfer<Real>::prolong(const Field<Real>& coarse, Field<Real>& fine) const
         }
       }
   }
-  clear_still(fine_, fine);
+  clear_constrained(fine_, fine);
 }
 
 template<class Real>
@@ -85,7 +85,7 @@ void Transfer<Real>::restrict(const Field<Real>& fine, Field<Real>& coarse) cons
             out[i] = in[2 * i] + Real(0.5) * (in[2 * i - 1] + in[2 * i + 1]);
       }
   }
-  clear_still(coarse_, coarse);
+  clear_constrained(coarse_, coarse);
 }
 
 template<class Real>

@@ -11,7 +11,7 @@ class Transfer {
   Transfer(const Body& fine, const Body& coarse, const std::array<bool, 3>& axes, int n_threads)
       : fine_(fine), coarse_(coarse), axes_(axes), n_threads_(n_threads) {}
 
-  /// fine = interpolation of coarse; 0 on still entries.
+  /// fine = interpolation of coarse; 0 on constrained entries.
   void prolong(const Field<Real>& coarse, Field<Real>& fine) const;
   /// coarse = transpose of prolong times fine.
   void restrict(const Field<Real>& fine, Field<Real>& coarse) const;

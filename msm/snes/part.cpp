@@ -28,7 +28,7 @@ Part::Part(const Problem& problem, MPI_Comm communicator) : problem_(problem), c
       for (int& node : lattice_.volume_cells.back().nodes) node = local(node);
     }
   for (PetscInt d = 3 * first_; d < 3 * (first_ + n_own_); ++d)
-    if (problem.is_fixed[index(d)]) constrained_.push_back(d);
+    if (problem.is_constrained[index(d)]) constrained_.push_back(d);
   moved_ = make_vector();
   force_ = make_vector();
   applied_ = make_vector();

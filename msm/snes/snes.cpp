@@ -195,8 +195,8 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES", settings);
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.unknowns =
-      static_cast<std::size_t>(std::count(problem.is_fixed.begin(), problem.is_fixed.end(), false));
+  solution.unknowns = static_cast<std::size_t>(
+      std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false));
   solution.displacement = system.displacement(equilibrium.state);
   measure_cells(scene.mesh, solution);
   return solution;

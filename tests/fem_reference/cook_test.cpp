@@ -37,9 +37,11 @@ cases::Scene membrane(int n, double bulk_modulus, Element element) {
         selection.faces.push_back(face);
     return selection;
   };
-  scene.fixed.push_back({faces_where([](const Vector3d& x) { return x.x() < 1e-9; }), {true, true, true}});
-  scene.fixed.push_back({faces_where([](const Vector3d& x) { return x.z() < 1e-9; }), {false, false, true}});
-  scene.fixed.push_back(
+  scene.constrained.push_back(
+      {faces_where([](const Vector3d& x) { return x.x() < 1e-9; }), {true, true, true}});
+  scene.constrained.push_back(
+      {faces_where([](const Vector3d& x) { return x.z() < 1e-9; }), {false, false, true}});
+  scene.constrained.push_back(
       {faces_where([](const Vector3d& x) { return x.z() > 1 - 1e-9; }), {false, false, true}});
   cases::Load load;
   load.kind = cases::LoadKind::traction;

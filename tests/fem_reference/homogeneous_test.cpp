@@ -24,10 +24,10 @@ Vector3d kirchhoff(const cases::Ogden& m, const Vector3d& stretch) {
 
 /// The stretches of a body that is held at `held` along x (and y), and is free of stress otherwise: by
 /// bisection.
-Vector3d equilibrium_stretches(const cases::Ogden& m, double held, int n_held) {
+Vector3d equilibrium_stretches(const cases::Ogden& m, double held, int n_constrained) {
   double low = 0.2, high = 5;
   const auto stretches = [&](double free) {
-    return n_held == 1 ? Vector3d(held, free, free) : Vector3d(held, held, free);
+    return n_constrained == 1 ? Vector3d(held, free, free) : Vector3d(held, held, free);
   };
   for (int i = 0; i < 200; ++i) {
     const double middle = (low + high) / 2;
@@ -38,9 +38,9 @@ Vector3d equilibrium_stretches(const cases::Ogden& m, double held, int n_held) {
 
 /// Nominal stress of an incompressible material under a uniaxial (1) or equibiaxial (2) stretch: s_x - s_z
 /// over the stretch.
-double incompressible_stress(const cases::Ogden& m, double stretch, int n_held) {
+double incompressible_stress(const cases::Ogden& m, double stretch, int n_constrained) {
   double sum = 0;
-  const double free = n_held == 1 ? std::pow(stretch, -0.5) : std::pow(stretch, -2);
+  const double free = n_constrained == 1 ? std::pow(stretch, -0.5) : std::pow(stretch, -2);
   for (std::size_t p = 0; p < m.mu.size(); ++p)
     sum += 2 * m.mu[p] / m.alpha[p] * (std::pow(stretch, m.alpha[p]) - std::pow(free, m.alpha[p]));
   return sum / stretch;
@@ -78,9 +78,9 @@ cases::Scene one_cell(const cases::Ogden& material, Element element,
 }
 
 /// A cube stretched along x, or along x and y, the rest free.
-Solved stretched(const cases::Ogden& material, Element element, double stretch, int n_held) {
+Solved stretched(const cases::Ogden& material, Element element, double stretch, int n_constrained) {
   std::vector<std::string> supports{"x-", "y-", "z-", "x+"};
-  if (n_held == 2) supports.emplace_back("y+");
+  if (n_constrained == 2) supports.emplace_back("y+");
   const auto pull = [=](const Vector3d& x) -> Vector3d { return (stretch - 1) * x; };
   return {one_cell(material, element, supports), {nullptr, pull}};
 }
@@ -95,14 +95,14 @@ TEST_CASE("one cell under uniaxial and equibiaxial stretch is the closed form of
           "[verification]") {
   for (const auto& material : materials(2.))
     for (const Element element : scenes::all_elements)
-      for (const int n_held : {1, 2})
+      for (const int n_constrained : {1, 2})
         for (const double stretch : {0.5, 0.8, 1.3, 2.}) {
-          const Solved cell = stretched(material, element, stretch, n_held);
-          const Vector3d stretches = equilibrium_stretches(material, stretch, n_held);
+          const Solved cell = stretched(material, element, stretch, n_constrained);
+          const Vector3d stretches = equilibrium_stretches(material, stretch, n_constrained);
           const auto exact = [&](const Vector3d& x) -> Vector3d { return stretches.cwiseProduct(x) - x; };
           // area times first Piola-Kirchhoff stress tau/lambda
           const double force = kirchhoff(material, stretches).x() / stretch;
-          CAPTURE(cases::name_of(element), stretch, n_held, material.alpha[0]);
+          CAPTURE(cases::name_of(element), stretch, n_constrained, material.alpha[0]);
           CHECK(cell.largest_error(exact) <= 1e-8); // what is asked of the project
           CHECK(std::abs(cell.force_on(on_right).x() - force) <= 1e-8);
         }
@@ -113,7 +113,7 @@ TEST_CASE("one cell in simple shear carries the derivative of its Ogden energy",
     for (const Element element : scenes::all_elements)
       for (const double gamma : {0.1, 0.5, 1.5}) { // 1.5: principal stretches 2 and 1/2
         cases::Scene scene = one_cell(material, element, {"x-", "x+", "y-", "y+", "z-", "z+"});
-        for (auto& fixed : scene.fixed) fixed.components = {true, true, true};
+        for (auto& fixed : scene.constrained) fixed.components = {true, true, true};
         const auto shear = [=](const Vector3d& x) -> Vector3d { return {gamma * x.y(), 0, 0}; };
         const Solved cell(scene, {nullptr, shear});
         const auto on_top = [](const Vector3d& x) { return x.y() > 1 - 1e-9; };
@@ -130,23 +130,23 @@ TEST_CASE(
     "a nearly incompressible cell approaches the incompressible closed form with shear over bulk modulus",
     "[verification]") {
   for (const Element element : {Element::q1_p0, Element::q2_p1})
-    for (const int n_held : {1, 2})
+    for (const int n_constrained : {1, 2})
       for (const double stretch : {0.5, 0.8, 1.3, 2.}) {
         std::array<double, 2> error{};
         for (std::size_t i = 0; i < 2; ++i) {
           const double ratio = i == 0 ? 1e3 : 1e4;
           const cases::Ogden material{{0.3, 0.1}, {2, -2}, 0.4 * ratio};
-          const double exact = incompressible_stress(material, stretch, n_held);
-          const Solved cell = stretched(material, element, stretch, n_held);
+          const double exact = incompressible_stress(material, stretch, n_constrained);
+          const Solved cell = stretched(material, element, stretch, n_constrained);
           error[i] = std::abs(cell.force_on(on_right).x() - exact) / std::abs(exact);
         }
         const double order = std::log10(error[0] / error[1]);
         // asked: 1e-4; under equibiaxial compression the volume change p/kappa is more than that, and the
         // force feels it up to four times (areas and stretches)
-        const double free = n_held == 1 ? std::pow(stretch, -0.5) : std::pow(stretch, -2);
+        const double free = n_constrained == 1 ? std::pow(stretch, -0.5) : std::pow(stretch, -2);
         const double pressure =
-            kirchhoff({{0.3, 0.1}, {2, -2}, 1.}, {stretch, n_held == 1 ? free : stretch, free}).z();
-        CAPTURE(cases::name_of(element), stretch, n_held, error[0], error[1], order);
+            kirchhoff({{0.3, 0.1}, {2, -2}, 1.}, {stretch, n_constrained == 1 ? free : stretch, free}).z();
+        CAPTURE(cases::name_of(element), stretch, n_constrained, error[0], error[1], order);
         CHECK(error[1] <= std::max(1e-4, 4 * std::abs(pressure) / (0.4 * 1e4)));
         CHECK(std::abs(order - 1) <= 0.05); // linear in the ratio
       }

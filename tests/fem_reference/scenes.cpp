@@ -110,7 +110,7 @@ cases::Scene distorted_box(int cells, Surface surface, const cases::Material& ma
   for (std::size_t n = 0; n < on_surface.size(); ++n)
     if (on_surface[n]) selection.nodes.push_back(static_cast<int>(n));
   selection.faces = cases::boundary_faces(scene.mesh);
-  scene.fixed.push_back({selection, {true, true, true}});
+  scene.constrained.push_back({selection, {true, true, true}});
   return scene;
 }
 

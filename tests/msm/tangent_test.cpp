@@ -46,17 +46,17 @@ TEST_CASE("the tangent of a lattice is minus the derivative of its internal forc
 
 TEST_CASE("held degrees of freedom have no row and no column in the tangent") {
   const Lattice lattice = bodies::masked_lattice();
-  std::vector<bool> is_fixed(3 * lattice.rest.size(), false);
-  is_fixed[0] = is_fixed[4] = is_fixed[17] = true;
-  Tangent all(lattice, std::vector<bool>(is_fixed.size(), false)), held(lattice, is_fixed);
+  std::vector<bool> is_constrained(3 * lattice.rest.size(), false);
+  is_constrained[0] = is_constrained[4] = is_constrained[17] = true;
+  Tangent all(lattice, std::vector<bool>(is_constrained.size(), false)), held(lattice, is_constrained);
   const Points at = bodies::disturbed(lattice.rest, 0.1);
   const MatrixXd whole = full(all.assemble(at, TransverseTerm::exact)),
                  part = full(held.assemble(at, TransverseTerm::exact));
   REQUIRE(held.n_free() == all.n_free() - 3);
-  for (std::size_t i = 0; i < is_fixed.size(); ++i)
-    for (std::size_t j = 0; j < is_fixed.size(); ++j) {
+  for (std::size_t i = 0; i < is_constrained.size(); ++i)
+    for (std::size_t j = 0; j < is_constrained.size(); ++j) {
       const int row = held.free_number()[i], column = held.free_number()[j];
-      CHECK((row < 0) == is_fixed[i]);
+      CHECK((row < 0) == is_constrained[i]);
       if (row >= 0 && column >= 0)
         CHECK(part(row, column) == whole(static_cast<int>(i), static_cast<int>(j))); // the same sum
     }

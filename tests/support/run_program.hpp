@@ -24,5 +24,7 @@ inline ProgramRun run_program(const std::string& words, const std::string& befor
   std::array<char, 4096> block{};
   while (const std::size_t n = fread(block.data(), 1, block.size(), pipe)) out.append(block.data(), n);
   const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, content(errors)};
+  ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, content(errors)};
+  UNSCOPED_INFO("springproof " << words << "\n" << run.error); // shown with a check that fails
+  return run;
 }

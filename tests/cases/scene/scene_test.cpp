@@ -125,11 +125,11 @@ TEST_CASE("the quarters of a symmetric scene carry a quarter of its nodal forces
   const Scene scene = make_scene(quarter);
   CHECK(4 * sum(nodal_forces(scene)).z() ==
         Approx(sum(nodal_forces(make_scene(whole))).z()).epsilon(force_rounding));
-  const auto is_fixed = fixed_degrees_of_freedom(scene);
+  const auto is_constrained = constrained_dofs(scene);
   const auto corner = static_cast<std::size_t>(select_node(scene.mesh, region("x+ y+ z+")));
-  CHECK(is_fixed[3 * corner]);
-  CHECK(is_fixed[3 * corner + 1]);
-  CHECK_FALSE(is_fixed[3 * corner + 2]);
+  CHECK(is_constrained[3 * corner]);
+  CHECK(is_constrained[3 * corner + 1]);
+  CHECK_FALSE(is_constrained[3 * corner + 2]);
 }
 
 TEST_CASE(

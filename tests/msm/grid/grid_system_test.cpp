@@ -38,7 +38,7 @@ cases::Scene masked_scene() {
   cases::Scene scene;
   scene.definition = bodies::clamped_box({7, 6, 8}, {});
   scene.mesh = cases::make_grid_mesh(grid);
-  scene.fixed = {{cases::select(scene.mesh, bodies::region("z-")), {true, true, true}}};
+  scene.constrained = {{cases::select(scene.mesh, bodies::region("z-")), {true, true, true}}};
   const cases::Load load = bodies::nodal_force("z+", {0.003, 0.001, 0.01});
   scene.loads = {{cases::select(scene.mesh, load.region), load}};
   return scene;
@@ -111,8 +111,7 @@ TEST_CASE("the multigrid path refuses negative springs and a body that is no gri
 TEST_CASE("a displacement that is no body's spoils nothing that comes after it") {
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({10, 10, 10}, bodies::tensile(0.01)));
   const std::vector<msm::CellStiffness> springs = {bodies::cell(31, 47, 33)};
-  const msm::Problem problem{
-      scene.mesh, {}, cases::nodal_forces(scene), cases::fixed_degrees_of_freedom(scene)};
+  const msm::Problem problem{scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene)};
   const msm::grid::GridProblem grid = *msm::grid::make_grid_problem(problem, springs);
   const auto system = msm::grid::make_grid_system(grid, 1);
   const msm::Vector rest = msm::Vector::Zero(grid.load.size());

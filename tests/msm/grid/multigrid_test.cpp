@@ -30,7 +30,7 @@ Field<double> any_field(const Body& body, unsigned seed) {
       for (int j = 0; j < body.layout.nodes[1]; ++j)
         for (int i = 0; i < body.layout.nodes[0]; ++i)
           field[c * body.layout.size + body.layout.at(i, j, k)] = normal(generator);
-  clear_still(body, field);
+  clear_constrained(body, field);
   return field;
 }
 

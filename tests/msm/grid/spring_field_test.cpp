@@ -26,15 +26,15 @@ struct Both {
   Both(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness)
       : problem{mesh, msm::make_lattice(mesh, stiffness), Points(mesh.nodes.size(), Eigen::Vector3d::Zero()),
                 std::vector<bool>(3 * mesh.nodes.size(), false)} {
-    for (std::size_t d : {0, 1, 2, 5, 10}) problem.is_fixed[d] = true;
+    for (std::size_t d : {0, 1, 2, 5, 10}) problem.is_constrained[d] = true;
     grid = *msm::grid::make_grid_problem(problem, stiffness);
     const Points zero(mesh.nodes.size(), Eigen::Vector3d::Zero());
     displacement = held(bodies::disturbed(zero, 0.3 * mesh.grid->spacing.minCoeff()));
     direction = held(bodies::disturbed(bodies::disturbed(zero, 0.7), 0.4));
   }
   Points held(Points points) const {
-    for (std::size_t d = 0; d < problem.is_fixed.size(); ++d)
-      if (problem.is_fixed[d]) points[d / 3][static_cast<int>(d % 3)] = 0;
+    for (std::size_t d = 0; d < problem.is_constrained.size(); ++d)
+      if (problem.is_constrained[d]) points[d / 3][static_cast<int>(d % 3)] = 0;
     return points;
   }
   Points positions() const {
@@ -84,7 +84,7 @@ TEST_CASE("force and energy of a grid are those of its lattice") {
 TEST_CASE("the tangent of a grid, exact and clamped, is that of its lattice") {
   for (const Both& both : bodies_of_all_kinds())
     for (Clamp clamp : {Clamp::no, Clamp::yes}) {
-      msm::Tangent tangent(both.problem.lattice, both.problem.is_fixed);
+      msm::Tangent tangent(both.problem.lattice, both.problem.is_constrained);
       const Vector reference = tangent
                                    .assemble(both.positions(), clamp == Clamp::yes ? TransverseTerm::clamped
                                                                                    : TransverseTerm::exact)
@@ -105,7 +105,7 @@ TEST_CASE("the tangent of a grid, exact and clamped, is that of its lattice") {
 
 TEST_CASE("the inverse diagonal of a grid inverts the tangent's diagonal blocks") {
   for (const Both& both : bodies_of_all_kinds()) {
-    msm::Tangent tangent(both.problem.lattice, std::vector<bool>(both.problem.is_fixed.size(), false));
+    msm::Tangent tangent(both.problem.lattice, std::vector<bool>(both.problem.is_constrained.size(), false));
     const msm::Tangent::Matrix& matrix = tangent.assemble(both.positions(), TransverseTerm::clamped);
     Field<double> inverse;
     msm::grid::SpringField<double>(both.grid.body, 1)

@@ -18,7 +18,7 @@ namespace {
 Problem make_problem(const cases::Case& definition, const CellStiffness& stiffness) {
   const cases::Scene scene = cases::make_scene(definition);
   return {scene.mesh, msm::make_lattice(scene.mesh, {stiffness}), cases::nodal_forces(scene),
-          cases::fixed_degrees_of_freedom(scene)};
+          cases::constrained_dofs(scene)};
 }
 
 /// Right side of eq. 5.3: the side for which the cell's vertices are balanced across the pull.
