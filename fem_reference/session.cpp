@@ -14,11 +14,13 @@ namespace springproof::fem_reference {
 namespace {
 
 /// A process that no launcher started has nobody to talk to, but Open MPI would start its daemon for it and
-/// look for networks: half a second. What the user has set stays.
+/// look for networks: half a second. It would also make a folder that all of a user's processes share, which
+/// one that ends can remove under one that starts. What the user has set stays.
 void start_alone() {
   for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(launched)) return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
 }
 

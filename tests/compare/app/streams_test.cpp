@@ -37,3 +37,10 @@ TEST_CASE("options of PETSc in the working folder are not read") {
   CHECK(run.error.empty());
   CHECK_FALSE(std::filesystem::exists(view));
 }
+
+// Open MPI would make a folder there that all programs of a user share, and one that ends removes.
+TEST_CASE("a program alone makes no folder of MPI's") {
+  const ProgramRun run = run_program("run --only msm " + sheared_cube, "TMPDIR=/proc ");
+  CHECK(run.status == 0);
+  CHECK(run.error.empty());
+}
