@@ -106,12 +106,6 @@ Spectrum full_spectrum(const Eigen::MatrixXd& values) {
 }
 
 Spectrum lowest_spectrum(const Eigen::SparseMatrix<double>& values, int n_pairs) {
-  const auto size = static_cast<PetscInt>(values.rows());
-  const PetscInt n_basis = std::min<PetscInt>(size, 3 * n_pairs + 20);
-  if (2 * n_basis > size) { // a Krylov space of most of the space breaks down in multiple eigenvalues
-    const Spectrum all = full_spectrum(values);
-    return {all.values.head(n_pairs), all.vectors.leftCols(n_pairs)};
-  }
   const petsc::Matrix matrix = sparse_matrix(values);
   const OwnedSolver solver = solver_for(matrix.get());
   // Far enough below zero that the shifted matrix is safely definite, near enough that low modes stay
@@ -120,7 +114,9 @@ Spectrum lowest_spectrum(const Eigen::SparseMatrix<double>& values, int n_pairs)
   ST transformation = nullptr;
   KSP linear = nullptr;
   PC factorisation = nullptr;
-  check(EPSSetDimensions(solver.get(), n_pairs, n_basis, PETSC_DEFAULT));
+  check(EPSSetDimensions(solver.get(), n_pairs,
+                         std::min<PetscInt>(static_cast<PetscInt>(values.rows()), 3 * n_pairs + 20),
+                         PETSC_DEFAULT));
   check(EPSSetTarget(solver.get(), shift));
   check(EPSSetWhichEigenpairs(solver.get(), EPS_TARGET_MAGNITUDE));
   check(EPSSetTolerances(solver.get(), 1e-12, 1000));

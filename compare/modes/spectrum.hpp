@@ -20,7 +20,7 @@ struct Spectrum {
 Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
 
 /// The lowest eigenpairs of a sparse positive semidefinite matrix, by Krylov-Schur on the inverse shifted
-/// just below zero (MUMPS), so that rigid modes do no harm; of a small matrix, by full_spectrum.
+/// just below zero (MUMPS), so that rigid modes do no harm.
 /// @param matrix    symmetric, both triangles    @param n_pairs  at most the matrix's size
 /// @throws SolveError if fewer pairs converge to 1e-10 relative
 Spectrum lowest_spectrum(const Eigen::SparseMatrix<double>& matrix, int n_pairs);
