@@ -1,7 +1,5 @@
 #include "cases/case/names.hpp"
 
-#include "cases/case/hard_case.hpp"
-
 #include <algorithm>
 
 namespace springproof::cases {
@@ -26,19 +24,6 @@ const NameTable<Outcome>& names() {
     }
     return all;
   }();
-  return table;
-}
-
-template<>
-const NameTable<Side>& names() {
-  static const NameTable<Side> table{{Side::msm, "msm"}, {Side::hybrid, "hybrid"}, {Side::fem, "fem"}};
-  return table;
-}
-
-template<>
-const NameTable<Start>& names() {
-  static const NameTable<Start> table{
-      {Start::rest, "rest"}, {Start::perturbed, "perturbed"}, {Start::inverted, "inverted"}};
   return table;
 }
 

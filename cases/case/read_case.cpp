@@ -195,15 +195,11 @@ Case read_case_text(const std::string& text, const std::string& path) {
   return read_document(parse(text, path), path);
 }
 
-HardCase read_hard_case(const std::string& path, const std::vector<std::string>& overrides) {
-  const toml::table document = parse_file(path, overrides);
+Case read_hard_case(const std::string& path) {
+  const toml::table document = parse_file(path, {});
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
-  HardCase result;
-  result.definition = read_definition(root, path);
-  root.section("stress", [&](Table& table) {
-    read_stress(table, result);
-    return 0;
-  });
+  Case result = read_definition(root, path);
+  result.stress = root.section("stress", [&](Table& table) { return read_stress(table, result.msm); });
   root.refuse_unknown_keys();
   return result;
 }

@@ -14,6 +14,9 @@ namespace springproof::cases {
 /// @throws InputError  "file:line:column: key: is VALUE, must be ..." at the first mistake
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
+/// The same for a hard case, a file with a table [stress], which read_case() refuses.
+Case read_hard_case(const std::string& path);
+
 /// The same for the text of a case file.  @param path  what messages call it; names of files in it are
 /// relative to its folder
 Case read_case_text(const std::string& text, const std::string& path);

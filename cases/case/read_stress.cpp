@@ -20,11 +20,19 @@ Outcome read_outcome(const Entry& entry) {
   return *value_of<Outcome>(*text);
 }
 
-ExpectedOutcome read_expected(Table& table, Side side) {
-  ExpectedOutcome expected;
-  expected.side = side;
-  expected.where = table.where();
-  expected.outcome = table.required("outcome", read_outcome);
+/// What may be expected of a hard case's models: the table, and what is solved for it.
+struct HardModel {
+  const char* name;
+  Side side;
+  std::optional<Design> design;
+};
+const HardModel models[] = {{"msm", Side::msm, std::nullopt},
+                            {"hybrid", Side::msm, Design::hybrid},
+                            {"fem", Side::fem, std::nullopt}};
+
+ExpectedOutcome read_expected(Table& table, const HardModel& model) {
+  ExpectedOutcome expected{model.name, model.side, model.design, table.required("outcome", read_outcome),
+                           {},         {}};
   const std::string allowed = "an interval [lower, upper] with 0 <= lower <= upper <= 1";
   if (const auto interval = table.optional("load_reached", Numbers{allowed, 2})) {
     if (!(0 <= (*interval)[0] && (*interval)[0] <= (*interval)[1] && (*interval)[1] <= 1))
@@ -36,47 +44,53 @@ ExpectedOutcome read_expected(Table& table, Side side) {
   return expected;
 }
 
-void read_start(Table& table, HardCase& result) {
+/// A table that may be left out.
+template<class Reader>
+auto read_if_there(Table& table, const std::string& key, const Reader& read) {
+  table.optional(key, [](const Entry&) { return 0; }); // known, though absent
+  return table.has(key) ? std::optional(table.section(key, read)) : std::nullopt;
+}
+
+void read_start(Table& table, Stress& result) {
   result.start = table.optional("start", read_name<Start>).value_or(Start::rest);
-  const bool is_perturbed = result.start == Start::perturbed;
-  for (const char* key : {"amplitude", "seed"})
-    if (!is_perturbed && table.has(key))
-      table.entry(key).refuse("left out: it belongs to start = \"perturbed\"");
-  if (!is_perturbed) {
-    table.optional("amplitude", read_text); // known, though absent
-    table.optional("seed", read_text);
+  if (result.start == Start::perturbed) {
+    result.amplitude = table.required("amplitude", Number{"a number above 0 (mm)", is_positive});
+    result.seed = table.required("seed", WholeNumber{"a whole number from 0", 0, 2147483647});
     return;
   }
-  result.amplitude = table.required("amplitude", Number{"a number above 0 (mm)", is_positive});
-  result.seed = table.required("seed", WholeNumber{"a whole number from 0", 0, 2147483647});
+  for (const char* key : {"amplitude", "seed"}) {
+    if (table.has(key)) table.entry(key).refuse("left out: it belongs to start = \"perturbed\"");
+    table.optional(key, read_text); // known, though absent
+  }
 }
 
 } // namespace
 
-void read_stress(Table& table, HardCase& result) {
+Stress read_stress(Table& table, Msm& msm) {
+  Stress result;
   result.is_heavy = table.optional("heavy", read_truth).value_or(false);
   read_start(table, result);
-  if (const auto k =
-          table.optional("stiffness", Numbers{"three finite numbers k_e, k_f, k_d (N/m), of any sign", 3}))
-    result.stiffness = {(*k)[0], (*k)[1], (*k)[2]};
-  if (table.has("stiffer")) result.stiffer = table.section("stiffer", read_stiffer);
-  table.optional("stiffer", [](const Entry&) { return 0; }); // known, though absent
+  const auto stiffness =
+      table.optional("stiffness", Numbers{"three finite numbers k_e, k_f, k_d (N/m), of any sign", 3});
+  if (stiffness) {
+    msm.design = Design::given;
+    msm.stiffness = {(*stiffness)[0], (*stiffness)[1], (*stiffness)[2]};
+    msm.volume_stiffness = 0;
+  }
+  result.stiffer = read_if_there(table, "stiffer", read_stiffer);
   result.least_load_steps =
       table.optional("least_load_steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
   result.max_seconds = table.required("max_seconds", Number{"a number above 0", is_positive});
   result.max_iterations = table.required("max_iterations", WholeNumber{"a whole number from 1", 1, 1000000});
-  for (const auto& [side, key] : names<Side>()) {
-    if (table.has(key))
-      result.expected.push_back(
-          table.section(key, [side = side](Table& section) { return read_expected(section, side); }));
-    table.optional(key, [](const Entry&) { return 0; }); // known, though absent
-  }
+  for (const HardModel& model : models)
+    if (const auto expected =
+            read_if_there(table, model.name, [&](Table& section) { return read_expected(section, model); }))
+      result.expected.push_back(*expected);
   if (result.expected.empty())
     table.entry("msm").refuse("a table [stress.msm], [stress.hybrid] or [stress.fem] with an outcome");
-  if (result.stiffness)
-    for (const ExpectedOutcome& expected : result.expected)
-      if (expected.side == Side::hybrid)
-        table.entry("stiffness").refuse("left out beside [stress.hybrid], which designs its own");
+  if (stiffness && table.has("hybrid"))
+    table.entry("stiffness").refuse("left out beside [stress.hybrid], which designs its own");
+  return result;
 }
 
 } // namespace springproof::cases

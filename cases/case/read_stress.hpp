@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cases/case/hard_case.hpp"
+#include "cases/case/case.hpp"
 #include "cases/case/toml_table.hpp"
 
-/// [stress] of a hard case.
 namespace springproof::cases {
 
-/// Everything of a hard case but its definition.
-void read_stress(Table& table, HardCase& result);
+/// [stress] of a hard case.
+/// @param msm  the case's springs, whose design gives way to stiffnesses if there are any
+Stress read_stress(Table& table, Msm& msm);
 
 } // namespace springproof::cases

@@ -50,13 +50,18 @@ SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, componen
                    centre, where)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
                    interval_where)
+SPRINGPROOF_FIELDS(springproof::cases::ExpectedOutcome, model, side, design, outcome, load_reached,
+                   inverted_cells)
+SPRINGPROOF_FIELDS(springproof::cases::Stiffer, axis, beyond, factor)
+SPRINGPROOF_FIELDS(springproof::cases::Stress, is_heavy, start, amplitude, seed, stiffer, least_load_steps,
+                   max_seconds, max_iterations, expected)
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Case& definition) {
   auto& [name, description, file, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-         measures, expectations] = definition;
+         measures, expectations, stress] = definition;
   archive(name, description, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-          measures, expectations);
+          measures, expectations, stress);
   if constexpr (has_places<Archive>) archive(file);
 }
 

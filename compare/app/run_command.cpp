@@ -1,6 +1,6 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/case/hard_case.hpp"
+#include "cases/case/names.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"

@@ -1,7 +1,12 @@
 #include "compare/app/commands.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/cases_folder.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/solve_jobs.hpp"
+#include "compare/solve/solve_side.hpp"
 #include "compare/write/write_stress.hpp"
 
 #include <algorithm>
@@ -53,19 +58,38 @@ std::string file_of(const std::string& name) {
 
 /// Every case is read before any is solved. Without names, the heavy ones are left out unless all are asked
 /// for.
-std::vector<cases::HardCase> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
+std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
   std::vector<std::string> files;
   for (const std::string& name : options.names) files.push_back(file_of(name));
   if (files.empty()) files = all_files();
-  std::vector<cases::HardCase> hard;
+  std::vector<cases::Case> hard;
   for (const std::string& file : files) {
-    cases::HardCase next = cases::read_hard_case(file);
-    if (next.is_heavy && options.names.empty() && !options.all)
-      skipped.push_back(next.definition.name);
+    cases::Case next = cases::read_hard_case(file);
+    if (next.stress->is_heavy && options.names.empty() && !options.all)
+      skipped.push_back(next.name);
     else
       hard.push_back(std::move(next));
   }
   return hard;
+}
+
+/// What each model of a hard case answers. The jobs are solved one after the other: their times are judged.
+std::vector<Answer> answers_to(const cases::Case& hard_case, const FinishedCases& finished, int n_threads) {
+  std::vector<Answer> answers(hard_case.stress->expected.size());
+  std::vector<Question> jobs;
+  try {
+    jobs = jobs_for(hard_case, n_threads);
+  } catch (const cases::InputError& error) {
+    for (Answer& answer : answers) answer.solution = failed_solution(error);
+    return answers;
+  }
+  SolveOptions solving;
+  solving.n_workers = 1;
+  const std::vector<Answers> solved =
+      answer_all(jobs, finished, solve_fem, solving, [](std::size_t, const Answers&) {});
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    answers[j] = jobs[j].request.only == cases::Side::fem ? solved[j].fem : solved[j].msm;
+  return answers;
 }
 
 /// Finished results are on disk before the next case starts.
@@ -84,10 +108,11 @@ int run(const StressOptions& options) {
   std::vector<std::string> skipped;
   std::vector<StressResult> results;
   bool met = true;
-  const std::vector<cases::HardCase> hard = read_all(options, skipped);
-  claim_folder(options.out);
-  for (const cases::HardCase& hard_case : hard) {
-    results.push_back(stress(hard_case, options.n_threads));
+  const std::vector<cases::Case> hard = read_all(options, skipped);
+  const FinishedCases finished(options.out, {});
+  for (const cases::Case& hard_case : hard) {
+    results.push_back(
+        judge_stress(hard_case, options.n_threads, answers_to(hard_case, finished, options.n_threads)));
     met = met && results.back().met();
     if (rank != 0) continue;
     if (!options.json) write_stress_text(std::cout, results.back());

@@ -1,5 +1,6 @@
 #include "compare/gates/judge.hpp"
 
+#include "cases/case/names.hpp"
 #include "compare/measure/measure.hpp"
 
 #include <algorithm>
@@ -63,6 +64,13 @@ std::string warning_of(const Gate& gate, const StudiedMeasure* study) {
   return "the reference has no error bar" + (study && !study->reason.empty() ? ": " + study->reason : "");
 }
 
+bool is_finite(const cases::Solution& s) {
+  return std::isfinite(s.residual) && std::isfinite(s.load_reached) &&
+         std::isfinite(s.lowest_eigenvalue.value_or(0)) &&
+         std::all_of(s.displacement.begin(), s.displacement.end(),
+                     [](const Eigen::Vector3d& u) { return u.allFinite(); });
+}
+
 } // namespace
 
 Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
@@ -109,6 +117,31 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     gates.push_back(gate);
   }
   return gates;
+}
+
+std::vector<std::string> misses(const cases::Stress& limits, const cases::ExpectedOutcome& expected,
+                                const Answer& answer) {
+  const cases::Solution& s = answer.solution;
+  std::vector<std::string> found;
+  if (s.outcome != expected.outcome)
+    found.push_back(fmt::format("outcome {}, expected {}", name_of(s.outcome), name_of(expected.outcome)));
+  if (expected.load_reached) {
+    const auto& [lower, upper] = *expected.load_reached;
+    if (!(lower <= s.load_reached && s.load_reached <= upper))
+      found.push_back(
+          fmt::format("load reached {:.5g} is outside [{:.5g}, {:.5g}]", s.load_reached, lower, upper));
+  }
+  if (expected.inverted_cells && s.inverted_cells != *expected.inverted_cells)
+    found.push_back(
+        fmt::format("{} inverted cells, expected {}", s.inverted_cells, *expected.inverted_cells));
+  const double seconds = answer.setup_seconds + answer.solve_seconds;
+  if (!(seconds <= limits.max_seconds))
+    found.push_back(fmt::format("{:.1f} s, above the limit of {:.1f} s", seconds, limits.max_seconds));
+  if (!(s.newton_iterations <= limits.max_iterations))
+    found.push_back(
+        fmt::format("{} iterations, above the limit of {}", s.newton_iterations, limits.max_iterations));
+  if (!is_finite(s)) found.emplace_back("a result is not finite");
+  return found;
 }
 
 } // namespace springproof::compare

@@ -35,4 +35,9 @@ Judgement judge(const cases::Expectation& expectation, const std::vector<Measure
 std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
                         const std::vector<MeasuredValue>& measures, const MeshStudy* study);
 
+/// What a model's answer to a hard case differs in from what is expected of it and from the case's limits;
+/// empty: nothing.
+std::vector<std::string> misses(const cases::Stress& limits, const cases::ExpectedOutcome& expected,
+                                const Answer& answer);
+
 } // namespace springproof::compare

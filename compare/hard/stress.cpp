@@ -1,33 +1,16 @@
 #include "compare/hard/stress.hpp"
 
-#include "compare/hard/stress_springs.hpp"
-#include "compare/provenance/mpi_rank.hpp"
-#include "compare/solve/solve_side.hpp"
-#include "fem_reference/model.hpp"
+#include "compare/gates/judge.hpp"
 
 #include <algorithm>
-#include <mpi.h>
 
 namespace springproof::compare {
 
 namespace {
 
-Answer solve_fem(const cases::HardCase& hard_case) {
-  const Stopwatch stopwatch;
-  return or_refused([&] {
-    const cases::Scene scene = cases::make_scene(hard_case.definition);
-    return solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-                      [&](fem_reference::Model& model) {
-                        return model.solve(
-                            limited_by(hard_case, stopwatch, fem_reference::default_settings()));
-                      });
-  });
-}
-
-const Answer* find(const StressResult& result, cases::Side side) {
-  for (const StressRow& row : result.rows)
-    if (row.expected.side == side && row.answer.solution.status == cases::Status::converged)
-      return &row.answer;
+const Answer* find_converged(const StressResult& result, const std::string& model) {
+  for (const auto& [expected, answer, misses] : result.rows)
+    if (expected.model == model && answer.solution.status == cases::Status::converged) return &answer;
   return nullptr;
 }
 
@@ -38,23 +21,34 @@ bool StressResult::met() const {
 }
 
 std::optional<double> StressResult::hybrid_over_springs() const {
-  const Answer *springs = find(*this, cases::Side::msm), *hybrid = find(*this, cases::Side::hybrid);
+  const Answer *springs = find_converged(*this, "msm"), *hybrid = find_converged(*this, "hybrid");
   if (!springs || !hybrid || !(springs->solve_seconds > 0)) return std::nullopt;
   return hybrid->solve_seconds / springs->solve_seconds;
 }
 
-StressResult stress(const cases::HardCase& hard_case, int n_threads) {
-  StressResult result;
-  result.hard_case = hard_case;
-  result.n_threads = n_threads;
-  const int rank = mpi_rank();
-  for (const cases::ExpectedOutcome& expected : hard_case.expected) {
-    const bool is_fem = expected.side == cases::Side::fem;
-    if (!is_fem && rank != 0) continue;
-    StressRow row{
-        expected, is_fem ? solve_fem(hard_case) : solve_springs(expected.side, hard_case, n_threads), {}};
-    row.misses = misses(hard_case, expected, row.answer);
-    result.rows.push_back(std::move(row));
+std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads) {
+  const cases::Scene scene = cases::make_scene(hard_case);
+  std::vector<Question> jobs;
+  for (const cases::ExpectedOutcome& expected : hard_case.stress->expected) {
+    Question job{scene, {expected.side}};
+    job.request.n_threads = n_threads;
+    cases::Case& definition = job.scene.definition;
+    definition.name += " " + expected.model; // of what is kept
+    if (expected.design) {
+      definition.msm = {};
+      definition.msm.design = *expected.design;
+      definition.msm.where = hard_case.msm.where;
+    }
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+StressResult judge_stress(const cases::Case& hard_case, int n_threads, const std::vector<Answer>& answers) {
+  StressResult result{hard_case, n_threads, {}};
+  for (std::size_t r = 0; r < answers.size(); ++r) {
+    const cases::ExpectedOutcome& expected = hard_case.stress->expected[r];
+    result.rows.push_back({expected, answers[r], misses(*hard_case.stress, expected, answers[r])});
   }
   return result;
 }

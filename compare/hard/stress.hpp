@@ -1,12 +1,11 @@
 #pragma once
 
-#include "cases/case/hard_case.hpp"
 #include "compare/solve/answers.hpp"
 
 #include <string>
 #include <vector>
 
-/// Hard cases: what became of each model, held against what must.
+/// Hard cases: the jobs that they are solved by, and what became of each model, held against what must.
 namespace springproof::compare {
 
 /// One model's way through a hard case.
@@ -17,7 +16,7 @@ struct StressRow {
 };
 
 struct StressResult {
-  cases::HardCase hard_case;
+  cases::Case hard_case;
   int n_threads = 1;
   std::vector<StressRow> rows;
   bool met() const; ///< no row misses anything
@@ -25,9 +24,12 @@ struct StressResult {
   std::optional<double> hybrid_over_springs() const;
 };
 
-/// Puts a hard case to every model that it expects something of. A model that fails is a row with its reason.
-/// Collective over MPI_COMM_WORLD; springs are solved on rank 0 alone, where alone the answer is whole.
+/// A question for each model that a hard case expects something of, named after case and model.
 /// @param n_threads  of the springs' multigrid path
-StressResult stress(const cases::HardCase& hard_case, int n_threads);
+/// @throws InputError when no scene can be made of the case
+std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads);
+
+/// Holds the answers to a hard case's jobs, in their order, against what it expects.
+StressResult judge_stress(const cases::Case& hard_case, int n_threads, const std::vector<Answer>& answers);
 
 } // namespace springproof::compare

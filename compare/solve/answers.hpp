@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cases/case/side.hpp"
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
 #include "msm/design/design.hpp"
@@ -56,6 +55,7 @@ struct Request {
   std::optional<cases::Side> only; ///< absent: both sides
   int meshes = 0;                  ///< of the finite elements' own error; 0: none
   std::string peer{};              ///< a program that is asked too; empty: none
+  int n_threads = 1;               ///< of the springs' multigrid path; numbers do not depend on it
   bool asks(cases::Side side) const { return !only || *only == side; }
 };
 

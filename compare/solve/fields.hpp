@@ -15,7 +15,7 @@ SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reaso
 SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)
 SPRINGPROOF_FIELDS(springproof::compare::Answers, resolved, choices, fem, msm, msm_source, design, refined,
                    peer)
-SPRINGPROOF_FIELDS(springproof::compare::Request, only, meshes, peer)
+SPRINGPROOF_FIELDS(springproof::compare::Request, only, meshes, peer, n_threads)
 SPRINGPROOF_FIELDS(springproof::compare::Question, scene, request)
 
 } // namespace cereal

@@ -4,6 +4,7 @@
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/solve_side.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,20 +38,25 @@ void sort_by_cost(std::vector<std::size_t>& open, const std::vector<Question>& q
 }
 
 /// When there are none: the sides that should have been solved have failed.
-Answers failed_answers(const Request& request, const std::string& reason) {
+Answers failed_answers(const Request& request, const cases::Solution& failed) {
   Answers answers;
-  for (auto& [side, answer] :
-       {std::pair(cases::Side::fem, &answers.fem), std::pair(cases::Side::msm, &answers.msm)}) {
-    if (!request.asks(side)) continue;
-    answer->solution.status = cases::Status::failed;
-    answer->solution.message = reason;
-  }
+  if (request.asks(cases::Side::fem)) answers.fem.solution = failed;
+  if (request.asks(cases::Side::msm)) answers.msm.solution = failed;
   return answers;
+}
+
+Answers failed_answers(const Request& request, const std::string& reason) {
+  cases::Solution failed;
+  failed.status = cases::Status::failed;
+  failed.message = reason;
+  return failed_answers(request, failed);
 }
 
 Answers solve_in_this_process(const Question& question, SolveFem solve_fem) {
   try {
     return solve(question.scene, question.request, solve_fem);
+  } catch (const cases::InputError& error) {
+    return failed_answers(question.request, failed_solution(error));
   } catch (const std::exception& error) {
     return failed_answers(question.request, error.what());
   }
@@ -80,7 +86,7 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
 std::string answer_job(const std::string& bytes, SolveFem solve_fem) {
   Question question;
   cases::from_bytes(bytes, question);
-  return cases::to_bytes(solve(question.scene, question.request, solve_fem));
+  return cases::to_bytes(solve_in_this_process(question, solve_fem));
 }
 
 std::vector<Answers>
@@ -133,7 +139,7 @@ std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve
           {cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
       job_of_question.push_back(j);
     } catch (const cases::InputError& error) {
-      solved[j].answers = failed_answers(request, error.what());
+      solved[j].answers = failed_answers(request, failed_solution(error));
     }
   }
   int n_done = 0;

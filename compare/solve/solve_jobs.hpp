@@ -33,7 +33,7 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
                                 const std::function<void(std::size_t question, const Answers&)>& on_answered);
 
 /// What a worker does with a question's bytes.  @return the answers' bytes
-/// @throws InputError, SolveError, cereal's exception for bytes that are no question
+/// @throws cereal's exception for bytes that are no question
 std::string answer_job(const std::string& bytes, SolveFem solve_fem);
 
 /// A question as the tables name it: a case file, settings for it, and one side or both.

@@ -19,6 +19,15 @@ inline cases::Solution failed_solution(const cases::SolveError& error) {
   return solution;
 }
 
+/// Solution of a case that no model can be made of.
+inline cases::Solution failed_solution(const cases::InputError& error) {
+  cases::Solution solution;
+  solution.status = cases::Status::failed;
+  solution.message = error.what();
+  solution.outcome = cases::Outcome::refused;
+  return solution;
+}
+
 /// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed answer.
 /// @param make_model  answers a model   @param solve  answers the model's solution
 template<class MakeModel, class Solve>

@@ -22,10 +22,9 @@ std::string eigenvalue_text(const cases::Solution& s) {
 
 void write_row(std::ostream& out, const StressRow& row) {
   const cases::Solution& s = row.answer.solution;
-  fmt::print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n",
-             cases::name_of(row.expected.side), cases::name_of(s.outcome), s.load_reached, s.residual,
-             s.newton_iterations, eigenvalue_text(s), s.inverted_cells,
-             row.answer.setup_seconds + row.answer.solve_seconds,
+  fmt::print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n", row.expected.model,
+             cases::name_of(s.outcome), s.load_reached, s.residual, s.newton_iterations, eigenvalue_text(s),
+             s.inverted_cells, row.answer.setup_seconds + row.answer.solve_seconds,
              row.misses.empty() ? "as expected" : "DIFFERS");
   for (const std::string& miss : row.misses) fmt::print(out, "         {}\n", miss);
   if (!s.message.empty()) fmt::print(out, "         {}\n", s.message);
@@ -33,7 +32,7 @@ void write_row(std::ostream& out, const StressRow& row) {
 
 Json row_to_json(const StressRow& row) {
   Json json = side_to_json(row.answer);
-  json["side"] = cases::name_of(row.expected.side);
+  json["side"] = row.expected.model;
   json["outcome"] = cases::name_of(row.answer.solution.outcome);
   json["expected"] = cases::name_of(row.expected.outcome);
   json["met"] = row.misses.empty();
@@ -44,8 +43,7 @@ Json row_to_json(const StressRow& row) {
 } // namespace
 
 void write_stress_text(std::ostream& out, const StressResult& result) {
-  const cases::Case& definition = result.hard_case.definition;
-  fmt::print(out, "{}: {}\n", definition.name, definition.description);
+  fmt::print(out, "{}: {}\n", result.hard_case.name, result.hard_case.description);
   fmt::print(out, "  {:<7}{:<21} {:>8} {:>9} {:>6} {:>11} {:>9} {:>9}\n", "model", "outcome", "load",
              "residual", "iter.", "eig. N/mm", "inverted", "seconds");
   for (const StressRow& row : result.rows) write_row(out, row);
@@ -61,7 +59,7 @@ void write_stress_summary(std::ostream& out, const std::vector<StressResult>& re
       std::count_if(results.begin(), results.end(), [](const StressResult& r) { return r.met(); });
   fmt::print(out, "{} of {} hard cases ended as expected\n", n_met, results.size());
   for (const StressResult& result : results)
-    if (!result.met()) fmt::print(out, "  DIFFERS: {}\n", result.hard_case.definition.name);
+    if (!result.met()) fmt::print(out, "  DIFFERS: {}\n", result.hard_case.name);
   for (const std::string& name : skipped)
     fmt::print(out, "  left out, because it is heavy: {} (--all runs it, or its name)\n", name);
 }
@@ -74,8 +72,8 @@ Json stress_to_json(const std::vector<StressResult>& results, const std::vector<
     Json sides = Json::array();
     for (const StressRow& row : result.rows) sides.push_back(row_to_json(row));
     const auto ratio = result.hybrid_over_springs();
-    document["cases"].push_back({{"name", result.hard_case.definition.name},
-                                 {"description", result.hard_case.definition.description},
+    document["cases"].push_back({{"name", result.hard_case.name},
+                                 {"description", result.hard_case.description},
                                  {"sides", sides},
                                  {"hybrid_over_springs_seconds", ratio},
                                  {"met", result.met()}});

@@ -1,7 +1,10 @@
 // The springs' side of the hard cases named on the command line, without finite elements and MPI: small
 // enough to be built with sanitizers whenever the tests run.
 
-#include "compare/hard/stress_springs.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/hard/stress.hpp"
+#include "compare/solve/solve_side.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <iostream>
 
@@ -11,14 +14,23 @@ int main(int argc, char** argv) {
   constexpr double slower = 30; // sanitizers and -O1 against -O3: limits of time are for the release build
   int n_missed = 0;
   for (int a = 1; a < argc; ++a) {
-    cases::HardCase hard_case = cases::read_hard_case(argv[a]);
-    hard_case.max_seconds *= slower;
-    for (const cases::ExpectedOutcome& expected : hard_case.expected) {
+    cases::Case hard_case = cases::read_hard_case(argv[a]);
+    hard_case.stress->max_seconds *= slower;
+    std::vector<compare::Answer> answers;
+    try {
+      for (const compare::Question& job : compare::jobs_for(hard_case, 1)) {
+        std::optional<msm::DesignResult> design;
+        answers.push_back(job.request.asks(cases::Side::msm) ? compare::solve_springs(job.scene, 1, design)
+                                                             : compare::Answer{});
+      }
+    } catch (const cases::InputError& error) {
+      answers.resize(hard_case.stress->expected.size());
+      for (compare::Answer& answer : answers) answer.solution = compare::failed_solution(error);
+    }
+    for (const auto& [expected, answer, found] : compare::judge_stress(hard_case, 1, answers).rows) {
       if (expected.side == cases::Side::fem) continue;
-      const compare::Answer side = compare::solve_springs(expected.side, hard_case, 1);
-      const std::vector<std::string> found = compare::misses(hard_case, expected, side);
-      std::cout << hard_case.definition.name << ' ' << cases::name_of(expected.side) << ": "
-                << cases::name_of(side.solution.outcome) << ", " << side.solve_seconds << " s" << std::endl;
+      std::cout << hard_case.name << ' ' << expected.model << ": " << cases::name_of(answer.solution.outcome)
+                << ", " << answer.solve_seconds << " s" << std::endl;
       for (const std::string& miss : found) std::cout << "  DIFFERS: " << miss << '\n';
       n_missed += found.empty() ? 0 : 1;
     }

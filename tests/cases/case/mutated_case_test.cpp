@@ -1,7 +1,6 @@
 // Damaged case files. tests/sanitize runs this under the sanitizers; tests/fuzz looks for more than 60
 // seconds.
 
-#include "cases/case/hard_case.hpp"
 #include "cases/case/read_case.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/support/case_text.hpp"

@@ -1,6 +1,5 @@
 #include "cases/case/read_case.hpp"
 
-#include "cases/case/hard_case.hpp"
 #include "cases/scene/scene.hpp"
 #include "tests/support/case_text.hpp"
 
@@ -331,13 +330,13 @@ TEST_CASE("every case file of the project is read, and its regions exist") {
       CHECK_NOTHROW(make_scene(read_case(entry.path().string())));
       continue;
     }
-    HardCase hard;
+    Case hard;
     CHECK_NOTHROW(hard = read_hard_case(entry.path().string()));
-    CHECK(hard.definition.name == entry.path().stem().string()); // they are asked for by it
-    CHECK(hard.definition.description.size() > 40);              // a sentence
-    const bool is_refused = hard.expected.at(0).outcome == Outcome::refused;
-    if (is_refused) CHECK_THROWS_AS(make_scene(hard.definition), InputError);
-    if (!hard.is_heavy && !is_refused) CHECK_NOTHROW(make_scene(hard.definition));
+    CHECK(hard.name == entry.path().stem().string()); // they are asked for by it
+    CHECK(hard.description.size() > 40);              // a sentence
+    const bool is_refused = hard.stress->expected.at(0).outcome == Outcome::refused;
+    if (is_refused) CHECK_THROWS_AS(make_scene(hard), InputError);
+    if (!hard.stress->is_heavy && !is_refused) CHECK_NOTHROW(make_scene(hard));
   }
   CHECK(n >= 12); // the thesis's cube alone: two materials, three tests, two load sets
 }

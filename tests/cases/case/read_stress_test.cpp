@@ -1,4 +1,3 @@
-#include "cases/case/hard_case.hpp"
 #include "cases/case/read_case.hpp"
 #include "tests/support/case_text.hpp"
 
@@ -46,7 +45,7 @@ inverted_cells = 0
 outcome = "stable equilibrium"
 )";
 
-HardCase read_hard_text(const std::string& text) {
+Case read_hard_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_hard_case(folder.write("case.toml", text));
 }
@@ -54,8 +53,9 @@ HardCase read_hard_text(const std::string& text) {
 } // namespace
 
 TEST_CASE("a complete hard case is read to the last key") {
-  const HardCase hard = read_hard_text(good_stress);
-  CHECK(hard.definition.name == "cube");
+  const Case definition = read_hard_text(good_stress);
+  CHECK(definition.name == "cube");
+  const Stress& hard = definition.stress.value();
   CHECK_FALSE(hard.is_heavy);
   CHECK(hard.start == Start::perturbed);
   CHECK(hard.amplitude == 0.3);
@@ -63,12 +63,13 @@ TEST_CASE("a complete hard case is read to the last key") {
   CHECK(hard.least_load_steps == 5);
   CHECK(hard.max_seconds == 10);
   CHECK(hard.max_iterations == 100);
-  CHECK_FALSE(hard.stiffness.has_value());
+  CHECK(definition.msm.design != Design::given);
   REQUIRE(hard.stiffer.has_value());
   CHECK(hard.stiffer->axis == Axis::z);
   CHECK(hard.stiffer->beyond == 1);
   CHECK(hard.stiffer->factor == 1e6);
   REQUIRE(hard.expected.size() == 2);
+  CHECK(hard.expected[0].model == "msm");
   CHECK(hard.expected[0].side == Side::msm);
   CHECK(hard.expected[0].outcome == Outcome::limit_point);
   CHECK(hard.expected[0].load_reached == std::array<double, 2>{0.7, 0.8});
@@ -79,9 +80,10 @@ TEST_CASE("a complete hard case is read to the last key") {
 }
 
 TEST_CASE("springs of any sign may be given to a hard case") {
-  const HardCase hard = read_hard_text(
+  const Case hard = read_hard_text(
       case_text::replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
-  CHECK(hard.stiffness == std::array<double, 3>{31, -20, 33});
+  CHECK(hard.msm.design == Design::given);
+  CHECK(hard.msm.stiffness == std::array<double, 3>{31, -20, 33});
 }
 
 TEST_CASE("every mistake in [stress] is refused where it is made") {

@@ -1,6 +1,8 @@
 #include "compare/hard/stress.hpp"
 
-#include "compare/hard/stress_springs.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/gates/judge.hpp"
+#include "compare/solve/solve_side.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -12,13 +14,13 @@ using compare::misses;
 namespace {
 
 const cases::ExpectedOutcome limit_point{
-    cases::Side::msm, cases::Outcome::limit_point, std::array<double, 2>{0.7, 0.8}, 0, {}};
+    "msm", cases::Side::msm, {}, cases::Outcome::limit_point, std::array<double, 2>{0.7, 0.8}, 0};
 
-cases::HardCase allowing(double seconds, int iterations) {
-  cases::HardCase hard_case;
-  hard_case.max_seconds = seconds;
-  hard_case.max_iterations = iterations;
-  return hard_case;
+cases::Stress allowing(double seconds, int iterations) {
+  cases::Stress limits;
+  limits.max_seconds = seconds;
+  limits.max_iterations = iterations;
+  return limits;
 }
 
 compare::Answer as_expected() {
@@ -79,17 +81,35 @@ TEST_CASE("what is not a number is never as expected") {
 }
 
 TEST_CASE("a model that cannot be made is refused, with the reason") {
-  const compare::Answer side =
-      compare::or_refused([]() -> compare::Answer { throw cases::InputError("no such body"); });
-  CHECK(side.solution.outcome == cases::Outcome::refused);
-  CHECK(side.solution.status == cases::Status::failed);
-  CHECK(side.solution.message == "no such body");
+  const cases::Solution solution = compare::failed_solution(cases::InputError("no such body"));
+  CHECK(solution.outcome == cases::Outcome::refused);
+  CHECK(solution.status == cases::Status::failed);
+  CHECK(solution.message == "no such body");
+}
+
+TEST_CASE("each model of a hard case is a job of its own, the hybrid one of springs of that design") {
+  const std::string file = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/hard/torsion_90.toml";
+  const cases::Case hard_case = cases::read_hard_case(file);
+  const std::vector<compare::Question> jobs = compare::jobs_for(hard_case, 2);
+  REQUIRE(jobs.size() == 3);
+  const char* names[] = {"torsion_90 msm", "torsion_90 hybrid", "torsion_90 fem"};
+  for (std::size_t j = 0; j < 3; ++j) {
+    CHECK(jobs[j].scene.definition.name == names[j]);
+    CHECK(jobs[j].request.only == (j < 2 ? cases::Side::msm : cases::Side::fem));
+    CHECK(jobs[j].request.n_threads == 2);
+    CHECK(jobs[j].scene.definition.msm.design ==
+          (j == 1 ? cases::Design::hybrid : cases::Design::linear_method));
+  }
+  const compare::StressResult judged = compare::judge_stress(hard_case, 2, {3, compare::Answer{}});
+  REQUIRE(judged.rows.size() == 3);
+  CHECK_FALSE(judged.met());
+  CHECK(judged.rows[1].expected.model == "hybrid");
 }
 
 TEST_CASE("the hybrid's time is compared with the springs' where both found an equilibrium") {
   compare::StressResult result;
   compare::StressRow springs{limit_point, as_expected(), {}}, hybrid = springs;
-  hybrid.expected.side = cases::Side::hybrid;
+  hybrid.expected.model = "hybrid";
   hybrid.answer.solve_seconds = 3;
   result.rows = {springs, hybrid};
   CHECK_FALSE(result.hybrid_over_springs().has_value());
