@@ -24,6 +24,7 @@ struct CommandOptions {
   DesignOptions design;
   bool compare = false, pareto = false, measure = false, json = false;
   std::string out;
+  bool has_many() const { return compare || pareto; }
 };
 
 std::vector<DesignAttempt> attempts_of(const CommandOptions& options, const msm::DesignRequest& request) {
@@ -34,24 +35,12 @@ std::vector<DesignAttempt> attempts_of(const CommandOptions& options, const msm:
 
 Json to_json(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
   Json document{{"schema", 1}};
-  if (options.compare || options.pareto) {
-    document["methods"] = Json::array();
-    for (const DesignAttempt& a : attempts) document["methods"].push_back(attempt_to_json(a));
-  } else {
+  if (!options.has_many())
     document.update(attempt_to_json(attempts.front()));
-  }
+  else
+    for (const DesignAttempt& a : attempts) document["methods"].push_back(attempt_to_json(a));
   return document;
 }
-
-void write_text(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
-  if (options.compare || options.pareto)
-    write_comparison_text(std::cout, attempts);
-  else
-    write_design_text(std::cout, attempts.front());
-}
-
-/// The stiffnesses that the thesis prints for its Ogden reference (eq. 5.12), of a 1 mm cell.
-constexpr msm::CellStiffness published_ogden = {0.014, 0.017, 0.063, 0};
 
 void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest& request,
                              const msm::CellStiffness& design) {
@@ -61,9 +50,9 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
   plot_contributions(folder, "contributions", {{"", design, edge, reference.axial_strain}});
   plot_incompressible_family(folder);
   std::vector<msm::CellStiffness> others;
+  // The stiffnesses that the thesis prints for its Ogden reference (eq. 5.12), of a 1 mm cell.
   if (std::holds_alternative<cases::Ogden>(request.material))
-    others.push_back({edge * published_ogden.edge, edge * published_ogden.face_diagonal,
-                      edge * published_ogden.internal_diagonal, 0});
+    others.push_back({edge * 0.014, edge * 0.017, edge * 0.063, 0});
   plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
 }
 
@@ -72,7 +61,7 @@ void write_files(const CommandOptions& options, const msm::DesignRequest& reques
   write_file(options.out + "/design.json",
              [&](std::ostream& out) { out << to_json(options, attempts).dump(2) << '\n'; });
   if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
-  if (options.compare || options.pareto) return;
+  if (options.has_many()) return;
   if (request.options.design == cases::Design::linear_method)
     plot_linear_method(options.out, *cases::value_of<cases::Element>(options.design.element));
   if (request.options.design == cases::Design::nonlinear_method)
@@ -84,12 +73,13 @@ int run(const CommandOptions& options) {
   claim_folder(options.out);
   std::vector<DesignAttempt> attempts = attempts_of(options, request);
   if (options.measure) measure_on_cube(attempts, request);
-  const int rank = mpi_rank();
-  if (rank != 0) return 0;
+  if (mpi_rank() != 0) return 0;
   if (options.json)
     std::cout << to_json(options, attempts).dump(2) << '\n';
+  else if (options.has_many())
+    write_comparison_text(std::cout, attempts);
   else
-    write_text(options, attempts);
+    write_design_text(std::cout, attempts.front());
   if (!options.out.empty()) write_files(options, request, attempts);
   return 0;
 }

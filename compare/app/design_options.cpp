@@ -2,11 +2,11 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/scene/scene.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/design.hpp"
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <numeric>
 
 namespace springproof::compare {
 
@@ -20,24 +20,15 @@ cases::Ogden rivlin(double c10, double c01) {
 }
 
 cases::Ogden checked(const cases::Ogden& ogden) {
-  double shear_modulus = 0;
-  for (const double mu : ogden.mu) shear_modulus += mu;
+  const double shear_modulus = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0);
   if (ogden.mu.size() != ogden.alpha.size())
     throw cases::InputError("command line: --ogden-mu and --ogden-alpha must be equally many numbers");
-  for (const double alpha : ogden.alpha)
-    if (alpha == 0) throw cases::InputError("command line: --ogden-alpha: none may be 0");
+  if (std::count(ogden.alpha.begin(), ogden.alpha.end(), 0) > 0)
+    throw cases::InputError("command line: --ogden-alpha: none may be 0");
   if (!(shear_modulus > 0))
     throw cases::InputError("command line: the initial shear modulus must be positive, it is " +
                             std::to_string(shear_modulus) + " MPa");
   return ogden;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw cases::InputError(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 int n_materials(const DesignOptions& o) {
@@ -65,11 +56,10 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
 }
 
 std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
-  if (!o.curve_file.empty()) return msm::read_curve(content(o.curve_file), o.curve_file);
-  const double strain =
-      o.largest_strain > 0 ? o.largest_strain : 0.4; // the range of the thesis's Ogden reference
-  if (!o.yeoh.empty()) return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, strain});
-  return std::nullopt;
+  if (!o.curve_file.empty()) return msm::read_curve(read_file(o.curve_file), o.curve_file);
+  if (o.yeoh.empty()) return std::nullopt;
+  const double thesis_end = 0.4; // of its Ogden reference
+  return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, o.largest_strain > 0 ? o.largest_strain : thesis_end});
 }
 
 msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element element) {

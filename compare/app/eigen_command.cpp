@@ -1,4 +1,3 @@
-#include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/scene/scene.hpp"
 #include "compare/app/commands.hpp"
@@ -6,9 +5,7 @@
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "fem_reference/element_stiffness.hpp"
 
-#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,49 +22,36 @@ struct EigenOptions {
   bool json = false;
 };
 
-struct Cell {
-  msm::CellVertices vertices;
-  cases::LinearElastic material;
-  msm::CellMatrix fem, msm;
-};
-
-Cell make_cell(const DesignOptions& options) {
-  const msm::DesignRequest request = request_from(options);
-  cases::LinearElastic material = msm::small_strain_material(request.material);
-  if (!(material.poissons_ratio < 0.5))
-    throw cases::InputError("eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5");
-  const cases::Element element = *cases::value_of<cases::Element>(options.element);
-  return {request.cell, material, fem_reference::element_stiffness(request.cell, material, element),
-          msm::cell_stiffness_matrix(request.cell, msm::design(request).stiffness)};
-}
-
 /// The body whose modes are compared: the case's, or a cube of cells.
-std::optional<cases::HexMesh> body_of(const EigenOptions& options, const Cell& cell) {
-  if (!options.design.case_file.empty())
-    return cases::make_scene(cases::read_case(options.design.case_file)).mesh;
+std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::CellVertices& cell) {
+  const std::string& file = options.design.case_file;
+  if (!file.empty()) {
+    cases::HexMesh mesh = cases::make_scene(cases::read_case(file)).mesh;
+    if (!mesh.grid) throw cases::InputError(file + ": free modes are for bodies of equal cells");
+    return mesh;
+  }
   if (options.body_cells == 0) return std::nullopt;
-  const double edge = msm::cube_edge(cell.vertices);
   const int n = options.body_cells;
-  return cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {{n, n, n}});
+  return cases::make_box_mesh(Eigen::Vector3d::Constant(n * msm::cube_edge(cell)), {{n, n, n}});
 }
 
 int run(EigenOptions options) {
   if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
     options.design.youngs_modulus = 1;
-  const Cell cell = make_cell(options.design);
+  const msm::DesignRequest request = request_from(options.design);
+  const cases::LinearElastic material = msm::small_strain_material(request.material);
+  if (!(material.poissons_ratio < 0.5))
+    throw cases::InputError("eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5");
+  const msm::CellMatrix fem = request.element_stiffness(material);
+  const msm::CellMatrix msm = msm::cell_stiffness_matrix(request.cell, msm::design(request).stiffness);
   claim_folder(options.out);
-  const int rank = mpi_rank();
-  if (rank != 0) return 0;
-  const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(cell.fem), full_spectrum(cell.msm));
-  const std::optional<cases::HexMesh> body = body_of(options, cell);
+  if (mpi_rank() != 0) return 0;
+  const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));
+  const std::optional<cases::HexMesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
-  if (body) {
-    if (!body->grid)
-      throw cases::InputError(options.design.case_file + ": free modes are for bodies of equal cells");
-    modes = free_body_modes(assemble(*body, {cell.fem}), assemble(*body, {cell.msm}), options.n_modes);
-  }
+  if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);
   if (options.json) {
-    nlohmann::ordered_json document{{"schema", 1}, {"poissons_ratio", cell.material.poissons_ratio}};
+    nlohmann::ordered_json document{{"schema", 1}, {"poissons_ratio", material.poissons_ratio}};
     document.update(eigenspaces_to_json(analysis));
     if (modes) document["free_body"] = free_modes_to_json(*modes);
     std::cout << document.dump(2) << '\n';
@@ -76,7 +60,7 @@ int run(EigenOptions options) {
     if (modes) write_free_modes_text(std::cout, *modes);
   }
   if (options.out.empty()) return 0;
-  write_eigenspaces_files(options.out, analysis, cell.vertices);
+  write_eigenspaces_files(options.out, analysis, request.cell);
   if (modes) write_free_modes_files(options.out, *modes, *body);
   return 0;
 }

@@ -31,11 +31,6 @@ void show_progress(int done, int all) {
                            done == all ? "\n" : "");
 }
 
-void write_times(const std::vector<PhaseTime>& times) {
-  for (const PhaseTime& time : times)
-    std::cerr << fmt::format("{:<44} {:>8.2f} s\n", time.phase, time.seconds);
-}
-
 int tables(const TablesOptions& options) {
   const int rank = mpi_rank();
   const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
@@ -63,7 +58,8 @@ int tables(const TablesOptions& options) {
     write_report(options.out, results, figures);
     results.times.push_back({"report", stopwatch.lap()});
   }
-  write_times(results.times);
+  for (const auto& [phase, seconds] : results.times)
+    std::cerr << fmt::format("{:<44} {:>8.2f} s\n", phase, seconds);
   return failed;
 }
 

@@ -1,8 +1,7 @@
 #include "compare/cube/cube_benchmark.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/cube/error_sum.hpp"
-#include "compare/cube/measured_pair.hpp"
+#include "compare/measure/measure.hpp"
 #include "compare/provenance/cases_folder.hpp"
 
 #include <algorithm>
@@ -11,6 +10,17 @@
 namespace springproof::compare {
 
 namespace {
+
+const MeasuredValue* find_measure(const Comparison& comparison, const std::string& name) {
+  for (const MeasuredValue& measured : comparison.measures)
+    if (measured.name == name) return &measured;
+  return nullptr;
+}
+
+std::string why(const cases::Solution& failed) {
+  if (!(failed.load_reached > 0)) return failed.message;
+  return fmt::format("{} (reached: {:.2f} of the load)", failed.message, failed.load_reached);
+}
 
 bool is_sound(const cases::Solution& springs) {
   return springs.status == cases::Status::converged &&
@@ -27,7 +37,7 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Cub
     const cases::Case& definition = fem.scene.definition;
     for (const cases::Measure& measure : definition.measures) {
       const MeasuredPair pair = measured_pair(fem, msm, measure.name);
-      const std::optional<double> error = error_of(pair);
+      const std::optional<double> error = pair.error();
       errors.measures.push_back({definition.name, measure.name, error, error ? "" : pair.reason});
       if (!error && errors.failure.empty())
         errors.failure = fmt::format("{} {}: {}", load_set, cube_tests[t].test, pair.reason);
@@ -50,6 +60,19 @@ std::optional<double> larger(const std::optional<double>& a, const std::optional
 }
 
 } // namespace
+
+MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure) {
+  const cases::Solution &on_fem = fem.answers.fem.solution, &on_msm = msm.answers.msm.solution;
+  if (on_fem.status != cases::Status::converged) return {{}, {}, "finite elements: " + why(on_fem)};
+  const MeasuredValue *of_fem = find_measure(fem, measure), *of_msm = find_measure(msm, measure);
+  if (!of_fem) return {{}, {}, "the case has no measure " + measure};
+  if (on_msm.status != cases::Status::converged) return {of_fem->fem, {}, "springs: " + why(on_msm)};
+  return {of_fem->fem, of_msm ? of_msm->msm : std::nullopt, ""};
+}
+
+std::optional<double> MeasuredPair::error() const {
+  return fem && msm ? error_percent(*fem, *msm) : std::nullopt;
+}
 
 cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge) {
   const bool is_ogden = std::holds_alternative<cases::Ogden>(material);

@@ -3,6 +3,8 @@
 #include "compare/gates/comparison.hpp"
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,34 @@
 /// Loads grow with E L0², so that the strains, and with them all errors in percent, depend neither on Young's
 /// modulus nor on the cells' edge.
 namespace springproof::compare {
+
+/// A measure on the two sides of a case that were solved apart.
+struct MeasuredPair {
+  std::optional<double> fem, msm;
+  std::string reason;                  ///< why one is missing; empty when both are there
+  std::optional<double> error() const; ///< error_percent() of both
+};
+
+/// @param fem, msm  the same case, with its finite elements and its springs solved
+MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure);
+
+/// Worst and mean of |error|, in the unit of the errors.
+struct ErrorSum {
+  int n = 0;
+  double total = 0;
+  std::optional<double> worst{};
+
+  /// @param error  finite    @return whether it is the worst so far; of equal ones the first
+  bool add(double error) {
+    const double size = std::abs(error);
+    ++n;
+    total += size;
+    if (worst && size <= *worst) return false;
+    worst = size;
+    return true;
+  }
+  std::optional<double> mean() const { return n > 0 ? std::optional(total / n) : std::nullopt; }
+};
 
 struct CubeTest {
   const char *test, *load_set;
@@ -54,6 +84,7 @@ struct LoadSetErrors {
 struct CubeErrors {
   LoadSetErrors small, large;
   std::optional<double> worst() const, worst_volume() const; ///< over both; absent when a test failed
+  bool is_stable() const { return small.is_stable && large.is_stable; }
 };
 
 /// A test with its finite elements solved, and with springs solved.

@@ -12,23 +12,20 @@ namespace springproof::compare {
 namespace {
 
 DesignAttempt designed(const std::string& name, const msm::DesignRequest& request) {
-  DesignAttempt result{name, msm::design(request), "", std::nullopt, std::nullopt};
+  DesignAttempt result{name, msm::design(request)};
   const double edge = msm::cube_edge(request.cell);
   if (edge > 0) result.stability = msm::stability_range(result.design->stiffness, edge);
   return result;
 }
 
 DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
-  const auto refused = [&](const std::exception& error) {
-    return DesignAttempt{name, std::nullopt, error.what(), std::nullopt, std::nullopt};
-  };
   request.options.design = method;
   try {
     return designed(name, request);
   } catch (const cases::InputError& error) {
-    return refused(error);
+    return {name, std::nullopt, error.what()};
   } catch (const cases::SolveError& error) {
-    return refused(error);
+    return {name, std::nullopt, error.what()};
   }
 }
 
@@ -38,12 +35,6 @@ cases::Msm given(const msm::CellStiffness& k) {
   springs.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
   springs.volume_stiffness = k.volume;
   return springs;
-}
-
-Comparison solved(const cases::Case& definition, cases::Side side) {
-  Request request;
-  request.only = side;
-  return compare_case(definition, request);
 }
 
 } // namespace
@@ -81,7 +72,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
   if (!(edge > 0)) throw cases::InputError("--measure solves the thesis's cube, whose cells are cubes");
   std::vector<Comparison> fem;
   for (const CubeTest& test : cube_tests)
-    fem.push_back(solved(cube_case(test, request.material, edge), cases::Side::fem));
+    fem.push_back(compare_case(cube_case(test, request.material, edge), {cases::Side::fem}));
   for (DesignAttempt& a : attempts) {
     if (!a.design) continue;
     std::list<Comparison> msm; // whose elements are referred to
@@ -89,7 +80,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     for (const Comparison& test : fem) {
       cases::Case definition = test.scene.definition;
       definition.msm = given(a.design->stiffness);
-      msm.push_back(solved(definition, cases::Side::msm));
+      msm.push_back(compare_case(definition, {cases::Side::msm}));
       solves.push_back({test, msm.back()});
     }
     a.cube = cube_errors(solves);
@@ -103,14 +94,12 @@ double stable_strain(const msm::StabilityRange& range) {
 std::vector<bool> on_pareto_front(const std::vector<DesignAttempt>& attempts) {
   const auto is_measured = [](const DesignAttempt& a) { return a.stability && a.cube && a.cube->worst(); };
   std::vector<bool> front;
-  for (const DesignAttempt& a : attempts) {
-    const bool beaten =
-        is_measured(a) && std::any_of(attempts.begin(), attempts.end(), [&](const DesignAttempt& b) {
-          return is_measured(b) && *b.cube->worst() < *a.cube->worst() &&
-                 stable_strain(*b.stability) > stable_strain(*a.stability);
-        });
-    front.push_back(is_measured(a) && !beaten);
-  }
+  for (const DesignAttempt& a : attempts)
+    front.push_back(is_measured(a) &&
+                    std::none_of(attempts.begin(), attempts.end(), [&](const DesignAttempt& b) {
+                      return is_measured(b) && *b.cube->worst() < *a.cube->worst() &&
+                             stable_strain(*b.stability) > stable_strain(*a.stability);
+                    }));
   return front;
 }
 

@@ -15,9 +15,9 @@ namespace springproof::compare {
 struct DesignAttempt {
   std::string name;
   std::optional<msm::DesignResult> design;
-  std::string refusal;                          ///< why there is no design
-  std::optional<msm::StabilityRange> stability; ///< of a cubical cell's lattice
-  std::optional<CubeErrors> cube;               ///< when measured
+  std::string refusal{};                          ///< why there is no design
+  std::optional<msm::StabilityRange> stability{}; ///< of a cubical cell's lattice
+  std::optional<CubeErrors> cube{};               ///< when measured
 };
 
 /// The request's own method.  @throws InputError, SolveError

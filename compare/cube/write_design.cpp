@@ -5,8 +5,10 @@
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
 
+#include <array>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -14,39 +16,47 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// An end of the search is a bound, not a limit that was found.
-std::string limit(double found, double end) {
-  return found == end ? fmt::format("beyond {:.2f}", end) : fmt::format("{:.3f}", found);
+/// The ends of stable stretch, compression and simple shear. An end of the search is a bound, not a limit
+/// that was found.
+std::array<std::string, 3> limits(const std::optional<msm::StabilityRange>& range) {
+  if (!range) return {"-", "-", "-"};
+  const auto limit = [](double found, double end) {
+    return found == end ? fmt::format("beyond {:.2f}", end) : fmt::format("{:.3f}", found);
+  };
+  return {limit(range->stretch, msm::search_ends.stretch),
+          limit(range->compression, msm::search_ends.compression),
+          limit(range->shear, msm::search_ends.shear)};
 }
 
-std::string percent(const std::optional<double>& error) {
-  return error ? fmt::format("{:+.2f}", *error) : "failed";
+std::array<double, 3> newton_per_metre(const msm::CellStiffness& k) {
+  return {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
 }
 
-/// A column per measure, then what they come to.
-void write_load_set(std::ostream& out, const std::string& name,
-                    const std::vector<std::pair<std::string, const LoadSetErrors*>>& designs) {
-  if (designs.empty()) return;
-  fmt::print(out, "\nerrors on the cube under {} loads, %\n{:<17}", name, "");
-  for (const CubeError& m : designs.front().second->measures) fmt::print(out, "{:>10}", m.measure);
-  fmt::print(out, "{:>8}{:>8}{:>8}\n", "worst", "mean", "stable");
-  for (const auto& [design, errors] : designs) {
-    fmt::print(out, "{:<17}", design);
-    for (const CubeError& m : errors->measures) fmt::print(out, "{:>10}", percent(m.error_percent));
-    for (const auto& of_all : {errors->worst, errors->mean})
-      fmt::print(out, "{:>8}", of_all ? fmt::format("{:.2f}", *of_all) : "-");
-    fmt::print(out, "{:>8}\n", errors->is_stable ? "yes" : "NO");
-  }
-}
-
+/// For either load set a column per measure, then what they come to.
 void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
   for (const auto& [name, load_set] :
        {std::pair("small", &CubeErrors::small), std::pair("large", &CubeErrors::large)}) {
-    std::vector<std::pair<std::string, const LoadSetErrors*>> designs;
-    for (const DesignAttempt& a : attempts)
-      if (a.cube) designs.emplace_back(a.name, &((*a.cube).*load_set));
-    write_load_set(out, name, designs);
+    bool is_first = true;
+    for (const DesignAttempt& a : attempts) {
+      if (!a.cube) continue;
+      const LoadSetErrors& errors = (*a.cube).*load_set;
+      if (std::exchange(is_first, false)) {
+        fmt::print(out, "\nerrors on the cube under {} loads, %\n{:<17}", name, "");
+        for (const CubeError& m : errors.measures) fmt::print(out, "{:>10}", m.measure);
+        fmt::print(out, "{:>8}{:>8}{:>8}\n", "worst", "mean", "stable");
+      }
+      fmt::print(out, "{:<17}", a.name);
+      for (const CubeError& m : errors.measures)
+        fmt::print(out, "{:>10}", m.error_percent ? fmt::format("{:+.2f}", *m.error_percent) : "failed");
+      for (const auto& of_all : {errors.worst, errors.mean})
+        fmt::print(out, "{:>8}", of_all ? fmt::format("{:.2f}", *of_all) : "-");
+      fmt::print(out, "{:>8}\n", errors.is_stable ? "yes" : "NO");
+    }
   }
+}
+
+Json range_to_json(const msm::StabilityRange& range) {
+  return {{"stretch", range.stretch}, {"compression", range.compression}, {"simple_shear", range.shear}};
 }
 
 Json cube_to_json(const CubeErrors& cube) {
@@ -56,12 +66,9 @@ Json cube_to_json(const CubeErrors& cube) {
       measures.push_back({{"case", m.test}, {"measure", m.measure}, {"error_percent", m.error_percent}});
       if (!m.error_percent) measures.back()["message"] = m.message;
     }
-  return {{"worst_error_percent", cube.worst()},
-          {"worst_volume_error_percent", cube.worst_volume()},
-          {"stable", cube.small.is_stable && cube.large.is_stable},
-          {"small", errors_to_json(cube.small)},
-          {"large", errors_to_json(cube.large)},
-          {"measures", measures}};
+  return {{"worst_error_percent", cube.worst()}, {"worst_volume_error_percent", cube.worst_volume()},
+          {"stable", cube.is_stable()},          {"small", errors_to_json(cube.small)},
+          {"large", errors_to_json(cube.large)}, {"measures", measures}};
 }
 
 } // namespace
@@ -70,19 +77,18 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   const msm::DesignResult& design = *attempt.design;
   const msm::CellStiffness& k = design.stiffness;
   const msm::LatticeModuli& m = design.moduli;
-  fmt::print(out, "{}\n  k_e, k_f, k_d    {:.6g}, {:.6g}, {:.6g} N/m\n", attempt.name, 1e3 * k.edge,
-             1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  fmt::print(out, "{}\n  k_e, k_f, k_d    {:.6g} N/m\n", attempt.name, fmt::join(newton_per_metre(k), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
   fmt::print(out, "  lattice          C11 {:.6g}, C12 {:.6g}, C44 {:.6g} MPa, Zener ratio {:.4f}\n", m.c11,
              m.c12, m.c44, m.zener);
   fmt::print(out, "  along its axes   E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus,
              m.poissons_ratio, m.shear_modulus);
-  if (attempt.stability)
-    fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n",
-               limit(attempt.stability->stretch, msm::search_ends.stretch),
-               limit(attempt.stability->compression, msm::search_ends.compression),
-               limit(attempt.stability->shear, msm::search_ends.shear));
+  if (attempt.stability) {
+    const auto [stretch, compression, shear] = limits(attempt.stability);
+    fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n", stretch,
+               compression, shear);
+  }
   for (const std::string& warning : design.warnings) fmt::print(out, "  WARNING: {}\n", warning);
   write_cube_errors(out, {attempt});
 }
@@ -97,13 +103,12 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
     }
     const msm::CellStiffness& k = a.design->stiffness;
     const msm::LatticeModuli& m = a.design->moduli;
-    fmt::print(out,
-               "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
-               a.name, 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal, k.volume,
-               m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
-               a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-",
-               a.stability ? limit(a.stability->stretch, msm::search_ends.stretch) : "-",
-               a.stability ? limit(a.stability->compression, msm::search_ends.compression) : "-");
+    const auto [edge, face, internal] = newton_per_metre(k);
+    const auto [stretch, compression, shear] = limits(a.stability);
+    fmt::print(
+        out, "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
+        a.name, edge, face, internal, k.volume, m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
+        a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-", stretch, compression);
     for (const std::string& warning : a.design->warnings) fmt::print(out, "  WARNING: {}\n", warning);
   }
   write_cube_errors(out, attempts);
@@ -119,11 +124,10 @@ Json errors_to_json(const LoadSetErrors& errors) {
 Json attempt_to_json(const DesignAttempt& attempt) {
   if (!attempt.design) return {{"method", attempt.name}, {"refused", attempt.refusal}};
   const msm::DesignResult& design = *attempt.design;
-  const msm::CellStiffness& k = design.stiffness;
   const msm::LatticeModuli& m = design.moduli;
   Json document{{"method", attempt.name},
-                {"stiffness_N_per_m", {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal}},
-                {"volume_stiffness_MPa", k.volume},
+                {"stiffness_N_per_m", newton_per_metre(design.stiffness)},
+                {"volume_stiffness_MPa", design.stiffness.volume},
                 {"residual", design.residual},
                 {"moduli",
                  {{"C11", m.c11},
@@ -135,14 +139,10 @@ Json attempt_to_json(const DesignAttempt& attempt) {
                   {"shear_modulus", m.shear_modulus}}},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
-  if (attempt.stability)
-    document["stability"] = {{"stretch", attempt.stability->stretch},
-                             {"compression", attempt.stability->compression},
-                             {"simple_shear", attempt.stability->shear},
-                             {"searched",
-                              {{"stretch", msm::search_ends.stretch},
-                               {"compression", msm::search_ends.compression},
-                               {"simple_shear", msm::search_ends.shear}}}};
+  if (attempt.stability) {
+    document["stability"] = range_to_json(*attempt.stability);
+    document["stability"]["searched"] = range_to_json(msm::search_ends);
+  }
   if (attempt.cube) document["cube"] = cube_to_json(*attempt.cube);
   return document;
 }
@@ -152,11 +152,9 @@ void plot_pareto_front(const std::string& folder, const std::vector<DesignAttemp
   write_file(folder + "/pareto.csv", [&](std::ostream& out) {
     CsvWriter csv(out, 6);
     csv.row("# design", "worst_error_percent", "stable_strain", "on_front");
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-      const DesignAttempt& a = attempts[i];
-      if (a.cube && a.cube->worst() && a.stability)
+    for (std::size_t i = 0; i < attempts.size(); ++i)
+      if (const DesignAttempt& a = attempts[i]; a.cube && a.cube->worst() && a.stability)
         csv.row(a.name, a.cube->worst(), stable_strain(*a.stability), front[i] ? 1 : 0);
-    }
   });
   draw(folder, "pareto", "pareto", {{"width", 900.}});
 }

@@ -1,6 +1,7 @@
 #include "compare/modes/eigenspaces.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -8,43 +9,14 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double same_eigenvalue =
-    1e-6;                              // of the largest: thesis's printed multiplicities, far above round-off
-constexpr double same_subspace = 1e-6; // on the cosine of the largest angle
+constexpr double same_eigenvalue = 1e-6; // of the largest: multiplicities as printed, far above round-off
+constexpr double same_subspace = 1e-6;   // on the cosine of the largest angle
 
-bool spans_the_same(const Eigen::MatrixXd& v, const Eigen::MatrixXd& w) {
-  if (v.cols() != w.cols()) return false;
-  const Eigen::VectorXd cosines = Eigen::JacobiSVD<Eigen::MatrixXd>(v.transpose() * w).singularValues();
-  return cosines.minCoeff() > 1 - same_subspace;
-}
-
-std::vector<Equivalence> find_equivalent(const EigenspaceAnalysis& analysis) {
-  std::vector<Equivalence> found;
-  for (std::size_t i = 0; i < analysis.fem_spaces.size(); ++i)
-    for (std::size_t j = 0; j < analysis.msm_spaces.size(); ++j) {
-      const Eigenspace &fem = analysis.fem_spaces[i], &msm = analysis.msm_spaces[j];
-      if (spans_the_same(basis(analysis.fem, fem), basis(analysis.msm, msm)))
-        found.push_back({static_cast<int>(i), static_cast<int>(j), std::abs(msm.offset - fem.offset)});
-    }
-  return found;
-}
-
-Eigen::MatrixXd couple(const EigenspaceAnalysis& analysis) {
-  Eigen::MatrixXd coupling(analysis.fem_spaces.size(), analysis.msm_spaces.size());
-  for (Eigen::Index i = 0; i < coupling.rows(); ++i)
-    for (Eigen::Index j = 0; j < coupling.cols(); ++j) {
-      const Eigen::MatrixXd v = basis(analysis.fem, analysis.fem_spaces[static_cast<std::size_t>(i)]);
-      const Eigen::MatrixXd w = basis(analysis.msm, analysis.msm_spaces[static_cast<std::size_t>(j)]);
-      coupling(i, j) = (v.transpose() * w).squaredNorm() / static_cast<double>(v.cols());
-    }
-  return coupling;
-}
-
-double quality(const std::vector<Equivalence>& equivalent, std::size_t n_fem_spaces) {
-  double h = 0;
-  for (const Equivalence& e : equivalent)
-    h += (e.fem_space + 1) / static_cast<double>(n_fem_spaces) / (e.distance + 1);
-  return h;
+/// @param product  of one's transposed basis and the other's: the cosines of their angles are its singular
+/// values
+bool are_the_same(const Eigen::MatrixXd& product) {
+  return product.rows() == product.cols() &&
+         Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff() > 1 - same_subspace;
 }
 
 } // namespace
@@ -66,14 +38,21 @@ Eigen::MatrixXd basis(const Spectrum& spectrum, const Eigenspace& space) {
 }
 
 EigenspaceAnalysis analyse_eigenspaces(Spectrum fem, Spectrum msm) {
-  EigenspaceAnalysis analysis;
-  analysis.fem = std::move(fem);
-  analysis.msm = std::move(msm);
+  EigenspaceAnalysis analysis{std::move(fem), std::move(msm), {}, {}, {}, {}, 0};
   analysis.fem_spaces = cluster(analysis.fem.values);
   analysis.msm_spaces = cluster(analysis.msm.values);
-  analysis.equivalent = find_equivalent(analysis);
-  analysis.coupling = couple(analysis);
-  analysis.h = quality(analysis.equivalent, analysis.fem_spaces.size());
+  const std::size_t n_fem = analysis.fem_spaces.size(), n_msm = analysis.msm_spaces.size();
+  analysis.coupling.resize(n_fem, n_msm);
+  for (std::size_t i = 0; i < n_fem; ++i)
+    for (std::size_t j = 0; j < n_msm; ++j) {
+      const Eigenspace &v = analysis.fem_spaces[i], &w = analysis.msm_spaces[j];
+      const Eigen::MatrixXd product = basis(analysis.fem, v).transpose() * basis(analysis.msm, w);
+      analysis.coupling(i, j) = product.squaredNorm() / v.dimension;
+      if (!are_the_same(product)) continue;
+      const int distance = std::abs(w.offset - v.offset);
+      analysis.equivalent.push_back({i, j, distance});
+      analysis.h += static_cast<double>(i + 1) / static_cast<double>(n_fem) / (distance + 1);
+    }
   return analysis;
 }
 
@@ -93,6 +72,64 @@ Eigen::MatrixXd canonical_basis(const Eigen::MatrixXd& basis) {
     remaining -= direction * (direction.transpose() * remaining);
   }
   return canonical;
+}
+
+namespace {
+
+constexpr int n_rigid_modes = 6;
+constexpr int n_beyond = 8; // computed beyond the wanted ones, so that the last eigenspace wanted is whole
+
+/// Deforming eigenspaces that end within the wanted modes.
+std::vector<Eigenspace> whole_spaces(const Spectrum& spectrum, int last) {
+  std::vector<Eigenspace> spaces;
+  const double largest = spectrum.values.maxCoeff();
+  for (const Eigenspace& space : cluster(spectrum.values))
+    if (space.offset + space.dimension <= last && space.eigenvalue > 1e-6 * largest) spaces.push_back(space);
+  return spaces;
+}
+
+ModePair match(const Eigenspace& fem, const FreeBodyModes& modes, const std::vector<Eigenspace>& candidates) {
+  const Eigen::MatrixXd v = basis(modes.fem, fem);
+  ModePair best{fem, {}, 0, 90};
+  double overlap = -1;
+  for (const Eigenspace& candidate : candidates) {
+    const Eigen::MatrixXd product = v.transpose() * basis(modes.msm, candidate);
+    if (!(product.squaredNorm() > overlap)) continue;
+    overlap = product.squaredNorm();
+    const double cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
+    best = {fem, candidate, candidate.eigenvalue / fem.eigenvalue,
+            std::acos(std::min(1.0, cosine)) * 180 / M_PI};
+  }
+  return best;
+}
+
+} // namespace
+
+Eigen::SparseMatrix<double> assemble(const cases::HexMesh& mesh, const msm::CellMatrix& cell) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(mesh.cells.size() * 576);
+  for (const std::array<int, 8>& nodes : mesh.cells) {
+    const auto dof = [&](int local) { return 3 * nodes[local / 3] + local % 3; };
+    for (int row = 0; row < 24; ++row)
+      for (int column = 0; column < 24; ++column)
+        entries.emplace_back(dof(row), dof(column), cell(row, column));
+  }
+  const auto size = static_cast<Eigen::Index>(3 * mesh.nodes.size());
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+FreeBodyModes free_body_modes(const Eigen::SparseMatrix<double>& fem, const Eigen::SparseMatrix<double>& msm,
+                              int n_modes) {
+  const int size = static_cast<int>(fem.rows());
+  const int last = std::min(size, n_rigid_modes + n_modes);
+  const int n_pairs = std::min(size, last + n_beyond);
+  FreeBodyModes modes{lowest_spectrum(fem, n_pairs), lowest_spectrum(msm, n_pairs), {}};
+  const std::vector<Eigenspace> candidates = whole_spaces(modes.msm, n_pairs);
+  for (const Eigenspace& space : whole_spaces(modes.fem, last))
+    modes.pairs.push_back(match(space, modes, candidates));
+  return modes;
 }
 
 } // namespace springproof::compare

@@ -1,13 +1,14 @@
 #pragma once
 
+#include "cases/mesh/hex_mesh.hpp"
 #include "compare/modes/spectrum.hpp"
+#include "msm/design/linear_method.hpp"
 
-#include <optional>
 #include <vector>
 
-/// The eigenspace analysis of thesis section 4.2.2: which invariant subspaces two stiffness matrices
-/// share. All results depend on the subspaces alone, not on the basis that a solver returns inside a multiple
-/// eigenvalue.
+/// The eigenspace analysis of thesis section 4.2.2: which invariant subspaces the stiffness matrices of both
+/// models share, of a cell and of a whole free body. All results depend on the subspaces alone, not on the
+/// basis that a solver returns inside a multiple eigenvalue.
 namespace springproof::compare {
 
 struct Eigenspace {
@@ -21,8 +22,8 @@ std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending);
 
 /// An FEM and an MSM eigenspace of the same dimension that span the same subspace.
 struct Equivalence {
-  int fem_space, msm_space; ///< indices from 0
-  int distance;             ///< d_i: difference of the two spaces' offsets
+  std::size_t fem_space, msm_space; ///< indices from 0
+  int distance;                     ///< d_i: difference of the two spaces' offsets
 };
 
 struct EigenspaceAnalysis {
@@ -46,5 +47,26 @@ Eigen::MatrixXd basis(const Spectrum& spectrum, const Eigenspace& space);
 /// length (the first of equals), orthonormalised, each with its largest component positive. For pictures that
 /// do not change with the solver.
 Eigen::MatrixXd canonical_basis(const Eigen::MatrixXd& basis);
+
+/// Sum of equal cells' matrices on a mesh's degrees of freedom, 3*node + component, N/mm.
+Eigen::SparseMatrix<double> assemble(const cases::HexMesh& mesh, const msm::CellMatrix& cell);
+
+/// An FEM eigenspace and the MSM eigenspace that it overlaps most.
+struct ModePair {
+  Eigenspace fem, msm;
+  double ratio;         ///< MSM's eigenvalue over FEM's
+  double angle_degrees; ///< largest principal angle between the two, over the smaller dimension
+};
+
+/// The lowest modes of a free body, both models on one mesh.
+struct FreeBodyModes {
+  Spectrum fem, msm;
+  std::vector<ModePair> pairs; ///< ascending; the six rigid modes are left out
+};
+
+/// @param n_modes  deforming modes wanted; eigenspaces that would be cut in two are left out
+/// @throws SolveError if SLEPc does not converge
+FreeBodyModes free_body_modes(const Eigen::SparseMatrix<double>& fem, const Eigen::SparseMatrix<double>& msm,
+                              int n_modes);
 
 } // namespace springproof::compare

@@ -3,8 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-/// Symmetric eigenproblems through SLEPc. PETSc must be initialised; every rank solves the whole problem by
-/// itself.
+/// Symmetric eigenproblems through SLEPc. PETSc must be initialised; every rank solves all by itself.
 namespace springproof::compare {
 
 /// Eigenvalues in ascending order and their orthonormal eigenvectors, a column each. Inside a multiple
@@ -15,14 +14,13 @@ struct Spectrum {
 };
 
 /// All eigenpairs of a small dense matrix, by LAPACK behind SLEPc's EPS.
-/// @param matrix  symmetric; only its symmetric part counts    @throws SolveError if SLEPc returns fewer
-/// pairs
+/// @param matrix  only its symmetric part counts    @throws SolveError if SLEPc returns fewer pairs
 Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
 
 /// The lowest eigenpairs of a sparse positive semidefinite matrix, by Krylov-Schur on the inverse shifted
 /// just below zero (MUMPS), so that rigid modes do no harm.
 /// @param matrix    symmetric, both triangles    @param n_pairs  at most the matrix's size
 /// @throws SolveError if fewer pairs converge to 1e-10 relative
-Spectrum lowest_spectrum(const Eigen::SparseMatrix<double>& matrix, int n_pairs);
+Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
 
 } // namespace springproof::compare

@@ -1,5 +1,11 @@
 #include "compare/modes/write_eigen.hpp"
 
+#include "compare/provenance/whole_file.hpp"
+#include "compare/write/csv.hpp"
+#include "compare/write/gnuplot.hpp"
+#include "compare/write/write.hpp"
+
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
@@ -34,12 +40,11 @@ void write_eigenspaces_text(std::ostream& out, const EigenspaceAnalysis& analysi
   fmt::print(out, "equivalent eigenspaces\n");
   for (const Equivalence& e : analysis.equivalent)
     fmt::print(out, "  fem {} = msm {}, dimension {}, distance {}\n", e.fem_space + 1, e.msm_space + 1,
-               analysis.fem_spaces[static_cast<std::size_t>(e.fem_space)].dimension, e.distance);
+               analysis.fem_spaces[e.fem_space].dimension, e.distance);
   fmt::print(out, "coupling: share of each fem space (row) in each msm space (column)\n");
-  for (Eigen::Index i = 0; i < analysis.coupling.rows(); ++i) {
-    for (Eigen::Index j = 0; j < analysis.coupling.cols(); ++j)
-      fmt::print(out, "{:>7}",
-                 analysis.coupling(i, j) < 1e-12 ? "." : fmt::format("{:.3f}", analysis.coupling(i, j)));
+  for (const auto row : analysis.coupling.rowwise()) {
+    for (const double share : row)
+      fmt::print(out, "{:>7}", share < 1e-12 ? "." : fmt::format("{:.3f}", share));
     fmt::print(out, "\n");
   }
   fmt::print(out, "N = {}, h = {:.4f}\n", analysis.fem_spaces.size(), analysis.h);
@@ -58,10 +63,8 @@ Json eigenspaces_to_json(const EigenspaceAnalysis& analysis) {
   for (const Equivalence& e : analysis.equivalent)
     equivalent.push_back(
         {{"fem_space", e.fem_space + 1}, {"msm_space", e.msm_space + 1}, {"distance", e.distance}});
-  for (Eigen::Index i = 0; i < analysis.coupling.rows(); ++i) {
-    const Eigen::VectorXd row = analysis.coupling.row(i);
-    coupling.push_back(std::vector<double>(row.data(), row.data() + row.size()));
-  }
+  for (const auto row : analysis.coupling.rowwise())
+    coupling.push_back(std::vector<double>(row.begin(), row.end()));
   return {{"h", analysis.h},
           {"fem", spaces_to_json(analysis.fem_spaces)},
           {"msm", spaces_to_json(analysis.msm_spaces)},
@@ -79,6 +82,138 @@ Json free_modes_to_json(const FreeBodyModes& modes) {
                     {"ratio", pair.ratio},
                     {"angle_degrees", pair.angle_degrees}});
   return list;
+}
+
+namespace {
+
+/// A panel's blocks: a dot for every pair of eigenvectors whose spaces are not orthogonal, lines between the
+/// eigenspaces of both cells, blocks of equivalent ones. A dot's size is the spaces' coupling, not the
+/// vectors' projection, which depends on the basis that the solver happened to return.
+void write_panel(std::ostream& out, const EigenspaceAnalysis& analysis) {
+  const auto is_equivalent = [&](std::size_t i, std::size_t j) {
+    return std::any_of(analysis.equivalent.begin(), analysis.equivalent.end(),
+                       [&](const Equivalence& e) { return e.fem_space == i && e.msm_space == j; });
+  };
+  CsvWriter csv(out);
+  csv.row("# msm_vector", "fem_vector", "size", "equivalent");
+  for (std::size_t i = 0; i < analysis.fem_spaces.size(); ++i)
+    for (std::size_t j = 0; j < analysis.msm_spaces.size(); ++j) {
+      const Eigenspace &fem = analysis.fem_spaces[i], &msm = analysis.msm_spaces[j];
+      const double share = analysis.coupling(i, j);
+      if (share < 1e-12) continue; // orthogonal: the square of round-off is left
+      for (int a = 0; a < fem.dimension; ++a)
+        for (int b = 0; b < msm.dimension; ++b)
+          csv.row(msm.offset + b + 1, fem.offset + a + 1, 0.4 + std::sqrt(share),
+                  is_equivalent(i, j) ? 1 : 0);
+    }
+  csv.end_block();
+  csv.row("# line from", "", "to");
+  for (const Eigenspace& space : analysis.msm_spaces)
+    csv.row(space.offset + 0.5, 0.5, space.offset + 0.5, 24.5);
+  for (const Eigenspace& space : analysis.fem_spaces)
+    csv.row(0.5, space.offset + 0.5, 24.5, space.offset + 0.5);
+  csv.end_block();
+  csv.row("# equivalent from", "", "to");
+  for (const Equivalence& e : analysis.equivalent) {
+    const Eigenspace &fem = analysis.fem_spaces[e.fem_space], &msm = analysis.msm_spaces[e.msm_space];
+    csv.row(msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
+            fem.offset + fem.dimension + 0.5);
+  }
+  if (analysis.equivalent.empty()) csv.row("nan", "nan", "nan", "nan"); // an empty block would not be counted
+  csv.end_block();
+}
+
+std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Index n = 0; n < vector.size() / 3; ++n) points.emplace_back(vector.segment<3>(3 * n));
+  return points;
+}
+
+cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
+  cases::HexMesh mesh;
+  mesh.nodes.assign(vertices.begin(), vertices.end());
+  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  return mesh;
+}
+
+/// The 12 edges as separate lines: rest position and displaced one.
+void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::VectorXd& mode) {
+  const double size = 0.35 * (rest[7] - rest[0]).norm() / mode.cwiseAbs().maxCoeff() / 2;
+  CsvWriter csv(out, 6);
+  for (const auto& edge : cases::cell_edges) {
+    for (const int v : edge) {
+      const Eigen::Vector3d x = rest[v], y = x + size * mode.segment<3>(3 * v);
+      csv.row(x.x(), x.y(), x.z(), y.x(), y.y(), y.z());
+    }
+    csv.end_block();
+  }
+}
+
+/// One picture for every deforming eigenspace, of its first canonical vector, with the eigenspace's number in
+/// brackets.
+void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
+                      const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
+  std::vector<cases::PointField> fields;
+  std::vector<std::string> titles;
+  for (std::size_t s = 0; s < spaces.size(); ++s) {
+    const Eigen::MatrixXd shapes = canonical_basis(basis(spectrum, spaces[s]));
+    for (Eigen::Index c = 0; c < shapes.cols(); ++c)
+      fields.push_back({fmt::format("space {} vector {}", s + 1, c + 1), as_points(shapes.col(c))});
+    if (s == 0) continue; // rigid motions
+    const std::string data = fmt::format("{}_{}.csv", name, s + 1);
+    write_file(folder + "/" + data, [&](std::ostream& out) { write_edges(out, rest, shapes.col(0)); });
+    titles.push_back(
+        fmt::format("({}) {:.3g}, dimension {}", s + 1, spaces[s].eigenvalue, spaces[s].dimension));
+  }
+  const double height = 300 * static_cast<double>((titles.size() + 2) / 3);
+  draw(folder, name, "mode_sheet", {{"titles", titles}, {"width", 900.}, {"height", height}});
+  write_file(folder + "/" + name + ".vtu",
+             [&](std::ostream& out) { write_vtu(out, cell_mesh(rest), fields); });
+}
+
+} // namespace
+
+void plot_dot_diagrams(const std::string& folder, const std::string& name,
+                       const std::vector<DotDiagram>& panels) {
+  std::vector<std::string> titles;
+  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
+    for (const DotDiagram& panel : panels) {
+      titles.push_back(fmt::format("{} h = {:.2f}", panel.title, panel.analysis->h));
+      write_panel(out, *panel.analysis);
+    }
+  });
+  const double width = 100 + 500 * static_cast<double>(panels.size());
+  draw(folder, name, "dot_diagram", {{"titles", titles}, {"width", width}, {"height", 580.}});
+}
+
+void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
+                             const msm::CellVertices& vertices) {
+  plot_dot_diagrams(folder, "dot_diagram", {{"", &analysis}});
+  write_file(folder + "/coupling.csv", [&](std::ostream& out) {
+    CsvWriter csv(out);
+    for (const auto row : analysis.coupling.rowwise()) csv.row(std::vector<double>(row.begin(), row.end()));
+  });
+  write_mode_sheet(folder, "fem_modes", analysis.fem, analysis.fem_spaces, vertices);
+  write_mode_sheet(folder, "msm_modes", analysis.msm, analysis.msm_spaces, vertices);
+}
+
+void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
+                            const cases::HexMesh& mesh) {
+  std::vector<cases::PointField> fields;
+  write_file(folder + "/body_modes.csv", [&](std::ostream& out) {
+    CsvWriter csv(out);
+    csv.row("# mode", "fem_eigenvalue", "msm_eigenvalue", "ratio", "angle_degrees");
+    for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
+      const ModePair& pair = modes.pairs[m];
+      csv.row(m + 1, pair.fem.eigenvalue, pair.msm.eigenvalue, pair.ratio, pair.angle_degrees);
+      for (const auto& [model, spectrum, space] :
+           {std::tuple("fem", &modes.fem, &pair.fem), std::tuple("msm", &modes.msm, &pair.msm)})
+        fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
+                          as_points(canonical_basis(basis(*spectrum, *space)).col(0))});
+    }
+  });
+  write_file(folder + "/body_modes.vtu", [&](std::ostream& out) { write_vtu(out, mesh, fields); });
+  draw(folder, "body_modes", "body_modes");
 }
 
 } // namespace springproof::compare

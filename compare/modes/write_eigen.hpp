@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compare/modes/eigenspaces.hpp"
-#include "compare/modes/free_modes.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>

@@ -1,14 +1,16 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/solve/solve_side.hpp"
+#include "msm/problem.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace springproof::compare {
@@ -31,24 +33,15 @@ std::string number(double value) {
 }
 
 /// A folder in the system's place for temporary files, removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "springproof-ccx-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw cases::InputError(name + ": the folder cannot be made");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+std::shared_ptr<const fs::path> temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "springproof-ccx-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw cases::InputError(name + ": the folder cannot be made");
+  return {new fs::path(name), [](const fs::path* path) {
+            std::error_code ignored;
+            fs::remove_all(*path, ignored);
+            delete path;
+          }};
+}
 
 void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
   fmt::print(out, "*NODE, NSET=NALL\n");
@@ -79,42 +72,6 @@ void write_loads(std::ostream& out, const cases::Scene& scene) {
       if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
 }
 
-} // namespace
-
-std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
-  if (!definition.moved.empty()) return "its input has no moved regions";
-  if (!definition.region_materials.empty()) return "its input has one material";
-  const cases::Fem& fem = definition.fem;
-  const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
-                               fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  if (has_formulation && fem.element == cases::Element::q1) return std::nullopt;
-  return fmt::format("CalculiX has small_strain and saint_venant_kirchhoff with element q1, not {} with {}",
-                     cases::name_of(fem.formulation), cases::name_of(fem.element));
-}
-
-void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
-  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
-  const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  fmt::print(out, "*HEADING\n{}\n", scene.definition.name);
-  write_mesh(out, scene.mesh);
-  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
-             number(material.poissons_ratio));
-  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
-  write_supports(out, scene);
-  // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
-  // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
-  // digits it prints.
-  if (is_nonlinear)
-    fmt::print(out, "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n"
-                    "*STATIC\n1., 1.\n");
-  else
-    fmt::print(out, "*STEP\n*STATIC\n");
-  write_loads(out, scene);
-  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
-}
-
-namespace {
-
 /// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
 /// displacement but a zero.
 double fortran_number(const std::string& field) {
@@ -130,33 +87,6 @@ std::optional<std::pair<std::size_t, Vector3d>> read_node_line(const std::string
   for (int a = 0; a < 3; ++a) u[a] = fortran_number(line.substr(10 + 14 * static_cast<std::size_t>(a), 14));
   return std::pair(static_cast<std::size_t>(std::strtoul(node.c_str(), nullptr, 10)), u);
 }
-
-} // namespace
-
-CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
-  CalculixOutput output;
-  std::vector<bool> seen(n_nodes);
-  bool is_displacement = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.find("displacements") != std::string::npos) {
-      is_displacement = true;
-      output.displacement.assign(n_nodes, Vector3d::Zero());
-      seen.assign(n_nodes, false);
-      const std::size_t time = line.find("time");
-      if (time != std::string::npos) output.load_reached = std::strtod(line.c_str() + time + 4, nullptr);
-      continue;
-    }
-    const auto entry = is_displacement ? read_node_line(line) : std::nullopt;
-    if (!entry || entry->first < 1 || entry->first > n_nodes) continue;
-    output.displacement[entry->first - 1] = entry->second;
-    seen[entry->first - 1] = true;
-  }
-  if (seen.empty() || std::find(seen.begin(), seen.end(), false) != seen.end())
-    throw cases::SolveError("CalculiX printed no displacement for some node", 0, 0);
-  return output;
-}
-
-namespace {
 
 /// Newton iterations of all increments, from the .sta file: step, increment, attempt, iterations, ...
 int count_iterations(std::istream& in) {
@@ -209,22 +139,85 @@ cases::Solution skipped(const std::string& message) {
   return solution;
 }
 
+/// Largest difference of two displacements over the largest displacement of the first; NaN if a number is.
+double largest_difference(const cases::Solution& a, const cases::Solution& b) {
+  using Field = Eigen::Map<const Eigen::Matrix3Xd>;
+  const Field u(a.displacement[0].data(), 3, Eigen::Index(a.displacement.size()));
+  const Field v(b.displacement[0].data(), 3, Eigen::Index(b.displacement.size()));
+  const auto largest = [](const auto& field) {
+    return field.colwise().norm().template maxCoeff<Eigen::PropagateNaN>();
+  };
+  return largest(u - v) / largest(u);
+}
+
 } // namespace
+
+std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
+  if (!definition.moved.empty()) return "its input has no moved regions";
+  if (!definition.region_materials.empty()) return "its input has one material";
+  const cases::Fem& fem = definition.fem;
+  const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
+                               fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  if (has_formulation && fem.element == cases::Element::q1) return std::nullopt;
+  return fmt::format("CalculiX has small_strain and saint_venant_kirchhoff with element q1, not {} with {}",
+                     cases::name_of(fem.formulation), cases::name_of(fem.element));
+}
+
+void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
+  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
+  const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  fmt::print(out, "*HEADING\n{}\n", scene.definition.name);
+  write_mesh(out, scene.mesh);
+  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
+             number(material.poissons_ratio));
+  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
+  write_supports(out, scene);
+  // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
+  // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
+  // digits it prints.
+  if (is_nonlinear)
+    fmt::print(out, "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n"
+                    "*STATIC\n1., 1.\n");
+  else
+    fmt::print(out, "*STEP\n*STATIC\n");
+  write_loads(out, scene);
+  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
+}
+
+CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
+  CalculixOutput output;
+  std::vector<bool> seen; // empty before the first block
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("displacements") != std::string::npos) {
+      output.displacement.assign(n_nodes, Vector3d::Zero());
+      seen.assign(n_nodes, false);
+      const std::size_t time = line.find("time");
+      if (time != std::string::npos) output.load_reached = std::strtod(line.c_str() + time + 4, nullptr);
+      continue;
+    }
+    const auto entry = seen.empty() ? std::nullopt : read_node_line(line);
+    if (!entry || entry->first < 1 || entry->first > n_nodes) continue;
+    output.displacement[entry->first - 1] = entry->second;
+    seen[entry->first - 1] = true;
+  }
+  if (seen.empty() || std::find(seen.begin(), seen.end(), false) != seen.end())
+    throw cases::SolveError("CalculiX printed no displacement for some node", 0, 0);
+  return output;
+}
 
 cases::Solution solve_with_calculix(const cases::Scene& scene) {
   if (const auto reason = reason_without_calculix(scene.definition)) return skipped(*reason);
   if (std::system("command -v ccx >/dev/null 2>&1") != 0) return skipped("CalculiX (ccx) is not installed");
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
-  const TemporaryFolder folder;
+  const auto folder = temporary_folder();
   {
-    std::ofstream input(folder.path() / "case.inp");
+    std::ofstream input(*folder / "case.inp");
     write_calculix_input(input, refined);
   }
-  const std::string command = "cd '" + folder.path().string() +
+  const std::string command = "cd '" + folder->string() +
                               "' && OMP_NUM_THREADS=1 CCX_NPROC_EQUATION_SOLVER=1 ccx -i case >ccx.log 2>&1";
   const int status = std::system(command.c_str());
-  std::ifstream log(folder.path() / "ccx.log"), data(folder.path() / "case.dat"),
-      progress(folder.path() / "case.sta");
+  std::ifstream log(*folder / "ccx.log"), data(*folder / "case.dat"), progress(*folder / "case.sta");
   const std::string error = last_error(log);
   if (status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error, 0, 0);
   const CalculixOutput output = read_calculix_output(data, refined.mesh.nodes.size());
@@ -241,11 +234,23 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   solution.displacement.assign(output.displacement.begin(),
                                output.displacement.begin() +
                                    static_cast<std::ptrdiff_t>(scene.mesh.nodes.size()));
+  msm::measure_cells(scene.mesh, solution);
   solution.cell_volume = body_cell_volumes(scene, refined, output.displacement);
-  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, c, solution.displacement)) > 0))
-      ++solution.inverted_cells;
   return solution;
+}
+
+Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem) {
+  Peer peer{"CalculiX", {}, std::nullopt};
+  Stopwatch stopwatch;
+  try {
+    peer.answer.solution = solve_with_calculix(scene);
+  } catch (const cases::SolveError& error) {
+    peer.answer.solution = failed_solution(error);
+  }
+  peer.answer.solve_seconds = stopwatch.lap();
+  if (peer.answer.solution.status == cases::Status::converged && fem.status == cases::Status::converged)
+    peer.largest_difference = largest_difference(fem, peer.answer.solution);
+  return peer;
 }
 
 } // namespace springproof::compare

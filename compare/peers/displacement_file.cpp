@@ -1,6 +1,7 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/vtk.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
+#include <set>
 #include <sstream>
 
 namespace springproof::compare {
@@ -15,13 +18,6 @@ namespace springproof::compare {
 namespace {
 
 const std::string header = "x,y,z,ux,uy,uz";
-
-std::string without_blanks(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if (c != ' ' && c != '\t' && c != '\r') result += c;
-  return result;
-}
 
 /// The numbers of a line, or nothing if it is not six finite ones between commas.
 std::vector<double> numbers_of(const std::string& line) {
@@ -37,6 +33,30 @@ std::vector<double> numbers_of(const std::string& line) {
   return values.size() == 6 ? values : std::vector<double>{};
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw cases::InputError(path + ": " + problem);
+}
+
+cases::PointCloud points_of(const std::string& text, const std::string& path) try {
+  return cases::vtk().read_unstructured_grid(text);
+} catch (const std::exception& error) {
+  refuse(path, std::string("is no complete VTK file of type UnstructuredGrid: ") + error.what());
+}
+
+/// Finds the displacements by their name, or takes the only vectors.
+const std::vector<Eigen::Vector3d>& displacements_of(const std::vector<cases::PointField>& fields,
+                                                     const std::string& path) {
+  for (const char* wanted : {"msm_displacement", "displacement"})
+    for (const cases::PointField& field : fields)
+      if (field.name == wanted) return field.values;
+  if (fields.size() == 1) return fields.front().values;
+  std::string names;
+  for (const cases::PointField& field : fields) names += " '" + field.name + "'";
+  refuse(path, "must have point data of three components (Float32 or Float64) named msm_displacement or "
+               "displacement, or only one with three components; it has" +
+                   (names.empty() ? " none" : names));
+}
+
 } // namespace
 
 std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path) {
@@ -45,7 +65,9 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     const std::string where = fmt::format("{}:{}", path, ++number);
-    const std::string plain = without_blanks(line);
+    std::string plain;
+    std::copy_if(line.begin(), line.end(), std::back_inserter(plain),
+                 [](char c) { return c != ' ' && c != '\t' && c != '\r'; });
     if (number == 1) {
       if (plain != header)
         throw cases::InputError(fmt::format("{}: is '{}', must be the header {} (mm)", where, plain, header));
@@ -59,6 +81,21 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
     nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, where});
   }
   if (number == 0) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
+  return nodes;
+}
+
+std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path) {
+  const cases::PointCloud cloud = points_of(text, path);
+  const std::vector<Eigen::Vector3d>& displacements = displacements_of(cloud.fields, path);
+  const double rounding = cloud.is_single_precision ? std::numeric_limits<float>::epsilon() : 0;
+  std::vector<GivenDisplacement> nodes;
+  std::set<std::array<double, 6>> known; // pieces have the points between them in common
+  for (std::size_t p = 0; p < displacements.size(); ++p) {
+    const Eigen::Vector3d &x = cloud.points[p], &u = displacements[p];
+    if (!x.allFinite() || !u.allFinite()) refuse(path, fmt::format("is not finite at point {}", p));
+    if (known.insert({x[0], x[1], x[2], u[0], u[1], u[2]}).second)
+      nodes.push_back({x, u, fmt::format("{}: point {}", path, p), rounding * x.norm()});
+  }
   return nodes;
 }
 

@@ -17,9 +17,9 @@ struct GivenDisplacement {
 
 /// Reads a file by its ending.
 /// .csv: the header x,y,z,ux,uy,uz and a line per node, mm.
-/// .vtu: in any encoding that VTK reads; among its point data an array of three components, Float32 or Float64,
-/// named msm_displacement or displacement, or the only one with three. Points with the same position and
-/// displacement are one node.
+/// .vtu: in any encoding that VTK reads; among its point data an array of three components, Float32 or
+/// Float64, named msm_displacement or displacement, or the only one with three. Points with the same position
+/// and displacement are one node.
 /// @throws InputError saying where, what stands there and what is allowed
 std::vector<GivenDisplacement> read_displacements(const std::string& path);
 

@@ -2,8 +2,10 @@
 
 #include "cases/case/error.hpp"
 #include "cases/mesh/vtk.hpp"
+#include "msm/problem.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -19,7 +21,7 @@ std::string shown(const Vector3d& point) {
 
 std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
                                   const std::string& path) {
-  std::vector<Vector3d> positions;
+  std::vector<Vector3d> positions, displacement;
   for (const GivenDisplacement& next : given) positions.push_back(next.position);
   const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes, positions);
   std::vector<const GivenDisplacement*> of_node(mesh.nodes.size(), nullptr);
@@ -31,13 +33,10 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
       throw cases::InputError(
           fmt::format("{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}",
                       next.where, tolerance, shown(next.position), shown(node)));
-    const GivenDisplacement*& known = of_node[nearest[g]];
-    if (known)
+    if (const GivenDisplacement* known = std::exchange(of_node[nearest[g]], &next))
       throw cases::InputError(fmt::format("{}: the node {} is given twice, first in {}", next.where,
                                           shown(next.position), known->where));
-    known = &next;
   }
-  std::vector<Vector3d> displacement;
   for (std::size_t n = 0; n < of_node.size(); ++n) {
     if (!of_node[n])
       throw cases::InputError(
@@ -68,11 +67,7 @@ Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
   solution.message = "displacements of " + external.path;
   solution.displacement = external.displacement;
   solution.load_reached = 1;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto vertices = cases::cell_vertices(mesh, c, solution.displacement);
-    solution.cell_volume.push_back(cases::cell_volume(vertices));
-    if (cases::smallest_corner_jacobian(vertices) <= 0) ++solution.inverted_cells;
-  }
+  msm::measure_cells(mesh, solution);
   return answers;
 }
 

@@ -10,7 +10,7 @@ namespace {
 using Columns = std::vector<std::optional<double>>;
 
 /// Lower quartile, median, upper quartile.
-Columns quartiles(const std::vector<double>& seconds) {
+Columns quartile_columns(const std::vector<double>& seconds) {
   if (seconds.empty()) return Columns(3);
   const BoxPlot box = box_plot(seconds);
   return {box.lower_quartile, box.median, box.upper_quartile};
@@ -43,10 +43,10 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
     errors.resize(sweep.definition.measures.size() + 1);
     csv.row(sweep.definition.name, method_name(row.variant), row.variant.cells[0], row.variant.cells[1],
             row.variant.cells[2], row.variant.tolerance, cases::name_of(run.first.status), run.first.message,
-            run.first.unknowns, run.first_seconds.size(), run.is_warm, quartiles(run.setup_seconds),
-            quartiles(run.first_seconds), quartiles(run.again_seconds), counter_columns(run.first),
-            run.again_seconds.empty() ? Columns(4) : counter_columns(run.again), run.start_megabytes,
-            run.peak_megabytes, errors);
+            run.first.unknowns, run.first_seconds.size(), run.is_warm, quartile_columns(run.setup_seconds),
+            quartile_columns(run.first_seconds), quartile_columns(run.again_seconds),
+            counter_columns(run.first), run.again_seconds.empty() ? Columns(4) : counter_columns(run.again),
+            run.start_megabytes, run.peak_megabytes, errors);
   }
 }
 

@@ -1,5 +1,5 @@
 #include "cases/case/names.hpp"
-#include "compare/cube/error_sum.hpp"
+#include "compare/cube/cube_benchmark.hpp"
 #include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void add_rows_of_table(const std::string& table, const std::vector<PublishedFigu
   }
   const auto add_computed = [&](RowBuilder& row, const PublishedFigure& figure, const JobPair& jobs) {
     const MeasuredPair pair = measured_pair(solutions, jobs, figure.measure);
-    row.add(figure, error_of(pair), pair.reason, trace_of(jobs));
+    row.add(figure, pair.error(), pair.reason, trace_of(jobs));
   };
   for (const std::string& design : thesis_designs) {
     RowBuilder published(table, design + ", in print"), computed(table, design + ", the thesis's set");

@@ -33,7 +33,7 @@ void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& f
   const auto with_error = [&](const std::optional<double>& error) { // (45 + b (1 + r))/(45 + b) - 1
     return error ? std::optional(*beta.fem * *error / (45 + *beta.fem)) : std::nullopt;
   };
-  computed.from_beta_2 = with_error(error_of(beta));
+  computed.from_beta_2 = with_error(beta.error());
   computed.from_printed_beta_2 = with_error(published_value(figure));
 }
 
@@ -45,7 +45,7 @@ ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference
   computed.reference = reference.name();
   computed.fem = pair.fem;
   computed.msm = pair.msm;
-  computed.value = figure.unit == "mm3" ? pair.msm : error_of(pair);
+  computed.value = figure.unit == "mm3" ? pair.msm : pair.error();
   if (!computed.value) computed.reason = pair.reason;
   if (figure.measure == "beta_1")
     add_readings_from_beta_2(computed, small_beta_2(figure), reference, solutions);

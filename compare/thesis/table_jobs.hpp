@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/cube/measured_pair.hpp"
+#include "compare/cube/cube_benchmark.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/thesis/published.hpp"
 #include "compare/thesis/results.hpp"
