@@ -4,7 +4,9 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/thesis/regenerate.hpp"
-#include "compare/thesis/write.hpp"
+#include "compare/thesis/write_files.hpp"
+#include "compare/thesis/write_json.hpp"
+#include "compare/thesis/write_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -4,7 +4,8 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/views.hpp"
 #include "compare/thesis/sheet.hpp"
-#include "compare/thesis/write.hpp"
+#include "compare/thesis/summary.hpp"
+#include "compare/thesis/write_json.hpp"
 #include "compare/write/escape.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
@@ -71,7 +72,7 @@ Json cases_to_json(const ThesisResults& results) {
     const cases::Fem& fem = results.cases[c].answers.resolved;
     cases[c]["reference"] =
         fmt::format("{} {}", cases::name_of(fem.formulation), cases::name_of(fem.element));
-    cases[c].update(trace_to_json(results.case_traces[c]));
+    cases[c].update(trace_to_json(results.volumes[c].trace));
   }
   return cases;
 }

@@ -1,5 +1,6 @@
+#include "compare/thesis/advice.hpp"
+
 #include "cases/case/names.hpp"
-#include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,45 +17,28 @@ msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const case
   return {k.edge / scale, k.face_diagonal / scale, k.internal_diagonal / scale, k.volume / youngs_modulus};
 }
 
-/// In the order of cube_tests.
-std::vector<JobPair> cube_jobs(const AdviceQuestion& asked) {
-  const auto& [poissons_ratio, design] = asked;
-  std::vector<JobPair> jobs;
-  for (const CubeTest& test : cube_tests)
-    jobs.push_back(designed_jobs(
-        {"", "linear_elastic", poissons_ratio, design, poissons_ratio, test.load_set, test.test, "", "%", 0},
-        design));
-  return jobs;
-}
-
-Advice::Errors with_trace(const LoadSetErrors& errors, const std::vector<JobPair>& jobs) {
-  return {errors, errors.worst ? trace_of(jobs[errors.worst_test]) : Trace{}};
-}
-
 Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
-  Advice advice;
-  advice.poissons_ratio = asked.poissons_ratio;
-  advice.design = asked.design;
-  const std::vector<JobPair> jobs = cube_jobs(asked);
+  const std::vector<JobPair> jobs = advice_jobs(asked);
   std::vector<CubeSolve> solves;
   for (const JobPair& test : jobs) solves.push_back({solutions.at(test.fem), solutions.at(test.msm)});
+  Advice advice{asked.poissons_ratio, asked.design};
   const Comparison& msm = solves.front().msm;
   if (msm.answers.design) advice.stiffness = over_modulus_and_edge(msm.answers.design->stiffness, msm.scene);
-  const CubeErrors errors = cube_errors(solves);
-  advice.small = with_trace(errors.small, jobs);
-  advice.large = with_trace(errors.large, jobs);
-  advice.refusal = errors.small.failure.empty() ? errors.large.failure : errors.small.failure;
+  advice.cube = cube_errors(solves);
+  const auto trace_of_worst = [&](const LoadSetErrors& errors) {
+    return errors.worst ? trace_of(jobs[errors.worst_test]) : Trace{};
+  };
+  advice.small_trace = trace_of_worst(advice.cube.small);
+  advice.large_trace = trace_of_worst(advice.cube.large);
   // With E = 1 MPa and a cell of 1 mm, the stiffnesses in N/m are a thousand times those over E L0.
-  advice.trace.command = shell_command({"build/springproof", "design", "--young", "1", "--poisson",
+  advice.trace.command = shell_command({"design", "--young", "1", "--poisson",
                                         fmt::format("{}", asked.poissons_ratio), "--method", asked.design});
   return advice;
 }
 
 /// Over both load sets; nothing for a design that failed or is not stable somewhere.
 std::optional<double> worst_error(const Advice& advice) {
-  if (!advice.small.is_stable || !advice.large.is_stable || !advice.small.worst || !advice.large.worst)
-    return std::nullopt;
-  return std::max(*advice.small.worst, *advice.large.worst);
+  return advice.cube.is_stable() ? advice.cube.worst() : std::nullopt;
 }
 
 } // namespace
@@ -78,9 +62,12 @@ std::vector<AdviceQuestion> advice_questions() {
   return questions;
 }
 
-std::vector<SolveJob> advice_jobs(const AdviceQuestion& asked) {
-  std::vector<SolveJob> jobs;
-  for (const JobPair& test : cube_jobs(asked)) append(jobs, test);
+std::vector<JobPair> advice_jobs(const AdviceQuestion& asked) {
+  const auto& [nu, design] = asked;
+  std::vector<JobPair> jobs;
+  for (const CubeTest& test : cube_tests)
+    jobs.push_back(
+        designed_jobs({"", "linear_elastic", nu, design, nu, test.load_set, test.test, "", "%", 0}, design));
   return jobs;
 }
 

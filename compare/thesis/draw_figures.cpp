@@ -5,26 +5,22 @@
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/cases_folder.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/thesis/plot_bodies.hpp"
-#include "compare/thesis/plot_volumes.hpp"
+#include "compare/write/csv.hpp"
+#include "compare/write/gnuplot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace springproof::compare {
 
 namespace {
 
 /// The order of figures 4.15 and 5.9: a row per test, small loads left and large ones right.
-constexpr std::array<CubeTest, 6> panel_order{{{"tensile", "small"},
-                                               {"tensile", "large"},
-                                               {"shear", "small"},
-                                               {"shear", "large"},
-                                               {"torsion", "small"},
-                                               {"torsion", "large"}}};
+constexpr CubeTest panel_order[] = {{"tensile", "small"}, {"tensile", "large"}, {"shear", "small"},
+                                    {"shear", "large"},   {"torsion", "small"}, {"torsion", "large"}};
 
 const Comparison* find_case(const std::vector<Comparison>& cases, const std::string& name) {
   const auto found = std::find_if(cases.begin(), cases.end(),
@@ -32,24 +28,21 @@ const Comparison* find_case(const std::vector<Comparison>& cases, const std::str
   return found == cases.end() ? nullptr : &*found;
 }
 
-msm::CellStiffness published_cell(const std::string& design, const std::string& material,
-                                  double poissons_ratio) {
-  const auto k = published_stiffness(design, material, poissons_ratio);
-  if (!k) throw cases::InputError("published/stiffness.csv: no " + design + " set for " + material);
+/// The printed set for nu = 0.5.
+msm::CellStiffness published_cell(const std::string& material) {
+  const auto k = published_stiffness("nonlinear_method", material, 0.5);
+  if (!k) throw cases::InputError("published/stiffness.csv: no nonlinear_method set for " + material);
   return {1e-3 * (*k)[0], 1e-3 * (*k)[1], 1e-3 * (*k)[2], 0};
 }
 
-/// A figure's number, caption and command, which are data.
-Figure described(const std::string& name) {
+/// Figures with their numbers, captions and commands, which are data.
+void describe(const std::vector<std::string>& names, std::vector<Figure>& figures) {
   static const nlohmann::json all =
       nlohmann::json::parse(read_file(cases_folder() + "/published/figures.json"));
-  const nlohmann::json& entry = all.at(name);
-  return {entry["number"], name, entry["caption"], entry["command"]};
-}
-
-void draw_linear_designs(const std::string& folder, std::vector<Figure>& figures) {
-  plot_linear_method(folder, cases::Element::q1);
-  for (const char* name : {"figure_4_6", "figure_4_7", "figure_4_8"}) figures.push_back(described(name));
+  for (const std::string& name : names) {
+    const nlohmann::json& entry = all.at(name);
+    figures.push_back({entry["number"], name, entry["caption"], entry["command"]});
+  }
 }
 
 void draw_nonlinear_designs(const std::string& folder, std::vector<Figure>& figures) {
@@ -58,8 +51,8 @@ void draw_nonlinear_designs(const std::string& folder, std::vector<Figure>& figu
   linear.material = cases::LinearElastic{0.3, 0.5}; // eq. 5.13
   const msm::UniaxialCurve ogden_curve = msm::uniaxial_reference(ogden);
   const msm::UniaxialCurve linear_curve = msm::uniaxial_reference(linear);
-  const msm::CellStiffness ogden_cell = published_cell("nonlinear_method", "ogden", 0.5);
-  const msm::CellStiffness linear_cell = published_cell("nonlinear_method", "linear_elastic", 0.5);
+  const msm::CellStiffness ogden_cell = published_cell("ogden");
+  const msm::CellStiffness linear_cell = published_cell("linear_elastic");
   plot_uniaxial(folder, "figure_5_4", {0.05, 0.05, 0.05, 0}, 1, ogden_curve);
   plot_incompressible_family(folder);
   plot_uniaxial(folder, "figure_5_6", ogden_cell, 1, ogden_curve);
@@ -67,8 +60,7 @@ void draw_nonlinear_designs(const std::string& folder, std::vector<Figure>& figu
   plot_contributions(folder, "figure_5_8",
                      {{"Ogden (14, 17, 63 N/m)", ogden_cell, 1, ogden_curve.axial_strain},
                       {"linear elastic (23, 43, 509 N/m)", linear_cell, 1, linear_curve.axial_strain}});
-  for (const char* name : {"figure_5_4", "figure_5_5", "figure_5_6", "figure_5_7", "figure_5_8"})
-    figures.push_back(described(name));
+  describe({"figure_5_4", "figure_5_5", "figure_5_6", "figure_5_7", "figure_5_8"}, figures);
 }
 
 /// Appendix A groups the Poisson's ratios whose diagrams have the same pattern.
@@ -110,22 +102,34 @@ void draw_cubes(const std::string& folder, const std::string& name, const std::v
       panels.push_back(overlay_of(*cube, fmt::format("{}, {} load", test, load_set)));
   if (panels.empty()) return;
   plot_bodies(folder, name, panels, 2);
-  figures.push_back(described(name));
+  describe({name}, figures);
 }
 
+/// Figure 5.10: box plots of the springs' cells' volumes, one for each cube that has them, and the outliers.
 void draw_volumes(const std::string& folder, const std::vector<CaseVolumes>& all,
                   std::vector<Figure>& figures) {
-  std::vector<const CaseVolumes*> volumes;
-  std::vector<std::string> labels;
+  std::vector<std::string> labels; // two words, which stand below each other
+  double rest = 1;
+  std::ostringstream boxes, outliers;
+  CsvWriter box(boxes), outlier(outliers);
+  box.row("# position", "case", "lower_whisker", "lower_quartile", "median", "upper_quartile",
+          "upper_whisker (mm3)");
+  outlier.row("# position", "volume (mm3) of an outlier");
   for (const auto& [test, load_set] : panel_order)
-    for (const CaseVolumes& of_case : all)
-      if (of_case.name == fmt::format("cube-{}-{}-ogden", test, load_set)) {
-        volumes.push_back(&of_case);
-        labels.push_back(fmt::format("{} {}", test, load_set));
-      }
-  if (volumes.empty()) return;
-  plot_volumes(folder, "figure_5_10", volumes, labels);
-  figures.push_back(described("figure_5_10"));
+    for (const CaseVolumes& of_case : all) {
+      if (of_case.name != fmt::format("cube-{}-{}-ogden", test, load_set) || !of_case.msm) continue;
+      const BoxPlot& b = of_case.msm->per_cell;
+      rest = of_case.rest_per_cell;
+      labels.push_back(fmt::format("{} {}", test, load_set));
+      box.row(labels.size(), of_case.name, b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile,
+              b.upper_whisker);
+      for (const double volume : b.outliers) outlier.row(labels.size(), volume);
+    }
+  if (labels.empty()) return;
+  box.end_block();
+  write_file(folder + "/figure_5_10.csv", [&](std::ostream& out) { out << boxes.str() << outliers.str(); });
+  draw(folder, "figure_5_10", "volumes", {{"labels", labels}, {"rest", rest}, {"width", 900.}});
+  describe({"figure_5_10"}, figures);
 }
 
 void draw_bars(const std::string& folder, const ThesisResults& results, std::vector<Figure>& figures) {
@@ -135,7 +139,7 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
       panels.push_back(thesis_overlay(results, *bar, fmt::format("springs {}", cells)));
   if (panels.empty()) return;
   plot_bodies(folder, "figure_5_12", panels, 3);
-  figures.push_back(described("figure_5_12"));
+  describe({"figure_5_12"}, figures);
 }
 
 } // namespace
@@ -150,7 +154,8 @@ Overlay thesis_overlay(const ThesisResults& results, const Comparison& compariso
 
 std::vector<Figure> draw_figures(const std::string& folder, const ThesisResults& results) {
   std::vector<Figure> figures;
-  draw_linear_designs(folder, figures);
+  plot_linear_method(folder, cases::Element::q1);
+  describe({"figure_4_6", "figure_4_7", "figure_4_8"}, figures);
   draw_dot_diagrams(folder, results, figures);
   draw_nonlinear_designs(folder, figures);
   draw_cubes(folder, "figure_4_15", results.figure_4_15, "", figures);

@@ -14,17 +14,17 @@ namespace springproof::compare {
 
 namespace {
 
-/// Parallel projection towards a viewer in front of the body (small y), a little to its right and above.
-struct View {
-  Eigen::Vector3d across, up, towards; ///< orthonormal; towards the viewer
-  View() {
-    constexpr double azimuth = 0.55, elevation = 0.35; // radians
-    const double s = std::sin(azimuth), c = std::cos(azimuth);
-    across = {c, s, 0};
-    towards = {s * std::cos(elevation), -c * std::cos(elevation), std::sin(elevation)};
-    up = towards.cross(across);
-  }
-};
+/// Parallel projection: the rows point across, up and towards a viewer in front of the body (small y), a
+/// little to its right and above. Orthonormal.
+Eigen::Matrix3d oblique_view() {
+  constexpr double azimuth = 0.55, elevation = 0.35; // radians
+  const double s = std::sin(azimuth), c = std::cos(azimuth);
+  const Eigen::Vector3d across(c, s, 0);
+  const Eigen::Vector3d towards(s * std::cos(elevation), -c * std::cos(elevation), std::sin(elevation));
+  Eigen::Matrix3d view;
+  view << across.transpose(), towards.cross(across).transpose(), towards.transpose();
+  return view;
+}
 
 struct Face {
   std::array<int, 4> nodes; ///< around the face
@@ -35,19 +35,21 @@ struct Face {
 };
 
 /// The surface's faces that look at the viewer, the farthest first.
-std::vector<Face> visible_faces(const DeformedBody& body, const View& view) {
+/// @param displacement  empty: at rest
+std::vector<Face> visible_faces(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+                                const Eigen::Matrix3d& view) {
+  const Eigen::Vector3d towards = view.row(2);
   std::vector<Face> faces;
-  for (const std::array<int, 4>& nodes : cases::boundary_faces(*body.mesh)) {
+  for (const std::array<int, 4>& nodes : cases::boundary_faces(mesh)) {
     Face face{nodes, {}};
     for (std::size_t v = 0; v < 4; ++v) {
-      const auto node = static_cast<std::size_t>(nodes[v]);
-      face.corners[v] = body.mesh->nodes[node];
-      if (body.is_there()) face.corners[v] += (*body.displacement)[node];
+      face.corners[v] = mesh.nodes[nodes[v]];
+      if (!displacement.empty()) face.corners[v] += displacement[nodes[v]];
     }
-    if (face.normal().dot(view.towards) > 0) faces.push_back(face);
+    if (face.normal().dot(towards) > 0) faces.push_back(face);
   }
   const auto depth = [&](const Face& f) {
-    return view.towards.dot(f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
+    return towards.dot(f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
   };
   std::stable_sort(faces.begin(), faces.end(),
                    [&](const Face& a, const Face& b) { return depth(a) < depth(b); });
@@ -58,10 +60,8 @@ using Line = std::vector<Eigen::Vector3d>;
 
 std::vector<Line> closed_polygons(const std::vector<Face>& faces) {
   std::vector<Line> polygons;
-  for (const Face& face : faces) {
-    polygons.emplace_back(face.corners.begin(), face.corners.end());
-    polygons.back().push_back(face.corners.front());
-  }
+  for (const auto& [nodes, corners] : faces)
+    polygons.push_back({corners[0], corners[1], corners[2], corners[3], corners[0]});
   return polygons;
 }
 
@@ -90,44 +90,21 @@ std::vector<Line> edges_of(const std::vector<Face>& faces, Edges wanted) {
 }
 
 /// One block of the data file: lines, a blank line after each.
-void write_block(std::ostream& out, const std::string& panel, const char* what,
-                 const std::vector<Line>& lines, const View& view) {
-  fmt::print(out, "# {} - {}: x,y,z,across,up (mm)\n", panel, what);
-  for (const Line& line : lines) {
-    for (const Eigen::Vector3d& point : line)
-      fmt::print(out, "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", point.x(), point.y(), point.z(),
-                 point.dot(view.across), point.dot(view.up));
-    fmt::print(out, "\n");
-  }
-  if (lines.empty()) fmt::print(out, "?,?,?,?,?\n\n"); // an empty block would not be counted
-  fmt::print(out, "\n");
-}
-
-/// What is seen of one panel.
-struct Drawing {
-  std::string title;
-  std::vector<Line> fem, springs, rest;
+struct Block {
+  std::string name;
+  std::vector<Line> lines;
 };
 
-Drawing drawing_of(const Overlay& overlay, const View& view) {
-  static const std::vector<Eigen::Vector3d> at_rest;
-  Drawing drawing{
-      overlay.title, {}, {}, edges_of(visible_faces({overlay.springs.mesh, &at_rest}, view), Edges::sharp)};
-  if (overlay.fem.is_there()) drawing.fem = closed_polygons(visible_faces(overlay.fem, view));
-  if (overlay.springs.is_there())
-    drawing.springs = edges_of(visible_faces(overlay.springs, view), Edges::all);
-  return drawing;
-}
-
-/// The window that holds all panels, so that they have one scale.
-Eigen::AlignedBox2d window(const std::vector<Drawing>& drawings, const View& view) {
-  Eigen::AlignedBox2d box;
-  for (const Drawing& drawing : drawings)
-    for (const std::vector<Line>* lines : {&drawing.fem, &drawing.springs, &drawing.rest})
-      for (const Line& line : *lines)
-        for (const Eigen::Vector3d& point : line)
-          box.extend(Eigen::Vector2d(point.dot(view.across), point.dot(view.up)));
-  return box;
+/// What is seen of a panel. A side without displacements is empty.
+std::vector<Block> blocks_of(const Overlay& panel, const Eigen::Matrix3d& view) {
+  std::vector<Line> fem, springs;
+  if (panel.fem.is_there())
+    fem = closed_polygons(visible_faces(*panel.fem.mesh, *panel.fem.displacement, view));
+  if (panel.springs.is_there())
+    springs = edges_of(visible_faces(*panel.springs.mesh, *panel.springs.displacement, view), Edges::all);
+  return {{panel.title + " - finite elements", fem},
+          {panel.title + " - springs", springs},
+          {panel.title + " - at rest", edges_of(visible_faces(*panel.springs.mesh, {}, view), Edges::sharp)}};
 }
 
 } // namespace
@@ -141,21 +118,28 @@ Overlay overlay_of(const Comparison& comparison, const std::string& title) {
 
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,
                  int columns, int size) {
-  const View view;
-  std::vector<Drawing> drawings;
-  for (const Overlay& panel : panels) drawings.push_back(drawing_of(panel, view));
+  const Eigen::Matrix3d view = oblique_view();
+  Eigen::AlignedBox2d box; // holds all panels, so that they have one scale
+  std::vector<std::string> titles;
   write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
-    for (const Drawing& drawing : drawings) {
-      write_block(out, drawing.title, "finite elements", drawing.fem, view);
-      write_block(out, drawing.title, "springs", drawing.springs, view);
-      write_block(out, drawing.title, "at rest", drawing.rest, view);
+    for (const Overlay& panel : panels) {
+      titles.push_back(panel.title);
+      for (const Block& block : blocks_of(panel, view)) {
+        fmt::print(out, "# {}: x,y,z,across,up (mm)\n", block.name);
+        for (const Line& line : block.lines) {
+          for (const Eigen::Vector3d& x : line) {
+            const Eigen::Vector2d seen = view.topRows<2>() * x;
+            box.extend(seen);
+            fmt::print(out, "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", x.x(), x.y(), x.z(), seen.x(), seen.y());
+          }
+          fmt::print(out, "\n");
+        }
+        if (block.lines.empty()) fmt::print(out, "?,?,?,?,?\n\n"); // an empty block would not be counted
+        fmt::print(out, "\n");
+      }
     }
   });
-
-  std::vector<std::string> titles;
-  for (const Drawing& drawing : drawings) titles.push_back(drawing.title);
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-  const Eigen::AlignedBox2d box = window(drawings, view);
   draw(folder, name, "bodies",
        {{"titles", titles},
         {"rows", 1. * rows},

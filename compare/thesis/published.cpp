@@ -3,22 +3,16 @@
 #include "cases/case/error.hpp"
 #include "compare/provenance/cases_folder.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 namespace springproof::compare {
 
 namespace {
-
-double number(const std::string& text, const std::string& path) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw cases::InputError(path + ": '" + text + "' is not a number");
-  return value;
-}
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
@@ -27,87 +21,98 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
-PublishedFigure of_cell(const std::string& table, double poissons_ratio, const std::string& measure,
-                        const std::string& unit, double value) {
-  return {table, "linear_elastic", poissons_ratio, "linear_method", poissons_ratio, "", "cell", measure, unit,
-          value};
+std::string path_of(const std::string& name) {
+  return cases_folder() + "/published/" + name + ".csv";
 }
 
-void read_cell_figures(const std::string& folder, std::vector<PublishedFigure>& figures) {
-  const std::string springs = folder + "pseudo_stiffness.csv", values = folder + "eigenvalues.csv",
-                    metric = folder + "h_metric.csv";
+std::vector<PublishedFigure> read_published_figures() {
+  std::vector<PublishedFigure> figures;
+  const auto add_of_cell = [&](const CsvRow& row, const std::string& measure, const std::string& unit,
+                               std::size_t field) {
+    figures.push_back({row[0], "linear_elastic", row.number(1), "linear_method", row.number(1), "", "cell",
+                       measure, unit, row.number(field)});
+  };
   const char* kinds[] = {"edge", "face_diagonal", "internal_diagonal"};
   for (std::size_t kind = 0; kind < 3; ++kind) // row by row, as in print
-    for (const auto& row : read_csv(springs))
-      figures.push_back(of_cell(row.at(0), number(row.at(1), springs), kinds[kind], "1",
-                                number(row.at(2 + kind), springs)));
-  for (const auto& row : read_csv(values)) {
-    const double nu = number(row.at(1), values);
-    figures.push_back(
-        of_cell(row.at(0), nu, row.at(2) + "_eigenvalue_" + row.at(3), "N/mm", number(row.at(4), values)));
-    figures.push_back(
-        of_cell(row.at(0), nu, row.at(2) + "_multiplicity_" + row.at(3), "1", number(row.at(5), values)));
+    for (const CsvRow& row : read_csv(path_of("pseudo_stiffness")))
+      add_of_cell(row, kinds[kind], "1", 2 + kind);
+  for (const CsvRow& row : read_csv(path_of("eigenvalues"))) {
+    add_of_cell(row, row[2] + "_eigenvalue_" + row[3], "N/mm", 4);
+    add_of_cell(row, row[2] + "_multiplicity_" + row[3], "1", 5);
   }
-  for (const auto& row : read_csv(metric))
-    figures.push_back(of_cell(row.at(0), number(row.at(1), metric), "h", "1", number(row.at(2), metric)));
+  for (const CsvRow& row : read_csv(path_of("h_metric"))) add_of_cell(row, "h", "1", 2);
+  for (const CsvRow& row : read_csv(path_of("errors")))
+    figures.push_back(
+        {row[0], row[1], row.number(2), row[3], row.number(4), row[5], row[6], row[7], "%", row.number(8)});
+  // Table 5.2 and figure 5.12 are of the Ogden material and its nonlinear design (thesis sections 5.3.1.3
+  // and 5.3.3).
+  for (const CsvRow& row : read_csv(path_of("volumes")))
+    figures.push_back(
+        {row[0], "ogden", 0.5, "nonlinear_method", 0.5, row[1], row[2], "volume", "mm3", row.number(3)});
+  for (const CsvRow& row : read_csv(path_of("bar_deflection")))
+    figures.push_back({row[0], "ogden", 0.5, "nonlinear_method", 0.5, "",
+                       "bar_" + row[1] + "x" + row[2] + "x" + row[3], "deflection", "%", row.number(4)});
+  const auto number = [](const PublishedFigure& figure) {
+    return std::pair(figure.table.size(), figure.table);
+  };
+  std::stable_sort(figures.begin(), figures.end(),
+                   [&](const PublishedFigure& a, const PublishedFigure& b) { return number(a) < number(b); });
+  return figures;
 }
 
 } // namespace
 
-std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+double CsvRow::number(std::size_t field) const {
+  const std::string& text = fields.at(field);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw cases::InputError(path + ": '" + text + "' is not a number");
+  return value;
+}
+
+std::vector<CsvRow> read_csv(const std::string& path) {
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) throw cases::InputError(path + ": cannot be read, or is empty");
   const std::size_t width = split(line).size();
-  std::vector<std::vector<std::string>> rows;
+  std::vector<CsvRow> rows;
   for (int number = 2; std::getline(file, line); ++number) {
-    rows.push_back(split(line));
-    if (rows.back().size() != width)
-      throw cases::InputError(path + ":" + std::to_string(number) + ": " +
-                              std::to_string(rows.back().size()) + " fields where the header has " +
-                              std::to_string(width));
+    rows.push_back({path, split(line)});
+    const std::size_t n_fields = rows.back().fields.size();
+    if (n_fields != width)
+      throw cases::InputError(path + ":" + std::to_string(number) + ": " + std::to_string(n_fields) +
+                              " fields where the header has " + std::to_string(width));
   }
   return rows;
 }
 
-std::vector<PublishedFigure> read_published_figures() {
-  const std::string folder = cases_folder() + "/published/";
-  const std::string nonlinear = "nonlinear_method";
-  std::vector<PublishedFigure> figures;
-  const std::string errors = folder + "errors.csv", volumes = folder + "volumes.csv",
-                    bar = folder + "bar_deflection.csv";
-  read_cell_figures(folder, figures);
-  for (const auto& row : read_csv(errors))
-    figures.push_back({row.at(0), row.at(1), number(row.at(2), errors), row.at(3), number(row.at(4), errors),
-                       row.at(5), row.at(6), row.at(7), "%", number(row.at(8), errors)});
-  // Table 5.2 and figure 5.12 are of the Ogden material and its nonlinear design (thesis sections 5.3.1.3
-  // and 5.3.3).
-  for (const auto& row : read_csv(volumes))
-    figures.push_back({row.at(0), "ogden", 0.5, nonlinear, 0.5, row.at(1), row.at(2), "volume", "mm3",
-                       number(row.at(3), volumes)});
-  for (const auto& row : read_csv(bar))
-    figures.push_back({row.at(0), "ogden", 0.5, nonlinear, 0.5, "",
-                       "bar_" + row.at(1) + "x" + row.at(2) + "x" + row.at(3), "deflection", "%",
-                       number(row.at(4), bar)});
-  return figures;
+const std::vector<PublishedFigure>& published_figures() {
+  static const std::vector<PublishedFigure> all = read_published_figures();
+  return all;
+}
+
+std::vector<std::string> tables_of(const std::vector<PublishedFigure>& figures) {
+  std::vector<std::string> tables;
+  for (const PublishedFigure& figure : figures)
+    if (std::find(tables.begin(), tables.end(), figure.table) == tables.end()) tables.push_back(figure.table);
+  return tables;
 }
 
 double published_cell_volume_change(const std::string& load_set) {
-  const std::string path = cases_folder() + "/published/cell_volumes.csv";
-  for (const auto& row : read_csv(path))
-    if (row.at(1) == load_set) return number(row.at(2), path);
+  const std::string path = path_of("cell_volumes");
+  for (const CsvRow& row : read_csv(path))
+    if (row[1] == load_set) return row.number(2);
   throw cases::InputError(path + ": has no load set '" + load_set + "'");
 }
 
 std::optional<std::array<double, 3>>
 published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio) {
-  const std::string path = cases_folder() + "/published/stiffness.csv";
   // The cube's linear elastic material has E = 0.3 MPa; chapter 6 prints sets for others.
   const std::string wanted = material == "linear_elastic" ? "linear_elastic E=0.3 MPa" : material;
-  for (const auto& row : read_csv(path))
-    if (row.at(1) == design && row.at(2) == wanted && number(row.at(3), path) == design_poissons_ratio &&
-        number(row.at(4), path) == 1)
-      return std::array<double, 3>{number(row.at(5), path), number(row.at(6), path), number(row.at(7), path)};
+  for (const CsvRow& row : read_csv(path_of("stiffness")))
+    if (row[1] == design && row[2] == wanted && row.number(3) == design_poissons_ratio && row.number(4) == 1)
+      return std::array<double, 3>{row.number(5), row.number(6), row.number(7)};
   return std::nullopt;
 }
 

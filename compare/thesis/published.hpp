@@ -25,9 +25,12 @@ struct PublishedFigure {
   double value;
 };
 
-/// All figures of cases/published, table by table.
+/// All figures of cases/published, table by table as numbered (5.12 after 5.4).
 /// @throws InputError naming the file when a row is broken
-std::vector<PublishedFigure> read_published_figures();
+const std::vector<PublishedFigure>& published_figures();
+
+/// The tables of these figures, each once.
+std::vector<std::string> tables_of(const std::vector<PublishedFigure>& figures);
 
 /// Largest change of a cell's volume without outliers, percent, for a load set; section 5.3.1.3.
 double published_cell_volume_change(const std::string& load_set);
@@ -36,7 +39,15 @@ double published_cell_volume_change(const std::string& load_set);
 std::optional<std::array<double, 3>>
 published_stiffness(const std::string& design, const std::string& material, double design_poissons_ratio);
 
+/// A row of a comma-separated file.
+struct CsvRow {
+  std::string path; ///< of the file
+  std::vector<std::string> fields;
+  const std::string& operator[](std::size_t field) const { return fields.at(field); }
+  double number(std::size_t field) const; ///< @throws InputError naming the file
+};
+
 /// Rows of a comma-separated file without its header, every row as wide as the header.  @throws InputError
-std::vector<std::vector<std::string>> read_csv(const std::string& path);
+std::vector<CsvRow> read_csv(const std::string& path);
 
 } // namespace springproof::compare

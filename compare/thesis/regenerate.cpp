@@ -1,8 +1,9 @@
 #include "compare/thesis/regenerate.hpp"
 
+#include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
+#include "compare/provenance/cases_folder.hpp"
 #include "compare/provenance/stopwatch.hpp"
-#include "compare/thesis/build_results.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,38 +13,70 @@ namespace springproof::compare {
 
 namespace {
 
-/// The figures of the tables asked for, in print's order.
+/// The figures of the tables asked for, or of all.  @throws InputError for an unknown table
 std::vector<PublishedFigure> figures_of(const std::vector<std::string>& wanted) {
-  const std::vector<PublishedFigure> all = read_published_figures();
-  std::vector<PublishedFigure> figures;
-  for (const std::string& table : known_tables())
-    if (std::find(wanted.begin(), wanted.end(), table) != wanted.end())
-      std::copy_if(all.begin(), all.end(), std::back_inserter(figures),
-                   [&](const PublishedFigure& figure) { return figure.table == table; });
-  return figures;
-}
-
-void check_known(const std::vector<std::string>& tables) {
-  const std::vector<std::string> known = known_tables();
-  for (const std::string& table : tables)
-    if (std::find(known.begin(), known.end(), table) == known.end())
+  const auto has = [](const std::vector<std::string>& tables, const std::string& table) {
+    return std::find(tables.begin(), tables.end(), table) != tables.end();
+  };
+  const std::vector<std::string> known = tables_of(published_figures());
+  for (const std::string& table : wanted)
+    if (!has(known, table))
       throw cases::InputError(
           fmt::format("table '{}' is not known; there are {}{}", table, fmt::join(known, ", "),
                       table == "4.4" ? " (4.4 lists the loads, which the case files hold)" : ""));
+  std::vector<PublishedFigure> figures;
+  for (const PublishedFigure& figure : published_figures())
+    if (wanted.empty() || has(wanted, figure.table)) figures.push_back(figure);
+  return figures;
 }
 
 /// Every solve that the tables need, once.
 std::vector<SolveJob> jobs_for(const std::vector<PublishedFigure>& figures, bool is_everything) {
   std::set<SolveJob> jobs;
-  const auto add = [&](const std::vector<SolveJob>& more) { jobs.insert(more.begin(), more.end()); };
+  const auto add = [&](const std::vector<JobPair>& pairs) {
+    for (const JobPair& pair : pairs) jobs.insert({pair.fem, pair.msm});
+  };
   for (const PublishedFigure& figure : figures) {
     if (figure.test == "cell") continue;
     add(entry_jobs(figure));
     if (is_everything) add(design_jobs(figure));
   }
-  if (!is_everything) return {jobs.begin(), jobs.end()};
-  for (const AdviceQuestion& asked : advice_questions()) add(advice_jobs(asked));
+  if (is_everything)
+    for (const AdviceQuestion& asked : advice_questions()) add(advice_jobs(asked));
   return {jobs.begin(), jobs.end()};
+}
+
+/// The springs' case with the finite elements' answer put in.
+Comparison join(const Solutions& solutions, const JobPair& jobs) {
+  const Comparison &fem = solutions.at(jobs.fem), &msm = solutions.at(jobs.msm);
+  Answers both = msm.answers;
+  both.fem = fem.answers.fem;
+  both.resolved = fem.answers.resolved;
+  return comparison_of(msm.scene, both);
+}
+
+/// The jobs of every case that is behind figures of a kind, once: the first set of springs that the thesis
+/// has for it stands for the case.
+template<class IsWanted>
+std::vector<JobPair> jobs_of_cases(const std::vector<PublishedFigure>& figures, const IsWanted& is_wanted) {
+  std::set<std::string> seen;
+  std::vector<JobPair> jobs;
+  for (const PublishedFigure& figure : figures)
+    if (figure.test != "cell" && is_wanted(figure) && seen.insert(case_file_of(figure)).second)
+      jobs.push_back(thesis_jobs(figure));
+  return jobs;
+}
+
+/// Whether the figure is of the case file's own material, not of the file with another Poisson's ratio set.
+bool has_own_poissons_ratio(const PublishedFigure& figure) {
+  const cases::Case definition = cases::read_case(cases_folder() + "/" + case_file_of(figure));
+  const auto* elastic = std::get_if<cases::LinearElastic>(&definition.material);
+  return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
+}
+
+/// Solved for tables 4.5 and 4.6 anyway.
+bool is_of_figure_4_15(const PublishedFigure& figure) {
+  return (figure.table == "4.5" || figure.table == "4.6") && figure.poissons_ratio == 0.25;
 }
 
 ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_everything,
@@ -54,7 +87,12 @@ ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_e
   const std::vector<TableEntry> errors = error_entries(figures, solutions);
   results.entries.insert(results.entries.end(), errors.begin(), errors.end());
   explain(results.entries);
-  add_cases(figures, solutions, results);
+  for (const JobPair& jobs : jobs_of_cases(figures, has_own_poissons_ratio)) {
+    results.cases.push_back(join(solutions, jobs));
+    results.volumes.push_back(volumes_of(results.cases.back(), trace_of(jobs)));
+  }
+  for (const JobPair& jobs : jobs_of_cases(figures, is_of_figure_4_15))
+    results.figure_4_15.push_back(join(solutions, jobs));
   results.cell_volume_changes = cell_volume_changes(figures, solutions);
   if (is_everything) {
     results.designs = design_rows(figures, solutions);
@@ -76,22 +114,10 @@ double seconds(const Solutions& solutions, cases::Side side) {
 
 } // namespace
 
-std::vector<std::string> known_tables() {
-  std::vector<std::string> numbers;
-  for (const PublishedFigure& figure : read_published_figures())
-    if (std::find(numbers.begin(), numbers.end(), figure.table) == numbers.end())
-      numbers.push_back(figure.table);
-  std::stable_sort(numbers.begin(), numbers.end(), [](const std::string& a, const std::string& b) {
-    return std::pair(a.size(), a) < std::pair(b.size(), b); // 5.12 after 5.4
-  });
-  return numbers;
-}
-
 ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOptions& options,
                          const std::function<void(int done, int all)>& progress) {
-  check_known(tables);
   const bool is_everything = tables.empty();
-  const std::vector<PublishedFigure> figures = figures_of(is_everything ? known_tables() : tables);
+  const std::vector<PublishedFigure> figures = figures_of(tables);
   Stopwatch stopwatch;
   const std::vector<SolveJob> jobs = jobs_for(figures, is_everything);
   const double collecting = stopwatch.lap();

@@ -9,9 +9,6 @@
 
 namespace springproof::compare {
 
-/// Numbers of the tables that can be regenerated, in order. 5.12 is a figure: the bar.
-std::vector<std::string> known_tables();
-
 /// Solves what the tables need, each solve once, and computes every number of ThesisResults.
 /// @param tables    numbers; empty: all of them, and the comparison of designs and the advice, which look at
 ///                  every table

@@ -2,7 +2,6 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/cases_folder.hpp"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ bool is_linear_elastic(const PublishedFigure& figure) {
   return figure.material == "linear_elastic";
 }
 
-std::string path_of(const PublishedFigure& figure) {
+std::string case_path_of(const PublishedFigure& figure) {
   return cases_folder() + "/" + case_file_of(figure);
 }
 
@@ -25,23 +24,13 @@ std::vector<std::string> material_settings(const PublishedFigure& figure) {
   return {fmt::format("material.poissons_ratio={}", figure.poissons_ratio)};
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
-  for (const std::string& word : more)
-    if (std::find(to.begin(), to.end(), word) == to.end()) to.push_back(word);
-}
-
-std::string shell_word(const std::string& word) {
-  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
-  return word.find_first_not_of(plain) == std::string::npos ? word : "'" + word + "'";
-}
-
 SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
   std::vector<std::string> settings = material_settings(figure);
   if (!reference.is_declared) {
     settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
     settings.push_back("fem.element=" + cases::name_of(reference.element));
   }
-  return {path_of(figure), settings, cases::Side::fem};
+  return {case_path_of(figure), settings, cases::Side::fem};
 }
 
 SolveJob designed_springs(const PublishedFigure& figure, const std::string& design) {
@@ -49,15 +38,14 @@ SolveJob designed_springs(const PublishedFigure& figure, const std::string& desi
   // The Ogden cases give their springs: the whole block goes, or the stiffnesses would contradict the design.
   settings.push_back(is_linear_elastic(figure) ? "msm.design=" + design
                                                : fmt::format("msm={{design=\"{}\"}}", design));
-  return {path_of(figure), settings, cases::Side::msm};
+  return {case_path_of(figure), settings, cases::Side::msm};
 }
 
 SolveJob thesis_springs(const PublishedFigure& figure) {
-  if (figure.load_set.empty()) return {path_of(figure), {}, cases::Side::msm};
-  const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio);
-  if (k)
-    return {path_of(figure),
-            {"msm.design=given", fmt::format("msm.stiffness=[{},{},{}]", (*k)[0], (*k)[1], (*k)[2])},
+  if (figure.load_set.empty()) return {case_path_of(figure), {}, cases::Side::msm};
+  if (const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio))
+    return {case_path_of(figure),
+            {"msm.design=given", fmt::format("msm.stiffness=[{}]", fmt::join(*k, ","))},
             cases::Side::msm};
   SolveJob job = designed_springs(figure, figure.design);
   if (figure.design_poissons_ratio != figure.poissons_ratio)
@@ -72,7 +60,7 @@ std::string FemChoice::name() const {
 }
 
 std::vector<FemChoice> references_of(const PublishedFigure& figure) {
-  const cases::Fem declared = cases::read_case(path_of(figure)).fem;
+  const cases::Fem declared = cases::read_case(case_path_of(figure)).fem;
   std::vector<FemChoice> references{{declared.formulation, declared.element, true}};
   if (!is_linear_elastic(figure)) return references;
   for (const cases::Formulation other : {cases::Formulation::log_strain, cases::Formulation::small_strain})
@@ -83,11 +71,6 @@ std::vector<FemChoice> references_of(const PublishedFigure& figure) {
 std::string case_file_of(const PublishedFigure& figure) {
   if (figure.load_set.empty()) return fmt::format("thesis/{}/{}.toml", figure.material, figure.test);
   return fmt::format("thesis/{}/cube_{}_{}.toml", figure.material, figure.test, figure.load_set);
-}
-
-void append(std::vector<SolveJob>& jobs, const JobPair& pair) {
-  jobs.push_back(pair.fem);
-  jobs.push_back(pair.msm);
 }
 
 JobPair thesis_jobs(const PublishedFigure& figure, const FemChoice& reference) {
@@ -103,20 +86,21 @@ JobPair designed_jobs(const PublishedFigure& figure, const std::string& design) 
 }
 
 Trace trace_of(const JobPair& jobs) {
-  Trace trace{jobs.fem.case_file.substr(cases_folder().size() + 1), jobs.fem.settings, ""};
-  append(trace.settings, jobs.msm.settings);
-  std::vector<std::string> words{"build/springproof", "run", "cases/" + trace.case_file};
-  for (const std::string& setting : trace.settings) {
-    words.push_back("--set");
-    words.push_back(setting);
-  }
+  Trace trace{jobs.fem.case_file.substr(cases_folder().size() + 1), jobs.fem.settings};
+  for (const std::string& setting : jobs.msm.settings)
+    if (std::find(trace.settings.begin(), trace.settings.end(), setting) == trace.settings.end())
+      trace.settings.push_back(setting);
+  std::vector<std::string> words{"run", "cases/" + trace.case_file};
+  for (const std::string& setting : trace.settings) words.insert(words.end(), {"--set", setting});
   trace.command = shell_command(words);
   return trace;
 }
 
 std::string shell_command(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
+  std::string line = "build/springproof";
+  for (const std::string& word : words)
+    line += word.find_first_not_of(plain) == std::string::npos ? " " + word : " '" + word + "'";
   return line;
 }
 

@@ -3,7 +3,6 @@
 #include "compare/cube/cube_benchmark.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/thesis/published.hpp"
-#include "compare/thesis/results.hpp"
 
 #include <map>
 #include <string>
@@ -11,6 +10,13 @@
 
 /// The solves behind a published figure, and the command that repeats them.
 namespace springproof::compare {
+
+/// How to compute one number again.
+struct Trace {
+  std::string case_file{};             ///< relative to cases_folder(); empty when no case stands behind it
+  std::vector<std::string> settings{}; ///< for `run CASE --set ...`
+  std::string command{};               ///< the whole line, as typed in the source folder
+};
 
 /// A finite-element side that a figure is compared with.
 struct FemChoice {
@@ -32,8 +38,6 @@ struct JobPair {
   SolveJob fem, msm;
 };
 
-void append(std::vector<SolveJob>& jobs, const JobPair& pair);
-
 /// Against a reference, with the springs of the thesis: the published ones (the bar's case files scale them
 /// to their cells), else those of its method.
 JobPair thesis_jobs(const PublishedFigure& figure, const FemChoice& reference);
@@ -47,7 +51,7 @@ JobPair designed_jobs(const PublishedFigure& figure, const std::string& design);
 /// How to run both jobs of one case at once.
 Trace trace_of(const JobPair& jobs);
 
-/// The words of a command line, quoted for a shell where needed.
+/// The words of a command line of the program, quoted for a shell where needed.
 std::string shell_command(const std::vector<std::string>& words);
 
 /// The jobs solved, each once, however many figures share it.

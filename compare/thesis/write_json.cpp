@@ -1,7 +1,10 @@
+#include "compare/thesis/write_json.hpp"
+
 #include "compare/cube/write_design.hpp"
-#include "compare/thesis/write.hpp"
+#include "compare/thesis/summary.hpp"
 #include "compare/write/json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -71,56 +74,66 @@ Json group_to_json(const SummaryGroup& group, const std::vector<TableEntry>& ent
 }
 
 /// Errors, beta_1 among them, that the nearest reference brings within so many points.
-int count_nearest(const std::vector<TableEntry>& entries, double points) {
-  int n = 0;
-  for (const TableEntry& entry : entries) {
+auto count_nearest(const std::vector<TableEntry>& entries, double points) {
+  return std::count_if(entries.begin(), entries.end(), [&](const TableEntry& entry) {
     const ComputedFigure* nearest = entry.nearest();
-    if (entry.published.unit == "%" && nearest && std::abs(*nearest->value - entry.published.value) <= points)
-      ++n;
-  }
-  return n;
+    return entry.published.unit == "%" && nearest && std::abs(*entry.difference(*nearest)) <= points;
+  });
 }
 
 Json design_to_json(const DesignRow& row) {
   return {{"table", row.table},
           {"design", row.design},
-          {"figures", row.n_figures},
+          {"figures", row.errors.n},
           {"missing", row.n_missing},
-          {"mean_error_percent", row.mean},
-          {"worst_error_percent", row.worst},
+          {"mean_error_percent", row.errors.mean()},
+          {"worst_error_percent", row.errors.worst},
           {"worst_at", row.worst_at},
           {"reasons", row.reasons},
           {"command_of_worst", text_or_null(row.worst_trace.command)}};
 }
 
-Json box_to_json(const ModelVolumes& v) {
-  if (!v.total || !v.per_cell) return nullptr;
-  const BoxPlot& b = *v.per_cell;
-  return {{"total_mm3", *v.total},
+Json box_to_json(const std::optional<ModelVolumes>& v) {
+  if (!v) return nullptr;
+  const BoxPlot& b = v->per_cell;
+  return {{"total_mm3", v->total},
           {"quartiles", {b.lower_quartile, b.median, b.upper_quartile}},
           {"whiskers", {b.lower_whisker, b.upper_whisker}},
           {"outliers", b.outliers}};
 }
 
-Json with_command(const Advice::Errors& errors) {
-  Json document = errors_to_json(errors);
-  document["command_of_worst"] = text_or_null(errors.trace.command);
-  return document;
+Json volumes_to_json(const CaseVolumes& v) {
+  return {{"case", v.name},
+          {"rest_mm3", v.rest},
+          {"rest_per_cell_mm3", v.rest_per_cell},
+          {"fem", box_to_json(v.fem)},
+          {"msm", box_to_json(v.msm)},
+          {"command", v.trace.command}};
+}
+
+Json change_to_json(const CellVolumeChange& change) {
+  return {{"load_set", change.load_set},
+          {"published_percent", change.published},
+          {"computed_percent", change.computed}};
 }
 
 Json advice_to_json(const Advice& a) {
-  Json row{{"poissons_ratio", a.poissons_ratio}, {"design", a.design}, {"recommended", a.is_recommended}};
-  row["stiffness_per_E_L0"] = nullptr;
-  row["volume_stiffness_per_E"] = nullptr;
+  Json row{{"poissons_ratio", a.poissons_ratio},
+           {"design", a.design},
+           {"recommended", a.is_recommended},
+           {"stiffness_per_E_L0", nullptr},
+           {"volume_stiffness_per_E", nullptr},
+           {"small", errors_to_json(a.cube.small)},
+           {"large", errors_to_json(a.cube.large)},
+           {"reason", text_or_null(a.refusal())},
+           {"command", a.trace.command}};
   if (a.stiffness) {
     row["stiffness_per_E_L0"] = {a.stiffness->edge, a.stiffness->face_diagonal,
                                  a.stiffness->internal_diagonal};
     row["volume_stiffness_per_E"] = a.stiffness->volume;
   }
-  row["small"] = with_command(a.small);
-  row["large"] = with_command(a.large);
-  row["reason"] = text_or_null(a.refusal);
-  row["command"] = a.trace.command;
+  row["small"]["command_of_worst"] = text_or_null(a.small_trace.command);
+  row["large"]["command_of_worst"] = text_or_null(a.large_trace.command);
   return row;
 }
 
@@ -142,21 +155,8 @@ Json results_to_json(const ThesisResults& results) {
   return {{"schema", 1},
           {"entries", list(results.entries, entry_to_json)},
           {"designs", list(results.designs, design_to_json)},
-          {"volumes", list(results.volumes,
-                           [](const CaseVolumes& v) {
-                             return Json{{"case", v.name},
-                                         {"rest_mm3", v.rest},
-                                         {"rest_per_cell_mm3", v.rest_per_cell},
-                                         {"fem", box_to_json(v.fem)},
-                                         {"msm", box_to_json(v.msm)},
-                                         {"command", v.trace.command}};
-                           })},
-          {"cell_volume_changes", list(results.cell_volume_changes,
-                                       [](const CellVolumeChange& change) {
-                                         return Json{{"load_set", change.load_set},
-                                                     {"published_percent", change.published},
-                                                     {"computed_percent", change.computed}};
-                                       })},
+          {"volumes", list(results.volumes, volumes_to_json)},
+          {"cell_volume_changes", list(results.cell_volume_changes, change_to_json)},
           {"advice", list(results.advice, advice_to_json)},
           {"summary", summary}};
 }

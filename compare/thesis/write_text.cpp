@@ -1,14 +1,21 @@
+#include "compare/thesis/write_text.hpp"
+
 #include "compare/thesis/sheet.hpp"
-#include "compare/thesis/write.hpp"
+#include "compare/thesis/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <functional>
 
 namespace springproof::compare {
 
 namespace {
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "-";
+}
 
 std::string number(const std::optional<double>& value, const PublishedFigure& figure) {
   if (!value) return "-";
@@ -25,51 +32,39 @@ std::string title(const Sheet& sheet) {
 }
 
 /// Rows of one measure: each reference, print, the difference of the nearest, and what explains a beta_1.
-class MeasureRows {
- public:
-  MeasureRows(std::ostream& out, const Sheet& sheet, std::size_t row) : out_(out), sheet_(sheet), row_(row) {}
-
-  void write() const {
-    const auto& [test, measure] = sheet_.rows[row_];
-    const auto& references = sheet_.first_of_row(row_)->computed;
-    for (std::size_t k = 0; k < references.size(); ++k)
-      line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
-        const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
-        return number(entry.computed[k].value, entry.published) + (is_marked ? "*" : "");
-      });
-    line("", "", measure == "beta_1" ? "published (!)" : "published",
-         [](const TableEntry& entry) { return number(entry.published.value, entry.published); });
-    line("", "", "difference", [](const TableEntry& entry) {
-      const ComputedFigure* nearest = entry.nearest();
-      return number(nearest ? entry.difference(*nearest) : std::nullopt, entry.published);
-    });
-    const bool has_large = std::any_of(sheet_.columns.begin(), sheet_.columns.end(),
-                                       [](const auto& c) { return c[2] == "large"; });
-    // It explains the large rows in print; of the small ones nothing does.
-    if (measure == "beta_1" && has_large)
-      line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
-        if (entry.published.load_set != "large") return std::string();
-        return number(nearest_from_beta_2(entry), entry.published);
-      });
-  }
-
-  /// @param cell  the text of one entry
-  template<class Cell>
-  void line(const std::string& test, const std::string& measure, const std::string& label,
-            const Cell& cell) const {
-    fmt::print(out_, "  {:<8} {:<18} {:<22}", test, measure, label);
-    for (std::size_t c = 0; c < sheet_.columns.size(); ++c) {
-      const TableEntry* entry = sheet_.find(row_, c);
-      fmt::print(out_, " {:>16}", entry ? cell(*entry) : std::string());
+void write_measure(std::ostream& out, const Sheet& sheet, std::size_t row) {
+  const auto line = [&](const std::string& test, const std::string& measure, const std::string& label,
+                        const std::function<std::string(const TableEntry&)>& cell) {
+    fmt::print(out, "  {:<8} {:<18} {:<22}", test, measure, label);
+    for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
+      const TableEntry* entry = sheet.find(row, c);
+      fmt::print(out, " {:>16}", entry ? cell(*entry) : std::string());
     }
-    fmt::print(out_, "\n");
-  }
-
- private:
-  std::ostream& out_;
-  const Sheet& sheet_;
-  std::size_t row_;
-};
+    fmt::print(out, "\n");
+  };
+  const auto& [test, measure] = sheet.rows[row];
+  const auto& references = sheet.first_of_row(row)->computed;
+  for (std::size_t k = 0; k < references.size(); ++k)
+    line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
+      const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
+      return number(entry.computed[k].value, entry.published) + (is_marked ? "*" : "");
+    });
+  line("", "", measure == "beta_1" ? "published (!)" : "published",
+       [](const TableEntry& entry) { return number(entry.published.value, entry.published); });
+  line("", "", "difference", [](const TableEntry& entry) {
+    const ComputedFigure* nearest = entry.nearest();
+    return number(nearest ? entry.difference(*nearest) : std::nullopt, entry.published);
+  });
+  const bool has_large = std::any_of(sheet.columns.begin(), sheet.columns.end(),
+                                     [](const auto& column) { return column[2] == "large"; });
+  // It explains the large rows in print; of the small ones nothing does.
+  if (measure == "beta_1" && has_large)
+    line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
+      if (entry.published.load_set != "large") return std::string();
+      const auto [reference, value] = nearest_from_beta_2(entry);
+      return number(reference ? std::optional(value) : std::nullopt, entry.published);
+    });
+}
 
 void write_commands(std::ostream& out, const Sheet& sheet, Commands commands) {
   if (commands == Commands::one_per_table) {
@@ -89,7 +84,7 @@ void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
     for (const auto& column : sheet.columns) fmt::print(out, " {:>16}", column[part]);
     fmt::print(out, "\n");
   }
-  for (std::size_t row = 0; row < sheet.rows.size(); ++row) MeasureRows(out, sheet, row).write();
+  for (std::size_t row = 0; row < sheet.rows.size(); ++row) write_measure(out, sheet, row);
   const bool has_beta_1 = std::any_of(sheet.entries.begin(), sheet.entries.end(),
                                       [](const TableEntry* e) { return e->published.measure == "beta_1"; });
   if (has_beta_1)
@@ -101,6 +96,121 @@ void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
         fmt::print(out, "  no value: {} {} nu = {:g} ({}): {}\n", entry->published.test,
                    entry->published.measure, entry->published.poissons_ratio, c.reference, c.reason);
   write_commands(out, sheet, commands);
+}
+
+void write_model_volumes(std::ostream& out, const std::string& name, const char* model,
+                         const std::optional<ModelVolumes>& v) {
+  fmt::print(out, "  {:<28} {:<4}", name, model);
+  if (!v) return fmt::print(out, " {:>10}\n", "-");
+  const BoxPlot& b = v->per_cell;
+  fmt::print(out, " {:>10.2f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9}\n", v->total,
+             b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile, b.upper_whisker,
+             b.outliers.size());
+}
+
+std::string worst_and_mean(const LoadSetErrors& errors) {
+  if (!errors.worst) return "-";
+  return fmt::format("{:.1f} ({:.1f}){}", *errors.worst, *errors.mean, errors.is_stable ? "" : " UNSTABLE");
+}
+
+std::string stiffness(const std::optional<msm::CellStiffness>& k) {
+  if (!k) return fmt::format("{:>35}", "");
+  return fmt::format("{:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}", k->edge, k->face_diagonal, k->internal_diagonal,
+                     k->volume);
+}
+
+/// A line that a reader with E and nu in hand can use as it stands.
+void write_recommendation(std::ostream& out, const Advice& a) {
+  const double youngs_modulus = 0.05;            // MPa, soft tissue
+  const double per_metre = 1e3 * youngs_modulus; // N/m of a cell of 1 mm
+  const msm::CellStiffness& k = *a.stiffness;
+  fmt::print(
+      out,
+      "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = {:.5f} "
+      "MPa; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume within "
+      "{:.1f} %.\n      its stiffnesses again (E = 1 MPa): {}\n      its worst errors again: {}\n      {}\n",
+      a.poissons_ratio, a.design, per_metre * k.edge, per_metre * k.face_diagonal,
+      per_metre * k.internal_diagonal, youngs_modulus * k.volume, *a.cube.small.worst, *a.cube.large.worst,
+      *a.cube.worst_volume(), a.trace.command, a.small_trace.command, a.large_trace.command);
+}
+
+void write_beyond(std::ostream& out, const TableEntry& entry) {
+  const PublishedFigure& p = entry.published;
+  fmt::print(out, "    {} {} {} {} nu = {:g}, {}: published {:g};", p.table, p.load_set, p.test, p.measure,
+             p.poissons_ratio, p.design, p.value);
+  for (const ComputedFigure& c : entry.computed)
+    fmt::print(out, " {} {}{};", c.reference,
+               c.value ? fmt::format(p.test == "cell" ? "{:.4f}" : "{:.2f}", *c.value) : "no value: ",
+               c.value ? "" : c.reason);
+  fmt::print(out, " {}\n", entry.finding.empty() ? "unexplained" : entry.finding);
+}
+
+void write_designs_text(std::ostream& out, const std::vector<DesignRow>& rows) {
+  if (rows.empty()) return;
+  fmt::print(
+      out,
+      "\nThe same tables with other designs: |error| against the declared reference, %. A method designs "
+      "from the table's own material.\n  {:<6} {:<34} {:>8} {:>9} {:>9} {:>9}  {}\n",
+      "table", "design", "figures", "missing", "mean", "worst", "where");
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const DesignRow& row = rows[r];
+    fmt::print(out, "  {:<6} {:<34} {:>8} {:>9} {:>9} {:>9}  {}\n",
+               r == 0 || rows[r - 1].table != row.table ? row.table : "", row.design, row.errors.n,
+               row.n_missing, number(row.errors.mean()), number(row.errors.worst), row.worst_at);
+    for (const std::string& reason : row.reasons) fmt::print(out, "         missing: {}\n", reason);
+  }
+}
+
+void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes,
+                        const std::vector<CellVolumeChange>& changes) {
+  if (volumes.empty()) return;
+  fmt::print(
+      out,
+      "\nVolumes, mm3: of the body, and of its cells as box plots (figure 5.10; whiskers at the outermost "
+      "values within 1.5 times the interquartile range)\n"
+      "  {:<28} {:<4} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+      "case", "", "body", "whisker", "quartile", "median", "quartile", "whisker", "outliers");
+  for (const CaseVolumes& v : volumes) {
+    write_model_volumes(out, v.name, "fem", v.fem);
+    write_model_volumes(out, "", "msm", v.msm);
+  }
+  for (const CellVolumeChange& change : changes)
+    fmt::print(out, "  largest change of a cell without outliers, Ogden, {} loads: {} %, published {:g} %\n",
+               change.load_set, number(change.computed), change.published);
+}
+
+void write_advice_text(std::ostream& out, const std::vector<Advice>& advice) {
+  if (advice.empty()) return;
+  fmt::print(out,
+             "\nWhich design to use: stiffnesses for any E and L0 (k = figure x E L0, k_v = figure x E) and "
+             "|error| on the thesis's cube, worst (mean), %, against the declared reference\n"
+             "  {:<6} {:<17} {:>8} {:>8} {:>8} {:>8}   {:<22} {:<22}\n",
+             "nu", "design", "k_e", "k_f", "k_d", "k_v", "small loads", "large loads");
+  for (const Advice& a : advice)
+    fmt::print(out, "{} {:<6g} {:<17} {}   {:<22} {:<22}{}\n", a.is_recommended ? ">" : " ", a.poissons_ratio,
+               a.design, stiffness(a.stiffness), worst_and_mean(a.cube.small), worst_and_mean(a.cube.large),
+               a.refusal());
+  for (const Advice& a : advice)
+    if (a.is_recommended) write_recommendation(out, a);
+  fmt::print(out,
+             "  Recommended is the smallest worst error over both sets among the designs that stay stable. "
+             "The errors hold for equal strains: loads in proportion to E.\n");
+}
+
+void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& groups) {
+  fmt::print(out, "\nSummary: published figures that are reproduced\n");
+  for (const SummaryGroup& group : groups) {
+    fmt::print(out, "  {}: {} figures\n", group.name, group.n_entries);
+    for (const Within& w : group.within)
+      fmt::print(out,
+                 "    within {:<6g} {:<6}  {:>3} by the declared reference, {:>3} only by the other, {:>3} "
+                 "by neither\n",
+                 w.bound, group.unit, w.declared, w.other_only, w.neither);
+    if (group.beyond.empty()) continue;
+    fmt::print(out, "    by neither within {:g}{}{}:\n", group.listing_bound, group.unit.empty() ? "" : " ",
+               group.unit);
+    for (const TableEntry* entry : group.beyond) write_beyond(out, *entry);
+  }
 }
 
 } // namespace

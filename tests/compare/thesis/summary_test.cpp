@@ -1,30 +1,16 @@
-#include "compare/thesis/build_results.hpp"
+#include "compare/thesis/summary.hpp"
+
+#include "tests/compare/thesis/table_entry.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 using namespace springproof;
 
-using compare::ComputedFigure;
 using compare::SummaryGroup;
 using compare::TableEntry;
 
 namespace {
-
-ComputedFigure computed(std::optional<double> value, const std::string& reference = "log_strain q1_bbar") {
-  ComputedFigure figure;
-  figure.reference = reference;
-  figure.value = value;
-  return figure;
-}
-
-/// An entry of table 4.6 that print gives as 10 %.
-TableEntry entry(const std::vector<std::optional<double>>& values, const std::string& measure = "alpha_2") {
-  TableEntry result{
-      {"4.6", "linear_elastic", 0.3, "linear_method", 0.3, "large", "shear", measure, "%", 10}, {}, ""};
-  for (const auto& value : values) result.computed.push_back(computed(value));
-  return result;
-}
 
 const compare::Within& within(const SummaryGroup& group, double bound) {
   for (const compare::Within& w : group.within)
@@ -72,53 +58,4 @@ TEST_CASE("a difference that is the bound in decimals is within it") {
   TableEntry exact = entry({1.3});
   exact.published.value = 1.2; // 1.3 - 1.2 is a little more than 0.1 in binary
   check(within(compare::summarise({exact})[0], 0.1), 1, 0, 0);
-}
-
-TEST_CASE("a printed beta_1 that is the error of 45 deg + beta_2 is marked so, any other as unexplained") {
-  std::vector<TableEntry> entries{entry({25, 24}, "beta_1"), entry({25}, "beta_1"), entry({25}, "beta_1"),
-                                  entry({25}, "beta_1")};
-  entries[0].computed[1].from_beta_2 = 10.06;
-  entries[0].computed[1].reference = "small_strain q1_bbar";
-  entries[0].computed[0].from_beta_2 = 9.8;
-  entries[1].computed[0].from_beta_2 = 9.5;
-  entries[1].computed[0].from_printed_beta_2 = 9.98;
-  entries[2].computed[0].from_beta_2 = 10.3;
-  entries[3].computed[0].from_beta_2 = -10;
-  compare::explain(entries);
-  CHECK_THAT(entries[0].finding, Catch::Contains("print holds the error of 45 deg + beta_2") &&
-                                     Catch::Contains("10.06 with small_strain q1_bbar"));
-  CHECK(compare::explained_by_beta_2(entries[0]) == &entries[0].computed[1]);
-  CHECK_THAT(entries[1].finding, Catch::Contains("9.98") && Catch::Contains("printed error of beta_2"));
-  CHECK_THAT(entries[2].finding, Catch::Contains("perhaps"));
-  CHECK(compare::explained_by_beta_2(entries[2]) == nullptr);
-  CHECK_THAT(entries[3].finding, Catch::Contains("nor any other quantity"));
-}
-
-TEST_CASE("a large alpha_1 is marked when print lies above the reference that meets alpha_2, and only then") {
-  std::vector<TableEntry> entries{entry({4.5, 12}, "alpha_1"), entry({9.8, 3}, "alpha_2")};
-  compare::explain(entries);
-  CHECK_THAT(entries[0].finding, Catch::Contains("5.5 points above") && Catch::Contains("within 0.2"));
-  CHECK(entries[1].finding.empty());
-  entries[0].computed[0].value = 14; // print lies below
-  compare::explain(entries);
-  CHECK(entries[0].finding.empty());
-}
-
-TEST_CASE("the design with the smallest worst error is recommended among those that are stable everywhere") {
-  const auto advice = [](double nu, double small, double large, bool is_stable) {
-    compare::Advice a;
-    a.poissons_ratio = nu;
-    a.small = {{small, small, 0.0, true}, {}};
-    a.large = {{large, large, 0.0, is_stable}, {}};
-    return a;
-  };
-  compare::Advice failed = advice(0.3, 0.1, 0.1, true);
-  failed.large.worst.reset();
-  std::vector<compare::Advice> all{
-      advice(0.3, 3, 9, true),   advice(0.3, 1, 1, false),   failed,
-      advice(0.3, 8, 8.5, true), advice(0.45, 20, 30, true), advice(0.49, 1, 1, false)};
-  compare::recommend(all);
-  std::vector<bool> marked;
-  for (const compare::Advice& a : all) marked.push_back(a.is_recommended);
-  CHECK(marked == std::vector<bool>{false, false, false, true, true, false});
 }

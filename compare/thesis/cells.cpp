@@ -1,12 +1,10 @@
-// Tables 4.1 to 4.3: one cell of edge 2 mm with E = 1 MPa.
+#include "compare/thesis/cells.hpp"
 
 #include "compare/solve/design.hpp"
-#include "compare/thesis/build_results.hpp"
-#include "fem_reference/element_stiffness.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace springproof::compare {
 
@@ -15,14 +13,17 @@ namespace {
 constexpr double cell_edge = 2;      // mm; thesis section 4.2.2
 constexpr double youngs_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
 
+Spectrum springs_spectrum(const msm::CellStiffness& stiffness) {
+  return full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
+}
+
 CellAnalysis analyse_cell(double poissons_ratio) {
   const cases::LinearElastic material{youngs_modulus, poissons_ratio};
-  const msm::CellVertices cell = msm::cube(cell_edge);
-  const msm::CellStiffness stiffness = msm::design(design_request(material, cell, cases::Msm{})).stiffness;
+  const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), cases::Msm{});
+  const msm::CellStiffness stiffness = msm::design(request).stiffness;
   return {
       poissons_ratio, stiffness,
-      analyse_eigenspaces(full_spectrum(fem_reference::element_stiffness(cell, material, cases::Element::q1)),
-                          full_spectrum(msm::cell_stiffness_matrix(cell, stiffness)))};
+      analyse_eigenspaces(full_spectrum(request.element_stiffness(material)), springs_spectrum(stiffness))};
 }
 
 /// "fem_eigenvalue_2" -> model "fem", what "eigenvalue", index 1.
@@ -39,34 +40,25 @@ std::optional<double> figure_of(const CellAnalysis& cell, const std::string& mea
   if (measure == "edge") return cell.stiffness.edge;
   if (measure == "face_diagonal") return cell.stiffness.face_diagonal;
   if (measure == "internal_diagonal") return cell.stiffness.internal_diagonal;
-  if (measure == "h") return cell.spaces.h;
-  return spectrum_figure(measure, cell.spaces);
+  return measure == "h" ? cell.spaces.h : spectrum_figure(measure, cell.spaces);
 }
 
 Trace cell_trace(const PublishedFigure& figure) {
   const std::string nu = fmt::format("{}", figure.poissons_ratio);
+  if (figure.table != "4.1") return {"", {}, shell_command({"eigen", "--poisson", nu})};
   // With E = 0.001 MPa and L0 = 2 mm the stiffnesses in N/m are the pseudo-stiffnesses.
-  if (figure.table == "4.1")
-    return {"",
-            {},
-            shell_command({"build/springproof", "design", "--young", "0.001", "--edge", "2", "--poisson", nu,
-                           "--method", "linear_method"})};
-  return {"", {}, shell_command({"build/springproof", "eigen", "--poisson", nu})};
+  return {"",
+          {},
+          shell_command(
+              {"design", "--young", "0.001", "--edge", "2", "--poisson", nu, "--method", "linear_method"})};
 }
 
 /// Stiffnesses as table 4.1 prints them, to three digits.
 std::optional<msm::CellStiffness> printed_stiffness(double poissons_ratio) {
-  static const std::vector<PublishedFigure> all = read_published_figures();
-  msm::CellStiffness k;
-  int n_found = 0;
-  for (const PublishedFigure& figure : all) {
-    if (figure.table != "4.1" || figure.poissons_ratio != poissons_ratio) continue;
-    (figure.measure == "edge"            ? k.edge
-     : figure.measure == "face_diagonal" ? k.face_diagonal
-                                         : k.internal_diagonal) = figure.value;
-    ++n_found;
-  }
-  return n_found == 3 ? std::optional(k) : std::nullopt;
+  std::vector<double> k;
+  for (const PublishedFigure& figure : published_figures())
+    if (figure.table == "4.1" && figure.poissons_ratio == poissons_ratio) k.push_back(figure.value);
+  return k.size() == 3 ? std::optional(msm::CellStiffness{k[0], k[1], k[2]}) : std::nullopt;
 }
 
 /// What lies between print and us beyond the rounding of the last printed digit.
@@ -76,7 +68,7 @@ std::string explain_cell(const PublishedFigure& figure, double computed) {
   if (off <= half_digit) return "";
   if (figure.measure.rfind("msm_eigenvalue", 0) == 0)
     if (const auto k = printed_stiffness(figure.poissons_ratio)) {
-      const Spectrum springs = full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), *k));
+      const Spectrum springs = springs_spectrum(*k);
       const auto value = spectrum_figure(figure.measure, analyse_eigenspaces(springs, springs));
       if (value && std::abs(*value - figure.value) <= half_digit)
         return fmt::format("met with the stiffnesses of table 4.1 as printed: {:.4f}", *value);
@@ -87,11 +79,9 @@ std::string explain_cell(const PublishedFigure& figure, double computed) {
 } // namespace
 
 std::vector<CellAnalysis> analyse_cells(const std::vector<PublishedFigure>& figures) {
-  std::vector<double> ratios;
+  std::set<double> ratios;
   for (const PublishedFigure& figure : figures)
-    if (figure.test == "cell") ratios.push_back(figure.poissons_ratio);
-  std::sort(ratios.begin(), ratios.end());
-  ratios.erase(std::unique(ratios.begin(), ratios.end()), ratios.end());
+    if (figure.test == "cell") ratios.insert(figure.poissons_ratio);
   std::vector<CellAnalysis> cells;
   for (const double nu : ratios) cells.push_back(analyse_cell(nu));
   return cells;
@@ -102,12 +92,9 @@ std::vector<TableEntry> cell_entries(const std::vector<PublishedFigure>& figures
   std::vector<TableEntry> entries;
   for (const PublishedFigure& figure : figures) {
     if (figure.test != "cell") continue;
-    const auto cell = std::find_if(cells.begin(), cells.end(), [&](const CellAnalysis& c) {
-      return c.poissons_ratio == figure.poissons_ratio;
-    });
-    ComputedFigure computed;
-    computed.reference = "one q1 cell";
-    if (cell != cells.end()) computed.value = figure_of(*cell, figure.measure);
+    ComputedFigure computed{"one q1 cell"};
+    for (const CellAnalysis& cell : cells)
+      if (cell.poissons_ratio == figure.poissons_ratio) computed.value = figure_of(cell, figure.measure);
     if (!computed.value) computed.reason = "the cell has no " + figure.measure;
     computed.trace = cell_trace(figure);
     entries.push_back({figure, {computed}, computed.value ? explain_cell(figure, *computed.value) : ""});

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "compare/thesis/results.hpp"
+
+namespace springproof::compare {
+
+/// tables.txt, tables.json, and those that have content of: tables.csv, a row per entry and reference;
+/// designs.csv, a row per table and design; volumes.csv, a row per case, model and cell; box_plot.csv, a row
+/// per case and model (the outliers joined by blanks); advice.csv, a row per Poisson's ratio and design; a
+/// .vtu per case. The same commit writes the same bytes.
+/// @throws InputError if the folder cannot be written
+void write_thesis_files(const std::string& folder, const ThesisResults& results);
+
+} // namespace springproof::compare
