@@ -1,73 +1,17 @@
 #include "fem_reference/element_stiffness.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/elastic_moduli.hpp"
+#include "fem_reference/law_kernel.hpp"
+#include "fem_reference/laws/small_strain.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
-#include <cassert>
 #include <cmath>
 #include <string>
 
 namespace springproof::fem_reference {
 
 namespace {
-
-using ShapeGradients = Eigen::Matrix<double, 3, 8>;
-using StrainDisplacement = Eigen::Matrix<double, 6, 24>;
-
-struct GaussPoint {
-  ShapeGradients gradients; ///< dN_i/dx, 1/mm
-  double volume;            ///< weight times Jacobian determinant, mm³
-};
-
-std::array<GaussPoint, 8> gauss_points(const std::array<Eigen::Vector3d, 8>& vertices) {
-  std::array<GaussPoint, 8> points;
-  for (int q = 0; q < 8; ++q) {
-    const Eigen::Vector3d at = mechanics::gauss_point(q);
-    const Eigen::Matrix3d jacobian = mechanics::jacobian(vertices, at);
-    const double determinant = jacobian.determinant();
-    if (!(determinant > 0))
-      throw cases::InputError("the cell is inverted or degenerate: its Jacobian determinant is " +
-                              std::to_string(determinant / 8) + " mm³ at a Gauss point; it must be positive");
-    points[static_cast<std::size_t>(q)] = {jacobian.inverse().transpose() * mechanics::shape_gradients(at),
-                                           determinant / 8};
-  }
-  return points;
-}
-
-// Rows: xx, yy, zz, xy, yz, xz with engineering shear strains (thesis eq. 4.6).
-StrainDisplacement strain_displacement(const ShapeGradients& gradients) {
-  StrainDisplacement b = StrainDisplacement::Zero();
-  for (int v = 0; v < 8; ++v) {
-    const Eigen::Vector3d g = gradients.col(v);
-    b.block<6, 3>(0, 3 * v) << g.x(), 0, 0, //
-        0, g.y(), 0,                        //
-        0, 0, g.z(),                        //
-        g.y(), g.x(), 0,                    //
-        0, g.z(), g.y(),                    //
-        g.z(), 0, g.x();
-  }
-  return b;
-}
-
-Eigen::Matrix<double, 6, 6> elasticity(const cases::LinearElastic& material) {
-  const auto [lambda, mu, kappa] = mechanics::elastic_moduli(material);
-  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
-  d.topLeftCorner<3, 3>().setConstant(lambda);
-  d.diagonal() << Eigen::Vector3d::Constant(lambda + 2 * mu), Eigen::Vector3d::Constant(mu);
-  return d;
-}
-
-// B-bar: the dilatation that B gives, replaced by its mean over the element.
-StrainDisplacement with_mean_dilatation(StrainDisplacement b, const ShapeGradients& mean) {
-  for (int v = 0; v < 8; ++v) {
-    const Eigen::RowVector3d own = b.block<3, 3>(0, 3 * v).diagonal();
-    const Eigen::RowVector3d correction = (mean.col(v).transpose() - own) / 3;
-    b.block<3, 3>(0, 3 * v).rowwise() += correction;
-  }
-  return b;
-}
 
 void check_input(const cases::LinearElastic& material, cases::Element element) {
   if (element != cases::Element::q1 && element != cases::Element::q1_bbar)
@@ -83,21 +27,29 @@ void check_input(const cases::LinearElastic& material, cases::Element element) {
 ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertices,
                                    const cases::LinearElastic& material, cases::Element element) {
   check_input(material, element);
-  const auto points = gauss_points(vertices);
-  ShapeGradients mean = ShapeGradients::Zero();
-  double volume = 0;
-  for (const GaussPoint& point : points) {
-    mean += point.volume * point.gradients;
-    volume += point.volume;
+  Eigen::Matrix<double, 8, 24> gradients; // column 3*point + direction
+  Eigen::Matrix<double, 8, 1> weights;
+  for (int q = 0; q < 8; ++q) {
+    const Eigen::Vector3d at = mechanics::gauss_point(q);
+    const Eigen::Matrix3d jacobian = mechanics::jacobian(vertices, at);
+    weights[q] = jacobian.determinant() / 8;
+    if (!(weights[q] > 0))
+      throw cases::InputError("the cell is inverted or degenerate: its Jacobian determinant is " +
+                              std::to_string(weights[q]) + " mm³ at a Gauss point; it must be positive");
+    gradients.middleCols<3>(3 * q) = mechanics::shape_gradients(at).transpose() * jacobian.inverse();
   }
-  mean /= volume;
-  const Eigen::Matrix<double, 6, 6> d = elasticity(material);
-  ElementStiffness stiffness = ElementStiffness::Zero();
-  for (const GaussPoint& point : points) {
-    StrainDisplacement b = strain_displacement(point.gradients);
-    if (element == cases::Element::q1_bbar) b = with_mean_dilatation(b, mean);
-    stiffness += point.volume * b.transpose() * d * b;
-  }
+  cases::Fem fem;
+  fem.element = element;
+  LawKernel<SmallStrain> kernel(element_type(fem, SmallStrain::traits), SmallStrain(material));
+  const std::array<double, 24> rest{};
+  const std::array<double, 8> constant_mode{{1, 1, 1, 1, 1, 1, 1, 1}};
+  const CellResult& result = kernel.evaluate({8, 8, gradients.data(), weights.data(), constant_mode.data()},
+                                             rest.data(), rest.data(), Wanted::stress_and_tangent);
+  ElementStiffness stiffness;
+  for (int row = 0; row < 24; ++row) // of degree of freedom i*8 + a in the kernel
+    for (int column = 0; column < 24; ++column)
+      stiffness(3 * (row % 8) + row / 8, 3 * (column % 8) + column / 8) =
+          result.tangent[static_cast<std::size_t>(24 * row + column)];
   return stiffness;
 }
 
