@@ -14,7 +14,7 @@ namespace {
 class PathFollower {
  public:
   PathFollower(NonlinearProblem& problem, const std::string& name, const EquilibriumSettings& settings)
-      : problem_(problem), name_(name), settings_(settings), newton_(problem, settings) {}
+      : problem_(problem), name_(name), settings_(settings), newton_(problem, settings, result_) {}
 
   Equilibrium follow(const Vector& start) {
     const NonlinearProblem::Work before = problem_.work();
@@ -33,8 +33,8 @@ class PathFollower {
   NonlinearProblem& problem_;
   const std::string& name_;
   const EquilibriumSettings& settings_;
-  Newton newton_;
   Equilibrium result_;
+  Newton newton_;
   double reached_ = 0;       ///< of the way
   Vector now_, previous_;    ///< the last two equilibria on the path
   double previous_step_ = 0; ///< between them; 0: there is one alone
@@ -60,13 +60,13 @@ class PathFollower {
       if (step < settings_.smallest_load_step) give_up_path();
       // A remainder too small for a step of its own is taken along.
       const double target = 1 - reached_ - step < settings_.smallest_load_step ? 1 : reached_ + step;
-      const int iterations_before = newton_.iterations();
+      const int iterations_before = result_.newton_iterations;
       // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
       // step would leave the path.
       const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
       if (!attempt(predicted(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
         step /= 2;
-      else if (newton_.iterations() - iterations_before <= settings_.easy_newton_per_step)
+      else if (result_.newton_iterations - iterations_before <= settings_.easy_newton_per_step)
         step = std::min(2 * step, settings_.largest_load_step);
     }
   }
@@ -96,18 +96,16 @@ class PathFollower {
 
   /// One load step. On success the path goes on from its end.
   bool attempt(Vector trial, double target, Convexity fallback, int iteration_factor = 1) {
-    const int left_convexity = result_.escapes + newton_.convexified_steps();
+    const int left_convexity = result_.escapes + result_.convexified_steps;
     if (!newton_.solve(trial, load(target), fallback, iteration_factor)) return false;
     if (settings_.stability == Stability::require && !settle(trial, load(target))) return false;
-    const double residual = newton_.residual();
     const int inverted = problem_.n_inverted(trial);
-    const bool may_have_jumped = result_.escapes + newton_.convexified_steps() > left_convexity;
+    const bool may_have_jumped = result_.escapes + result_.convexified_steps > left_convexity;
     if (inverted > inverted_ && may_have_jumped) return false;
     previous_ = std::exchange(now_, std::move(trial));
     previous_step_ = target - reached_;
     inverted_ = inverted;
     reached_ = target;
-    result_.residual = residual;
     ++result_.load_steps;
     return true;
   }
@@ -153,8 +151,6 @@ class PathFollower {
   Equilibrium finish(const NonlinearProblem::Work& before) {
     if (settings_.stability == Stability::report) result_.is_stable = problem_.is_stable(now_);
     result_.lowest_eigenvalue = lowest_eigenvalue();
-    result_.newton_iterations = newton_.iterations();
-    result_.convexified_steps = newton_.convexified_steps();
     result_.load_reached = load(reached_);
     result_.state = std::move(now_);
     result_.work = problem_.work() - before;
@@ -178,7 +174,7 @@ class PathFollower {
     const double load_factor = load(reached_);
     const double residual = problem_.size(problem_.residual(now_, load_factor), now_).relative;
     throw cases::SolveError(name_ + ": " + reason, load_factor, residual, outcome,
-                            {newton_.iterations(), lowest_eigenvalue(), inverted_});
+                            {result_.newton_iterations, lowest_eigenvalue(), inverted_});
   }
 };
 

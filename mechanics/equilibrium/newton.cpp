@@ -1,31 +1,84 @@
 #include "mechanics/equilibrium/newton.hpp"
 
-#include "mechanics/equilibrium/line_search.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace springproof::mechanics {
 
+namespace {
+
+constexpr double smallest_energy_fraction = 1e-6, smallest_work_fraction = 1. / 64;
+/// Work left on a step after it, of that at its start: it must fall a little at least.
+constexpr double accepted_work = 0.9;
+
+bool search_energy(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
+                   double load_factor, Expect expect) {
+  const double start = problem.energy(at, load_factor), slope = problem.dot(step, residual);
+  for (double fraction = 1; fraction > smallest_energy_fraction; fraction /= 2) {
+    Vector trial = at + fraction * step;
+    const double change = problem.energy(trial, load_factor) - start;
+    const bool falls = change <= -1e-4 * fraction * slope;
+    const bool in_rounding = fraction * slope <= 1e-9 * (std::abs(start) + slope);
+    if (!falls && !in_rounding) continue;
+    Vector found = problem.residual(trial, load_factor, expect);
+    if (!falls && !(problem.dot(found, found) < problem.dot(residual, residual))) continue;
+    at = std::move(trial);
+    residual = std::move(found);
+    return true;
+  }
+  return false;
+}
+
+bool search_work(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
+                 double load_factor, Expect expect) {
+  const bool any = problem.merit() == Merit::none;
+  const double start = problem.dot(step, residual);
+  for (double fraction = 1; fraction >= smallest_work_fraction; expect = Expect::residual) {
+    Vector trial = at + fraction * step;
+    Vector found = problem.residual(trial, load_factor, expect);
+    const double work = problem.dot(step, found);
+    // Work of the same sign after the step as before it means that the minimum lies beyond.
+    if (std::isfinite(work) &&
+        (any || std::abs(work) <= accepted_work * std::abs(start) || work * start > 0)) {
+      at = std::move(trial);
+      residual = std::move(found);
+      return true;
+    }
+    // Secant on the work where it changed sign, halving otherwise.
+    fraction *= std::isfinite(work) ? std::clamp(start / (start - work), 0.2, 0.7) : 0.5;
+  }
+  return false;
+}
+
+} // namespace
+
+bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
+                 double load_factor, Expect expect) {
+  const auto search = problem.merit() == Merit::energy ? search_energy : search_work;
+  return search(problem, at, residual, step, load_factor, expect);
+}
+
 bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int iteration_factor) {
   if (const auto solved = problem_.solve_at(at, load_factor)) {
-    iterations_ += solved->newton_iterations;
-    residual_ = solved->residual;
+    result_.newton_iterations += solved->newton_iterations;
+    result_.residual = solved->residual;
     check_limits();
     return solved->converged || fail("Newton's method does not converge");
   }
   // Off a saddle the way is long and winds through a narrow valley of the potential.
   const int max_iterations =
       settings_.max_newton_per_step * std::max(iteration_factor, fallback == Convexity::shifted ? 4 : 1);
-  const int max_convexified = convexified_steps_ + iteration_factor * settings_.max_convexified_per_step;
+  const int max_convexified =
+      result_.convexified_steps + iteration_factor * settings_.max_convexified_per_step;
   double forcing = 0.1, norm_before = 0;
   Vector residual = problem_.residual(at, load_factor, Expect::direction);
   for (int iteration = 0;; ++iteration) {
     const NonlinearProblem::Size size = problem_.size(residual, at);
-    const double norm = residual_ = size.relative;
+    const double norm = result_.residual = size.relative;
     if (!std::isfinite(norm)) return fail("cells turn inside out");
     if (norm <= settings_.tolerance && size.constraints_hold) return true;
-    if (iteration == max_iterations || convexified_steps_ > max_convexified)
+    if (iteration == max_iterations || result_.convexified_steps > max_convexified)
       return fail("Newton's method does not converge");
     const auto may_be_rounding = [&] {
       return size.constraints_hold && (problem_.moves_supports() || norm < 1e-6);
@@ -39,7 +92,7 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     norm_before = norm;
     forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
     check_limits();
-    ++iterations_;
+    ++result_.newton_iterations;
     if (!take_step(at, residual, forcing, load_factor, fallback))
       return (may_be_rounding() && is_rounding(at, residual, load_factor)) || fail("no step gets nearer");
   }
@@ -47,20 +100,20 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
 
 void Newton::check_limits() const {
   if (settings_.should_stop && problem_.any_rank(settings_.should_stop())) throw Stopped{"it was stopped"};
-  if (iterations_ >= settings_.max_newton_iterations)
+  if (result_.newton_iterations >= settings_.max_newton_iterations)
     throw Stopped{"the limit on Newton iterations was reached"};
 }
 
 bool Newton::take_step(Vector& at, Vector& residual, double forcing, double load_factor, Convexity fallback) {
   // Where convergence is quadratic the step from here is the last.
-  const Expect expect = residual_ <= 1e-5 ? Expect::residual : Expect::direction;
+  const Expect expect = result_.residual <= 1e-5 ? Expect::residual : Expect::direction;
   const auto take = [&](Convexity convexity) {
     const auto step = problem_.direction(at, residual, load_factor, forcing, convexity);
     return step && line_search(problem_, at, residual, *step, load_factor, expect);
   };
   if (take(Convexity::exact)) return true;
   if (fallback == Convexity::exact) return false;
-  ++convexified_steps_;
+  ++result_.convexified_steps;
   return take(fallback);
 }
 

@@ -6,6 +6,14 @@
 
 namespace springproof::mechanics {
 
+/// Moves `at` along a step as far as the problem's merit allows, shortening the step. Next to the solution an
+/// energy's change drowns in rounding: there a falling residual decides.
+/// @param residual  at `at`; on success at its new place
+/// @param expect    of the full step
+/// @return whether a fraction of the step would do; otherwise `at` and `residual` are as they were
+bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
+                 double load_factor, Expect expect = Expect::residual);
+
 /// Newton's method at one load factor after the other, with the limits on all of them.
 class Newton {
  public:
@@ -14,8 +22,9 @@ class Newton {
     std::string reason;
   };
 
-  Newton(NonlinearProblem& problem, const EquilibriumSettings& settings)
-      : problem_(problem), settings_(settings) {}
+  /// @param result  counts the iterations and convexified steps; its residual is the last one
+  Newton(NonlinearProblem& problem, const EquilibriumSettings& settings, Equilibrium& result)
+      : problem_(problem), settings_(settings), result_(result) {}
 
   /// On success `at` is in equilibrium; otherwise it is of no use. The forcing is choice 2 of Eisenstat and
   /// Walker (1996), gamma = 0.9, alpha = 2, never tighter than what the tolerance asks for.
@@ -23,16 +32,12 @@ class Newton {
   /// @param iteration_factor  how many times the usual number of iterations it may take
   bool solve(Vector& at, double load_factor, Convexity fallback, int iteration_factor = 1);
 
-  int iterations() const { return iterations_; }
-  int convexified_steps() const { return convexified_steps_; }
-  double residual() const { return residual_; }           ///< relative, the last one
   const std::string& failure() const { return failure_; } ///< why the last solve() that failed did
 
  private:
   NonlinearProblem& problem_;
   const EquilibriumSettings& settings_;
-  int iterations_ = 0, convexified_steps_ = 0;
-  double residual_ = 0;
+  Equilibrium& result_;
   std::string failure_;
 
   void check_limits() const;

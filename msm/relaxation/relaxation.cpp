@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
-#include "mechanics/equilibrium/line_search.hpp"
+#include "mechanics/equilibrium/newton.hpp"
 
 #include <algorithm>
 #include <cmath>
