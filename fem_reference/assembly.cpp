@@ -62,11 +62,11 @@ void Assembly::add_tangent(int cell, const CellResult& result, const std::vector
             pressure_slope_.begin() + first * size);
 }
 
-Assembly::CellChecks Assembly::assemble(const State& state, const std::vector<double>& gap, Wanted wanted,
-                                        Vec force, Vec condensed) {
+std::optional<double> Assembly::assemble(const State& state, const std::vector<double>& gap, Wanted wanted,
+                                         Vec force, Vec condensed) {
   const auto& d = discretisation_;
   const bool wants_tangent = wanted == Wanted::stress_and_tangent;
-  CellChecks checks;
+  std::optional<double> volume_mismatch = 0;
   if (wants_tangent) {
     check(MatZeroEntries(tangent()));
     for (int i = 0; i < 3 * d.nodes.n_owned; ++i)
@@ -76,21 +76,23 @@ Assembly::CellChecks Assembly::assemble(const State& state, const std::vector<do
     const WriteEntries plain(force), with_pressures(condensed);
     std::fill_n(plain.data(), n_displacements(), 0.);
     if (wants_tangent) std::fill_n(with_pressures.data(), n_displacements(), 0.);
-    for (int cell = 0; cell < d.nodes.n_cells && checks.valid; ++cell) {
+    for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
       const CellResult& result = evaluate(cell, state, wanted);
-      checks.valid = result.valid;
-      if (!result.valid) break;
-      checks.volume_mismatch = std::max(checks.volume_mismatch, result.volume_mismatch);
+      if (!result.valid) {
+        volume_mismatch.reset();
+        break;
+      }
+      *volume_mismatch = std::max(*volume_mismatch, result.volume_mismatch);
       for (std::size_t k = 0; k < rows_.size(); ++k) plain[dof(cell, k)] += result.plain_force[k];
       if (wants_tangent) add_tangent(cell, result, gap, with_pressures);
     }
   }
   mechanics::petsc::add_ghosts(force);
-  if (!wants_tangent) return checks;
+  if (!wants_tangent) return volume_mismatch;
   mechanics::petsc::add_ghosts(condensed);
   check(MatAssemblyBegin(tangent(), MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(tangent(), MAT_FINAL_ASSEMBLY));
-  return checks;
+  return volume_mismatch;
 }
 
 void Assembly::complete_correction(State& correction) const {

@@ -16,18 +16,14 @@ class Assembly {
   /// @param formulations  of each of the discretisation's materials
   Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
-  /// Of this rank's cells.
-  struct CellChecks {
-    bool valid =
-        true; ///< false: a cell is inverted at a quadrature point, or not a number; sums are incomplete
-    double volume_mismatch = 0; ///< the largest
-  };
   /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
   /// @param force      becomes the internal force, N
   /// @param condensed  when a tangent is wanted, becomes the internal force with the pressures' imbalance and
   ///                   what the gap will add to it, N
-  CellChecks assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
-                      Vec condensed);
+  /// @return the largest volume mismatch of this rank's cells; nothing when one of them is inverted at a
+  ///         quadrature point, or not a number: sums are then incomplete
+  std::optional<double> assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
+                                 Vec condensed);
 
   /// Sets the pressures that belong to a correction's displacement.
   void complete_correction(State& correction) const;

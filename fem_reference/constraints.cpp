@@ -13,25 +13,17 @@ namespace {
 using cases::index;
 using Eigen::Vector3d;
 
-/// A vertex, an edge or a face by its vertices' sorted numbers.
-using Part = std::vector<int>;
-
-template<class Vertices>
-Part part_of(const Vertices& vertices) {
-  Part part(vertices.begin(), vertices.end());
-  std::sort(part.begin(), part.end());
-  return part;
-}
+/// A vertex, an edge or a face by its vertices' numbers.
+using Part = std::set<int>;
 
 /// The vertices, edges and faces of a selection, edges of its faces included.
 std::set<Part> parts_of(const cases::Selection& selection) {
   std::set<Part> parts;
-  for (const int node : selection.nodes) parts.insert({node});
-  for (const auto& edge : selection.edges) parts.insert(part_of(edge));
+  for (const int node : selection.nodes) parts.insert(Part{node});
+  for (const auto& edge : selection.edges) parts.emplace(edge.begin(), edge.end());
   for (const auto& face : selection.faces) {
-    parts.insert(part_of(face));
-    for (std::size_t v = 0; v < 4; ++v)
-      parts.insert(part_of(std::array<int, 2>{{face[v], face[(v + 1) % 4]}}));
+    parts.emplace(face.begin(), face.end());
+    for (std::size_t v = 0; v < 4; ++v) parts.insert(Part{face[v], face[(v + 1) % 4]});
   }
   return parts;
 }
@@ -46,8 +38,8 @@ std::set<int> nodes_on(const cases::Selection& selection, const cases::Scene& sc
     if (std::exchange(is_seen[index(node)], 1)) continue;
     const auto& cell = scene.mesh.cells[index(nodes.mesh_cell[i / index(nodes.per_cell)])];
     Part part;
-    for (const int v : nodes.between[i % index(nodes.per_cell)]) part.push_back(cell[index(v)]);
-    if (parts.count(part_of(part)) != 0) found.insert(node);
+    for (const int v : nodes.between[i % index(nodes.per_cell)]) part.insert(cell[index(v)]);
+    if (parts.count(part) != 0) found.insert(node);
   }
   return found;
 }

@@ -9,6 +9,8 @@ namespace springproof::fem_reference {
 
 /// One rank's share of a scene in plain arrays, filled by deal.II.
 class Discretisation {
+  std::unique_ptr<Space> space_; // first: what follows is made from it
+
  public:
   /// @param scene  already refined: every node of its mesh keeps its number
   Discretisation(const cases::Scene& scene, const ElementType& element, const Prescribed& prescribed,
@@ -27,14 +29,9 @@ class Discretisation {
 
   /// A ghosted vector of displacements or forces, zero.
   Vector make_vector() const { return nodes.make_vector(communicator); }
-  /// For those who assemble the tangent: its sparsity, zero.
+  /// For those who assemble the tangent: a zero matrix with its sparsity, which takes values at local degrees
+  /// of freedom. Rows and columns of constrained degrees of freedom have their diagonal alone.
   Matrix make_tangent_matrix() const;
-
- private:
-  Discretisation(const cases::Scene& scene, const ElementType& element, const Prescribed& prescribed,
-                 std::unique_ptr<Space> space);
-
-  std::unique_ptr<Space> space_;
 };
 
 } // namespace springproof::fem_reference

@@ -42,7 +42,6 @@ CellKernel::CellKernel(const ElementType& element) : element_(element) {
   result_.force.resize(n_dofs);
   result_.plain_force.resize(n_dofs);
   result_.tangent.resize(n_dofs * n_dofs);
-  result_.volume_residual.resize(n_modes);
   result_.pressure_residual.resize(n_modes);
   result_.pressure_slope.resize(n_modes * n_dofs);
   volume_gradient_.resize(n_modes * n_dofs);
@@ -119,7 +118,6 @@ void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
     rest_volume += g.weights[q];
   }
   result_.volume_mismatch = residual.cwiseAbs().maxCoeff() / rest_volume;
-  std::copy(residual.data(), residual.data() + n_modes, result_.volume_residual.begin());
   if (wanted == Wanted::stress) return;
   volume_gradients(g);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -46,7 +46,6 @@ struct CellResult {
   std::vector<double>
       force; ///< internal force, N; with the condensed pressure imbalance when a tangent is wanted
   std::vector<double> tangent;           ///< row major, N/mm
-  std::vector<double> volume_residual;   ///< R, mm³, one per mode
   std::vector<double> pressure_residual; ///< C^-1 R_p, MPa: pressure change at fixed displacement
   std::vector<double> pressure_slope;    ///< C^-1 B, MPa/mm, [m*n_dofs + dof]
   std::vector<double> plain_force;       ///< internal force without the condensed imbalance

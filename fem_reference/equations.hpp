@@ -18,7 +18,8 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   State rest() const { return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures())); }
 
   State residual(const State& at, double load_factor, mechanics::Expect expect) override;
-  Size size(const State& residual, const State& at) override;
+  /// Constraints hold where volumes agree with pressures and supports are where they have to be.
+  Size size(const State& /*residual*/, const State& /*at*/) override { return size_; }
   std::optional<State> direction(const State& at, const State& residual, double load_factor, double forcing,
                                  mechanics::Convexity convexity) override;
   /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
@@ -26,7 +27,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   mechanics::Merit merit() const override;
   /// Of the tangent last solved with.
   std::optional<bool> is_stable(const State& at) override;
-  Work work() const override { return {linear_iterations_, solver_.n_factorisations(), n_evaluations_}; }
+  Work work() const override { return {solver_.n_iterations(), solver_.n_factorisations(), n_evaluations_}; }
 
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
@@ -35,20 +36,11 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
 
  private:
-  /// How far a state is from equilibrium.
-  struct Imbalance {
-    bool valid = false;         ///< false: inverted at a quadrature point, or not a number
-    double residual = 0;        ///< |imbalance on unconstrained degrees of freedom| / |applied load|
-    double volume_mismatch = 0; ///< largest relative volume a cell's pressure is wrong by
-    double prescribed_gap =
-        0; ///< mm: largest distance of a constrained displacement from its prescribed value
-  };
-
   std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }
   bool is_linear() const { return formulation_.kinematics == Kinematics::linear; }
-  Imbalance evaluate(const State& state, double load_factor, Wanted wanted);
-  Imbalance evaluate_for_direction(const State& state, double load_factor);
-  Imbalance measure(const Assembly::CellChecks& cells, double load_factor);
+  void evaluate(const State& state, double load_factor, Wanted wanted);
+  void evaluate_for_direction(const State& state, double load_factor);
+  void measure(std::optional<double> volume_mismatch, double load_factor);
 
   const Discretisation& discretisation_;
   Formulation formulation_; ///< of the first material
@@ -57,12 +49,14 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
   Vector right_hand_side_; ///< of the Newton system
   Vector correction_;      ///< its solution
-  std::vector<double> prescribed_gap_; ///< mm per local degree of freedom
   double load_norm_ = 0;
-  long n_evaluations_ = 0, n_tangents_ = 0, linear_iterations_ = 0;
-  bool has_tangent_ = false;         ///< one that was assembled at a valid state
-  bool has_right_hand_side_ = false; ///< of the state last evaluated
-  Imbalance imbalance_;              ///< of the state last evaluated
+  long n_evaluations_ = 0, n_tangents_ = 0;
+  bool has_tangent_ = false; ///< one that was assembled at a valid state
+  // of the state last evaluated
+  bool has_right_hand_side_ = false;
+  Size size_ = {};                     ///< not finite: inverted at a quadrature point, or not a number
+  std::vector<double> prescribed_gap_; ///< mm per local degree of freedom
+  double largest_gap_ = 0;             ///< mm
   std::optional<int> negative_eigenvalues_;
 };
 

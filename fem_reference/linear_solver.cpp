@@ -1,48 +1,36 @@
 #include "fem_reference/linear_solver.hpp"
 
-#include "mechanics/petsc/rigid_motions.hpp"
-
-#include <cstring>
+#include <utility>
 
 namespace springproof::fem_reference {
 
 namespace {
 
 int negative_pivots(Mat factor) {
-  PetscInt negative = 0;
-  check(MatMumpsGetInfog(factor, 12, &negative)); // INFOG(12): over all ranks
-  return static_cast<int>(negative);
+  return static_cast<int>(get<PetscInt>(MatMumpsGetInfog, factor, 12)); // INFOG(12): over all ranks
 }
 
 std::optional<int> negative_pivots_of_symmetric_part(Mat tangent) {
-  Mat symmetric = nullptr, factor = nullptr;
-  check(MatTranspose(tangent, MAT_INITIAL_MATRIX, &symmetric));
-  const Matrix owned_symmetric(symmetric);
+  const Matrix owned(get<Mat>(MatTranspose, tangent, MAT_INITIAL_MATRIX));
+  Mat symmetric = owned.get();
   check(MatAXPY(symmetric, 1, tangent, UNKNOWN_NONZERO_PATTERN)); // twice the symmetric part: the same signs
   check(MatSetOption(symmetric, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatGetFactor(symmetric, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
-  const Matrix owned_factor(factor);
-  MatFactorInfo info;
-  MatFactorError error = MAT_FACTOR_NOERROR;
-  check(MatFactorInfoInitialize(&info));
-  check(MatCholeskyFactorSymbolic(factor, symmetric, nullptr, &info));
-  check(MatCholeskyFactorNumeric(factor, symmetric, &info));
-  check(MatFactorGetError(factor, &error));
-  if (error != MAT_FACTOR_NOERROR) return std::nullopt;
-  return negative_pivots(factor);
+  const Matrix factor(get<Mat>(MatGetFactor, symmetric, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY));
+  const auto info = get<MatFactorInfo>(MatFactorInfoInitialize);
+  check(MatCholeskyFactorSymbolic(factor.get(), symmetric, nullptr, &info));
+  check(MatCholeskyFactorNumeric(factor.get(), symmetric, &info));
+  if (get<MatFactorError>(MatFactorGetError, factor.get()) != MAT_FACTOR_NOERROR) return std::nullopt;
+  return negative_pivots(factor.get());
 }
 
 } // namespace
 
 LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry symmetry)
-    : tangent_(tangent), symmetry_(symmetry) {
-  KSP solver = nullptr;
-  PC preconditioner = nullptr;
-  check(KSPCreate(d.communicator, &solver));
-  solver_.reset(solver);
+    : solver_(get<KSP>(KSPCreate, d.communicator)), tangent_(tangent), symmetry_(symmetry) {
+  KSP solver = solver_.get();
   check(KSPSetOptionsPrefix(solver, "fem_"));
   check(KSPSetOperators(solver, tangent_, tangent_));
-  check(KSPGetPC(solver, &preconditioner));
+  const auto preconditioner = get<PC>(KSPGetPC, solver);
   const bool symmetric = symmetry == TangentSymmetry::symmetric;
   // An unstable state's tangent is not positive definite. The option only makes MUMPS take pivots from the
   // diagonal, which is a fifth faster, and still counts the negative ones; a factorisation gone bad would
@@ -64,37 +52,25 @@ LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry
     check(PCSetType(preconditioner, PCGAMG));
   }
   check(KSPSetFromOptions(solver));
+  is_direct_ = get<PetscBool>(PetscObjectTypeCompare, reinterpret_cast<PetscObject>(solver), KSPPREONLY);
 }
 
-LinearSolver::Outcome LinearSolver::solve(Vec right_hand_side, Vec solution, long tangent_number) {
-  check(KSPSetOperators(solver_.get(), tangent_, tangent_));
-  if (is_direct() && tangent_number != factorised_number_) ++n_factorisations_; // PETSc factorises anew then
-  factorised_number_ = tangent_number;
-  check(KSPSolve(solver_.get(), right_hand_side, solution));
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  PetscInt iterations = 0;
-  check(KSPGetConvergedReason(solver_.get(), &reason));
-  check(KSPGetIterationNumber(solver_.get(), &iterations));
-  return {reason > 0, is_direct() ? 0 : static_cast<int>(iterations)};
-}
-
-bool LinearSolver::is_direct() const {
-  PetscBool direct = PETSC_FALSE;
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver_.get()), KSPPREONLY, &direct));
-  return direct == PETSC_TRUE;
+bool LinearSolver::solve(Vec right_hand_side, Vec solution, long tangent_number) {
+  KSP solver = solver_.get();
+  check(KSPSetOperators(solver, tangent_, tangent_));
+  const bool is_new = std::exchange(tangent_number_, tangent_number) != tangent_number;
+  if (is_direct_ && is_new) ++n_factorisations_; // PETSc factorises anew then
+  check(KSPSolve(solver, right_hand_side, solution));
+  if (!is_direct_) n_iterations_ += get<PetscInt>(KSPGetIterationNumber, solver);
+  return get<KSPConvergedReason>(KSPGetConvergedReason, solver) > 0;
 }
 
 std::optional<int> LinearSolver::negative_eigenvalues() const {
-  PC preconditioner = nullptr;
-  Mat factor = nullptr;
-  MatSolverType package = nullptr;
-  check(KSPGetPC(solver_.get(), &preconditioner));
-  if (!is_direct()) return std::nullopt;
-  check(PCFactorGetMatSolverType(preconditioner, &package));
-  if (package == nullptr || std::strcmp(package, MATSOLVERMUMPS) != 0) return std::nullopt;
+  const auto preconditioner = get<PC>(KSPGetPC, solver_.get());
+  const auto package = get<MatSolverType>(PCFactorGetMatSolverType, preconditioner);
+  if (!is_direct_ || !get<PetscBool>(PetscStrcmp, package, MATSOLVERMUMPS)) return std::nullopt;
   if (symmetry_ == TangentSymmetry::unsymmetric) return negative_pivots_of_symmetric_part(tangent_);
-  check(PCFactorGetMatrix(preconditioner, &factor));
-  return negative_pivots(factor);
+  return negative_pivots(get<Mat>(PCFactorGetMatrix, preconditioner));
 }
 
 } // namespace springproof::fem_reference

@@ -17,16 +17,14 @@ class LinearSolver {
  public:
   LinearSolver(const Discretisation& discretisation, Mat tangent, TangentSymmetry symmetry);
 
-  struct Outcome {
-    bool solved;
-    int iterations; ///< of the Krylov method; 0 for a direct solve
-  };
   /// Solves with the tangent as it is now; one that has not changed stays factorised.
   /// @param tangent_number  from 1, another one whenever the tangent has been assembled: for the count of
   /// factorisations
-  Outcome solve(Vec right_hand_side, Vec solution, long tangent_number);
+  /// @return whether the solver converged
+  bool solve(Vec right_hand_side, Vec solution, long tangent_number);
 
-  /// Factorisations so far by solve(); 0 with a Krylov method.
+  /// Iterations of a Krylov method so far by solve(), and factorisations; 0 with the other kind of solver.
+  long n_iterations() const { return n_iterations_; }
   long n_factorisations() const { return n_factorisations_; }
 
   /// Negative eigenvalues of the symmetric part of the tangent last solved with, counted by MUMPS as negative
@@ -35,13 +33,12 @@ class LinearSolver {
   std::optional<int> negative_eigenvalues() const;
 
  private:
-  bool is_direct() const;
-
   mechanics::petsc::LinearSolver solver_;
   Mat tangent_;
   TangentSymmetry symmetry_;
-  long n_factorisations_ = 0;
-  long factorised_number_ = 0; ///< of the tangent last solved with
+  bool is_direct_;
+  long n_iterations_ = 0, n_factorisations_ = 0;
+  long tangent_number_ = 0; ///< of the tangent last solved with
 };
 
 } // namespace springproof::fem_reference

@@ -3,7 +3,6 @@
 #include "cases/case/index.hpp"
 #include "fem_reference/space.hpp"
 
-#include <algorithm>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <set>
@@ -25,18 +24,13 @@ void add_point_forces(const cases::Scene& scene, const Nodes& nodes, Vec load) {
     if (nodes.mesh_node[index(node)] >= 0) add(load, node, forces[index(nodes.mesh_node[index(node)])]);
 }
 
-std::array<int, 4> sorted(std::array<int, 4> face) {
-  std::sort(face.begin(), face.end());
-  return face;
-}
-
 /// Integrates a traction or torque over the faces of its region with the element's own shape functions.
 void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& applied, const Space& space,
                   const Nodes& nodes, Vec load) {
   const double moment =
       applied.load.kind == cases::LoadKind::torque ? cases::polar_moment(scene.mesh, applied) : 1;
-  std::set<std::array<int, 4>> faces;
-  for (const auto& face : applied.selection.faces) faces.insert(sorted(face));
+  std::set<std::set<int>> faces; // by their vertices
+  for (const auto& face : applied.selection.faces) faces.emplace(face.begin(), face.end());
   const dealii::QGauss<2> quadrature(space.node_element.degree + 2);
   dealii::FEFaceValues<3> values(space.mapping, space.node_element, quadrature,
                                  dealii::update_values | dealii::update_quadrature_points |
@@ -44,9 +38,9 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
   const int* node = nodes.of_cell.data();
   for (const auto& cell : space.own_cells()) {
     for (const auto& face : cell->face_iterators()) {
-      std::array<int, 4> vertices{};
-      for (unsigned v = 0; v < 4; ++v) vertices[v] = static_cast<int>(face->vertex_index(v));
-      if (!face->at_boundary() || faces.count(sorted(vertices)) == 0) continue;
+      std::set<int> vertices;
+      for (unsigned v = 0; v < 4; ++v) vertices.insert(static_cast<int>(face->vertex_index(v)));
+      if (!face->at_boundary() || faces.count(vertices) == 0) continue;
       values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
       for (const unsigned q : values.quadrature_point_indices()) {
         const auto& at = values.quadrature_point(q);
@@ -81,11 +75,8 @@ std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space
   if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
   check(VecAssemblyBegin(load.get()));
   check(VecAssemblyEnd(load.get()));
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(load.get(), &values));
-  std::vector<double> owned(values, values + 3 * nodes.n_owned);
-  check(VecRestoreArrayRead(load.get(), &values));
-  return owned;
+  const ReadEntries values(load.get());
+  return {values.data(), values.data() + 3 * nodes.n_owned};
 }
 
 } // namespace springproof::fem_reference

@@ -3,8 +3,7 @@
 #include "cases/case/index.hpp"
 #include "fem_reference/equations.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include <deal.II/base/mpi.h>
 
 namespace springproof::fem_reference {
 
@@ -20,9 +19,8 @@ std::vector<Formulation> formulations_of(const cases::Scene& scene) {
   return formulations;
 }
 
-void sum_over_ranks(std::vector<double>& values, MPI_Comm communicator) {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
-                communicator);
+void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
+  MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, communicator);
 }
 
 } // namespace
@@ -46,8 +44,8 @@ struct Model::Implementation {
                        element_type(scene.definition.fem, formulations.front()), {}, communicator),
         equations(discretisation, formulations), last(equations.rest()) {}
 
-  std::vector<Eigen::Vector3d> body_displacement(const State& state) const;
-  std::vector<double> body_cell_volumes(const State& state);
+  std::vector<Eigen::Vector3d> body_displacement() const;
+  std::vector<double> body_cell_volumes();
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings);
 
   cases::Scene scene;                    ///< on the body's own mesh
@@ -59,29 +57,25 @@ struct Model::Implementation {
 };
 
 /// The nodes of the body's mesh are the first of the refined mesh.
-std::vector<Eigen::Vector3d> Model::Implementation::body_displacement(const State& state) const {
-  const std::size_t n = scene.mesh.nodes.size();
-  std::vector<double> values(3 * n, 0.);
-  for (std::size_t node = 0; node < index(discretisation.nodes.n_owned); ++node) {
-    const int number = discretisation.nodes.mesh_node[node];
-    if (number >= 0 && index(number) < n)
-      std::copy_n(state.data() + 3 * node, 3, values.begin() + 3 * number);
+std::vector<Eigen::Vector3d> Model::Implementation::body_displacement() const {
+  std::vector<Eigen::Vector3d> displacement(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
+    const int number = discretisation.nodes.mesh_node[index(node)];
+    if (number >= 0 && index(number) < displacement.size())
+      displacement[index(number)] = last.segment<3>(3 * node);
   }
-  sum_over_ranks(values, discretisation.communicator);
-  std::vector<Eigen::Vector3d> displacement(n);
-  for (std::size_t node = 0; node < n; ++node)
-    displacement[node] = Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * node);
+  sum_over_ranks(displacement.front().data(), 3 * displacement.size(), discretisation.communicator);
   return displacement;
 }
 
 /// Each cell of the body is its 8^refine descendants.
-std::vector<double> Model::Implementation::body_cell_volumes(const State& state) {
+std::vector<double> Model::Implementation::body_cell_volumes() {
   std::vector<double> volumes(scene.mesh.cells.size(), 0.);
-  const std::vector<double> own = equations.cell_volumes(state);
+  const std::vector<double> own = equations.cell_volumes(last);
   const int shift = 3 * scene.definition.fem.refine;
   for (std::size_t cell = 0; cell < own.size(); ++cell)
     volumes[index(discretisation.nodes.mesh_cell[cell] >> shift)] += own[cell];
-  sum_over_ranks(volumes, discretisation.communicator);
+  sum_over_ranks(volumes.data(), volumes.size(), discretisation.communicator);
   return volumes;
 }
 
@@ -108,8 +102,8 @@ cases::Solution Model::Implementation::solve(double load_factor, mechanics::Equi
   last = equilibrium.state;
   last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.displacement = body_displacement(last);
-  solution.cell_volume = body_cell_volumes(last);
+  solution.displacement = body_displacement();
+  solution.cell_volume = body_cell_volumes();
   solution.unknowns = static_cast<std::size_t>(discretisation.constraints.n_unknowns);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = equations.negative_eigenvalues();
@@ -120,26 +114,17 @@ cases::Solution Model::Implementation::solve(double load_factor, mechanics::Equi
 }
 
 std::vector<NodeDisplacement> Model::node_displacements() const {
-  const Implementation& m = *implementation_;
-  const Discretisation& d = m.discretisation;
+  const Discretisation& d = implementation_->discretisation;
   std::vector<double> own;
-  const double* values = m.last.data();
-  for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node) {
-    own.insert(own.end(), d.nodes.point[node].data(), d.nodes.point[node].data() + 3);
-    own.insert(own.end(), values + 3 * node, values + 3 * node + 3);
+  const double* displacement = implementation_->last.data();
+  for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node, displacement += 3) {
+    own.insert(own.end(), d.nodes.point[node].begin(), d.nodes.point[node].end());
+    own.insert(own.end(), displacement, displacement + 3);
   }
-  int n_ranks = 1;
-  MPI_Comm_size(d.communicator, &n_ranks);
-  std::vector<int> size(index(n_ranks)), start(index(n_ranks), 0);
-  const int own_size = static_cast<int>(own.size());
-  MPI_Allgather(&own_size, 1, MPI_INT, size.data(), 1, MPI_INT, d.communicator);
-  std::partial_sum(size.begin(), size.end() - 1, start.begin() + 1);
-  std::vector<double> all(index(start.back() + size.back()));
-  MPI_Allgatherv(own.data(), own_size, MPI_DOUBLE, all.data(), size.data(), start.data(), MPI_DOUBLE,
-                 d.communicator);
   std::vector<NodeDisplacement> nodes;
-  for (std::size_t i = 0; i < all.size(); i += 6)
-    nodes.push_back({Eigen::Vector3d(all.data() + i), Eigen::Vector3d(all.data() + i + 3)});
+  for (const std::vector<double>& part : dealii::Utilities::MPI::all_gather(d.communicator, own))
+    for (const double* at = part.data(); at != part.data() + part.size(); at += 6)
+      nodes.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});
   return nodes;
 }
 

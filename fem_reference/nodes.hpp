@@ -1,11 +1,18 @@
 #pragma once
 
 #include "cases/scene/scene.hpp"
-#include "fem_reference/petsc.hpp"
+#include "mechanics/petsc/handles.hpp"
 
 #include <vector>
 
 namespace springproof::fem_reference {
+
+using mechanics::petsc::check;
+using mechanics::petsc::get;
+using mechanics::petsc::Matrix;
+using mechanics::petsc::ReadEntries;
+using mechanics::petsc::Vector;
+using mechanics::petsc::WriteEntries;
 
 struct Space;
 

@@ -33,30 +33,22 @@ void reserve_standard_streams() {
 
 } // namespace
 
-struct Session::Implementation {
-  int argc = 3;
-  char name[12] = "springproof";
-  // The working folder may be a stranger's: its .petscrc is not read. Signals keep their default actions.
-  char no_options_file[14] = "-skip_petscrc", no_signal_handler[19] = "-no_signal_handler";
-  char* arguments[4] = {name, no_options_file, no_signal_handler, nullptr};
-  char** argv = arguments;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi{argc, argv,
-                                               1}; // one thread a rank: cases and ranks share the cores
-};
-
 Session::Session() {
   reserve_standard_streams();
   start_alone();
-  implementation_ = std::make_unique<Implementation>();
+  // The working folder may be a stranger's: its .petscrc is not read. Signals keep their default actions.
+  static char name[] = "springproof", no_options_file[] = "-skip_petscrc",
+              no_signal_handler[] = "-no_signal_handler";
+  static char* arguments[] = {name, no_options_file, no_signal_handler, nullptr};
+  static char** argv = arguments; // PETSc keeps them
+  static int argc = 3;
+  // one thread a rank: cases and ranks share the cores
+  libraries_ = std::make_shared<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
   PETSC_STDOUT = stderr; // standard output is the results' alone
 }
-Session::~Session() = default;
 
 int Session::rank() const {
   return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-}
-int Session::n_ranks() const {
-  return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
 }
 
 void Session::give_up(const std::string& message, int status) const {

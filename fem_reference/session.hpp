@@ -10,17 +10,14 @@ namespace springproof::fem_reference {
 class Session {
  public:
   Session();
-  ~Session();
-  int rank() const;    ///< in MPI_COMM_WORLD
-  int n_ranks() const; ///< of MPI_COMM_WORLD
+  int rank() const; ///< in MPI_COMM_WORLD
 
   /// For a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
   /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
   void give_up(const std::string& message, int status) const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::shared_ptr<void> libraries_;
 };
 
 } // namespace springproof::fem_reference

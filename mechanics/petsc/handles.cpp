@@ -13,11 +13,9 @@ void check(PetscErrorCode code) {
 }
 
 Vector like(const Vector& vector) {
-  Vec copy = nullptr;
-  check(VecDuplicate(vector.get(), &copy));
-  Vector owned(copy);
-  check(VecSet(copy, 0));
-  return owned;
+  Vector copy(get<Vec>(VecDuplicate, vector.get()));
+  check(VecSet(copy.get(), 0));
+  return copy;
 }
 
 void update_ghosts(Vec vector) {
@@ -28,6 +26,20 @@ void update_ghosts(Vec vector) {
 void add_ghosts(Vec vector) {
   check(VecGhostUpdateBegin(vector, ADD_VALUES, SCATTER_REVERSE));
   check(VecGhostUpdateEnd(vector, ADD_VALUES, SCATTER_REVERSE));
+}
+
+void attach_rigid_motions(Mat matrix, const std::vector<Eigen::Vector3d>& points) {
+  Vec coordinates = nullptr;
+  check(MatCreateVecs(matrix, &coordinates, nullptr));
+  const Vector owned(coordinates);
+  check(VecSetBlockSize(coordinates, 3));
+  const auto n = get<PetscInt>(VecGetLocalSize, coordinates);
+  {
+    const WriteEntries entries(coordinates);
+    for (PetscInt i = 0; i < n; ++i) entries[i] = points[static_cast<std::size_t>(i / 3)][i % 3];
+  }
+  const NullSpace rigid(get<MatNullSpace>(MatNullSpaceCreateRigidBody, coordinates));
+  check(MatSetNearNullSpace(matrix, rigid.get()));
 }
 
 } // namespace springproof::mechanics::petsc

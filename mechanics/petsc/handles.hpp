@@ -1,15 +1,27 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <exception>
 #include <memory>
 #include <petscsnes.h>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
-/// Owning handles for PETSc's objects, and its error codes as exceptions.
+/// Owning handles for PETSc's objects; its error codes as exceptions, and exceptions as its error codes.
 namespace springproof::mechanics::petsc {
 
 /// @throws std::runtime_error with PETSc's message for a non-zero code: a programming or memory error, never
 /// a solver that failed to converge
 void check(PetscErrorCode code);
+
+/// What a function of PETSc sets through its last argument: get<PC>(KSPGetPC, solver).  @throws as check()
+template<class Value, class Function, class... Arguments>
+Value get(const Function& function, const Arguments&... arguments) {
+  Value value{};
+  check(function(arguments..., &value));
+  return value;
+}
 
 template<class Object, PetscErrorCode (*destroy)(Object*)>
 struct Destroy {
@@ -58,5 +70,39 @@ using WriteEntries = Entries<PetscScalar, VecGetArray, VecRestoreArray>;
 void update_ghosts(Vec vector);
 /// Adds what ranks have in ghosts to the owners' entries.
 void add_ghosts(Vec vector);
+
+/// Gives a matrix of 3x3 blocks the rigid motions of its points as near null space: what algebraic multigrid
+/// must represent on its coarse levels.
+/// @param points  rest positions (mm), those of this rank's rows first; any behind them are not looked at
+void attach_rigid_motions(Mat matrix, const std::vector<Eigen::Vector3d>& points);
+
+/// Exceptions of functions that PETSc calls: they must not pass through its C code.
+class CallbackErrors {
+ public:
+  /// For a callback to return: an error code in place of an exception, which is kept.
+  template<class Action>
+  PetscErrorCode run(const Action& action) noexcept {
+    try {
+      action();
+      return 0;
+    } catch (...) {
+      error_ = std::current_exception();
+      return PETSC_ERR_LIB;
+    }
+  }
+
+  /// Calls a function of PETSc that calls back.  @throws what a callback threw, else as check()
+  template<class Action>
+  void call(const Action& action) {
+    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // prints nothing
+    const PetscErrorCode code = action();
+    check(PetscPopErrorHandler());
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    check(code);
+  }
+
+ private:
+  std::exception_ptr error_;
+};
 
 } // namespace springproof::mechanics::petsc

@@ -1,7 +1,6 @@
 #include "msm/snes/part.hpp"
 
 #include "cases/case/index.hpp"
-#include "mechanics/petsc/rigid_motions.hpp"
 #include "msm/tangent.hpp"
 
 #include <algorithm>

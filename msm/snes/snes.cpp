@@ -1,7 +1,6 @@
 #include "msm/snes/snes.hpp"
 
 #include "mechanics/equilibrium/newton.hpp"
-#include "mechanics/petsc/callback_errors.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "msm/snes/part.hpp"
 
