@@ -1,15 +1,10 @@
 #pragma once
 
-#include "cases/case/enumeration.hpp"
 #include "cases/case/error.hpp"
-#include "cases/case/outcome.hpp"
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
-#include <string>
 #include <variant>
-#include <vector>
 
 /// The shared vocabulary: what a case file says, as plain values. Units: mm, N, MPa, degrees.
 namespace springproof::cases {
@@ -65,8 +60,7 @@ struct Region {
   std::string name;                    ///< as written; of a patch, its name in messages; empty for a node
   std::optional<Eigen::Vector3d> near; ///< mm
   Where where;
-  std::optional<double> radius =
-      std::nullopt; ///< mm, > 0: the boundary faces whose centre is at most that far from near
+  std::optional<double> radius{}; ///< mm, > 0: the boundary faces whose centre is at most that far from near
 };
 
 struct Fixed {
@@ -91,6 +85,10 @@ SPRINGPROOF_ENUMERATION(
     traction,    ///< value MPa on the rest area, dead, integrated consistently
     torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
 )
+
+inline bool acts_on_area(LoadKind kind) {
+  return kind == LoadKind::traction || kind == LoadKind::torque;
+}
 
 struct Load {
   Region region;

@@ -1,30 +1,25 @@
 #include "cases/case/names.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <sstream>
 
 namespace springproof::cases {
 
-std::vector<std::string> split_enumerators(const char* list) {
-  std::vector<std::string> names(1);
-  for (; *list != '\0'; ++list)
-    if (*list == ',')
-      names.emplace_back();
-    else if (*list != ' ')
-      names.back() += *list;
-  return names;
+const std::vector<std::string> face_names{"x-", "x+", "y-", "y+", "z-", "z+"};
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
-template<>
-const NameTable<Outcome>& names() {
-  static const NameTable<Outcome> table = [] {
-    NameTable<Outcome> all;
-    for (std::string& name : split_enumerators(enumerators(Outcome{}))) {
-      std::replace(name.begin(), name.end(), '_', ' ');
-      all.emplace_back(static_cast<Outcome>(all.size()), std::move(name));
-    }
-    return all;
-  }();
-  return table;
+std::vector<std::string> split_enumerators(const char* list, char between_words) {
+  std::string text(list);
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::vector<std::string> names = words_of(text);
+  for (std::string& name : names) std::replace(name.begin(), name.end(), '_', between_words);
+  return names;
 }
 
 namespace {
@@ -33,10 +28,10 @@ namespace {
 /// (optimal string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i)
-    for (std::size_t j = 1; j <= b.size(); ++j) {
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      d[i][j] = std::max(i, j); // all that one of them has, when the other has nothing
+      if (i == 0 || j == 0) continue;
       const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
       const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
@@ -48,9 +43,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string alternatives(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "\"" : " | \"") + word + "\"";
-  return text;
+  return words.empty() ? "" : fmt::format("\"{}\"", fmt::join(words, "\" | \""));
 }
 
 std::optional<std::string> nearest_name(const std::string& written, const std::vector<std::string>& known) {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "cases/case/case.hpp"
-#include "cases/case/solution.hpp"
-
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,34 +8,39 @@
 /// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike.
 namespace springproof::cases {
 
-template<class Enum>
-using NameTable = std::vector<std::pair<Enum, std::string>>;
+/// Defines an enumeration with the enumerators 0, 1, ..., whose names are the enumerators themselves: one
+/// line registers both.
+#define SPRINGPROOF_ENUMERATION(Enum, ...)                                                                   \
+  enum class Enum { __VA_ARGS__ };                                                                           \
+  inline const char* enumerators(Enum) {                                                                     \
+    return #__VA_ARGS__;                                                                                     \
+  }
 
-/// The enumerators 0, 1, ... of a list separated by commas.
-std::vector<std::string> split_enumerators(const char* list);
+/// What a name has between its words. An enumeration may have an overload of its own.
+template<class Enum>
+char between_words(Enum) {
+  return '_';
+}
+
+/// The enumerators of a list separated by commas.
+std::vector<std::string> split_enumerators(const char* list, char between_words);
 
 /// Names of a SPRINGPROOF_ENUMERATION, in the order in which messages list them.
 template<class Enum>
-const NameTable<Enum>& names() {
-  static const NameTable<Enum> table = [] {
-    NameTable<Enum> all;
-    for (std::string& name : split_enumerators(enumerators(Enum{})))
-      all.emplace_back(static_cast<Enum>(all.size()), std::move(name));
+const std::vector<std::pair<Enum, std::string>>& names() {
+  static const auto table = [] {
+    std::vector<std::pair<Enum, std::string>> all;
+    for (const std::string& name : split_enumerators(enumerators(Enum{}), between_words(Enum{})))
+      all.emplace_back(static_cast<Enum>(all.size()), name);
     return all;
   }();
   return table;
 }
 
-/// Written with blanks: "stable equilibrium".
-template<>
-const NameTable<Outcome>& names();
-
 /// Name of an enumerator.
 template<class Enum>
 std::string name_of(Enum value) {
-  for (const auto& [known, name] : names<Enum>())
-    if (known == value) return name;
-  return "?"; // not an enumerator
+  return names<Enum>().at(static_cast<std::size_t>(value)).second;
 }
 
 /// Enumerator of that name, if there is one.
@@ -52,9 +54,7 @@ std::optional<Enum> value_of(const std::string& name) {
 /// Every name of an enumeration, in order.
 template<class Enum>
 std::vector<std::string> all_names() {
-  std::vector<std::string> all;
-  for (const auto& entry : names<Enum>()) all.emplace_back(entry.second);
-  return all;
+  return split_enumerators(enumerators(Enum{}), between_words(Enum{}));
 }
 
 /// The words of a list as a message shows them: "a" | "b" | "c".
@@ -63,5 +63,11 @@ std::string alternatives(const std::vector<std::string>& words);
 /// The known word with the fewest edits (insertion, deletion, replacement, exchange of neighbours) from what
 /// was written, at most one for every three letters; nothing if there is none.
 std::optional<std::string> nearest_name(const std::string& written, const std::vector<std::string>& known);
+
+/// The words of a text between blanks.
+std::vector<std::string> words_of(const std::string& text);
+
+/// The faces of a box, which regions are made of.
+extern const std::vector<std::string> face_names;
 
 } // namespace springproof::cases

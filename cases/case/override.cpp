@@ -2,53 +2,25 @@
 
 #include "cases/case/error.hpp"
 
-#include <cctype>
 #include <fmt/format.h>
-#include <memory>
-#include <optional>
-#include <vector>
+#include <regex>
 
 namespace springproof::cases {
 
 namespace {
-
-/// One step of a path: a key, and the index behind it, if any.
-struct Step {
-  std::string key;
-  std::optional<std::size_t> index;
-};
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// "name" or "name[3]".
-std::optional<Step> parse_step(const std::string& text) {
-  const std::size_t bracket = text.find('[');
-  Step step{text.substr(0, bracket), std::nullopt};
-  for (const char c : step.key)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') return std::nullopt;
-  if (step.key.empty()) return std::nullopt;
-  if (bracket == std::string::npos) return step;
-  const std::string digits = text.substr(bracket + 1, text.size() - bracket - 2);
-  const bool is_number =
-      !digits.empty() && digits.size() <= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
-  if (text.back() != ']' || !is_number) return std::nullopt;
-  step.index = std::stoul(digits);
-  return step;
-}
-
-std::vector<Step> parse_path(const std::string& path, const Where& where) {
-  std::vector<Step> steps;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    const auto step = parse_step(path.substr(begin, end - begin));
-    if (!step) throw InputError(where, "is not a key, must be like fem.refine or load[0].value");
-    steps.push_back(*step);
-    begin = end + 1;
-  }
-  return steps;
+/// Steps "name" or "name[3]" joined by points.
+toml::path parse_path(const std::string& path, const Where& where) {
+  static const std::regex form(R"([\w-]+(\[\d{1,6}\])?(\.[\w-]+(\[\d{1,6}\])?)*)");
+  constexpr std::size_t longest = 1000; // std::regex needs stack for every character
+  if (path.size() > longest || !std::regex_match(path, form))
+    throw InputError(where, "is not a key, must be like fem.refine or load[0].value");
+  return toml::path(path);
 }
 
 /// The value as a table {value = ...}: parsed as TOML, or else the text itself.
@@ -63,23 +35,6 @@ toml::table parse_value(const std::string& text, const Where& where) {
   return toml::table{{"value", text}};
 }
 
-/// The element of an array under a key of a table.
-toml::node& element(toml::table& table, const Step& step, const Where& where) {
-  toml::array* array = table[step.key].as_array();
-  const std::size_t size = array ? array->size() : 0;
-  if (!array || *step.index >= size)
-    throw InputError(
-        where, fmt::format("there is no {}[{}], {} has {} elements", step.key, *step.index, step.key, size));
-  return (*array)[*step.index];
-}
-
-toml::table& descend(toml::table& table, const Step& step, const Where& where) {
-  if (!step.index && !table.contains(step.key)) table.insert(step.key, toml::table{});
-  toml::node& next = step.index ? element(table, step, where) : *table.get(step.key);
-  if (!next.is_table()) throw InputError(where, fmt::format("{} is not a table", step.key));
-  return *next.as_table();
-}
-
 } // namespace
 
 bool is_line_of_text(const std::string& text) {
@@ -92,26 +47,36 @@ bool is_line_of_text(const std::string& text) {
 
 void apply_override(toml::table& document, const std::string& setting) {
   const std::size_t equals = setting.find('=');
-  const std::string path = trimmed(setting.substr(0, equals));
-  const Where where{"", 0, 0, path};
+  const Where where{"", 0, 0, trimmed(setting.substr(0, equals))};
   if (equals == std::string::npos) throw InputError(where, "is not KEY=VALUE");
   const std::string text = trimmed(setting.substr(equals + 1));
   if (text.empty()) throw InputError(where, "has no value, must be KEY=VALUE");
 
-  const std::vector<Step> steps = parse_path(path, where);
-  toml::table* table = &document;
-  for (std::size_t s = 0; s + 1 < steps.size(); ++s) table = &descend(*table, steps[s], where);
+  const toml::path path = parse_path(where.key, where);
   toml::table parsed = parse_value(text, where);
-  const Step& last = steps.back();
-  parsed.get("value")->visit([&](auto& value) {
-    if (last.index) {
-      element(*table, last, where);
-      toml::array& array = *table->get(last.key)->as_array();
-      array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(*last.index), std::move(value));
+  toml::node* node = &document;
+  std::string key; // the last one on the way
+  for (std::size_t s = 0; s < path.size(); ++s) {
+    const bool is_last = s + 1 == path.size();
+    if (path[s].type() == toml::path_component_type::key) {
+      toml::table* const table = node->as_table();
+      if (!table) throw InputError(where, fmt::format("{} is not a table", key));
+      key = path[s].key();
+      if (is_last)
+        table->insert_or_assign(key, std::move(*parsed.get("value")));
+      else
+        node = &table->emplace<toml::table>(key).first->second;
     } else {
-      table->insert_or_assign(last.key, std::move(value));
+      toml::array* const array = node->as_array();
+      const std::size_t i = path[s].index(), size = array ? array->size() : 0;
+      if (i >= size)
+        throw InputError(where, fmt::format("there is no {}[{}], {} has {} elements", key, i, key, size));
+      if (is_last)
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(i), std::move(*parsed.get("value")));
+      else
+        node = array->get(i);
     }
-  });
+  }
 }
 
 } // namespace springproof::cases

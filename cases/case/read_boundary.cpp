@@ -9,24 +9,16 @@ namespace springproof::cases {
 
 namespace {
 
-const std::vector<std::string> face_names{"x-", "x+", "y-", "y+", "z-", "z+"};
+const Vector read_point{"a point of three finite numbers (mm)"};
 
-std::vector<std::string> split(const std::string& text) {
+/// "near 5 5 10".
+Eigen::Vector3d read_near_words(const Entry& entry, const std::string& text) {
   std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-/// "near 5 5 10", split into words.
-Eigen::Vector3d read_near_words(const Entry& entry, const std::vector<std::string>& words) {
-  const std::string allowed = "\"near x y z\" with three finite numbers (mm)";
-  if (words.size() != 4) entry.refuse(allowed);
+  std::string near;
   Eigen::Vector3d point;
-  for (int a = 0; a < 3; ++a) {
-    std::istringstream stream(words[static_cast<std::size_t>(a) + 1]);
-    if (!(stream >> point[a]) || !stream.eof() || !std::isfinite(point[a])) entry.refuse(allowed);
-  }
+  stream >> near >> point.x() >> point.y() >> point.z();
+  if (!stream || !point.allFinite() || words_of(text).size() != 4 || !(stream >> std::ws).eof())
+    entry.refuse("\"near x y z\" with three finite numbers (mm)");
   return point;
 }
 
@@ -34,9 +26,8 @@ Eigen::Vector3d read_near_words(const Entry& entry, const std::vector<std::strin
 void check_box_region(const Entry& entry, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (std::find(face_names.begin(), face_names.end(), word) == face_names.end())
-      entry.refuse("a face \"x-\" | \"x+\" | \"y-\" | \"y+\" | \"z-\" | \"z+\" of the box, two joined by a "
-                   "blank for an "
-                   "edge, three for a vertex, or \"near x y z\"");
+      entry.refuse("a face " + alternatives(face_names) +
+                   " of the box, two joined by a blank for an edge, three for a vertex, or \"near x y z\"");
     for (const std::string& other : words)
       if (&other != &word && other[0] == word[0])
         entry.refuse(fmt::format("faces that meet: {} and {} do not", word, other));
@@ -47,7 +38,7 @@ std::array<bool, 3> read_components(const Entry& entry) {
   const std::string allowed = "one to three of \"x\", \"y\", \"z\", each once";
   std::array<bool, 3> components{};
   for (const Entry& element : entry.elements(allowed)) {
-    const auto text = element.node->value_exact<std::string>();
+    const auto text = element.value<std::string>();
     const auto axis = text ? value_of<Axis>(*text) : std::nullopt;
     if (!axis || components[static_cast<std::size_t>(*axis)]) entry.refuse(allowed);
     components[static_cast<std::size_t>(*axis)] = true;
@@ -68,9 +59,9 @@ Eigen::Vector3d read_direction(const Entry& entry) {
 /// A load over an area needs a region with an area: of a box's regions, a face. Groups of a mesh are checked
 /// when it is read.
 void check_has_area(const Load& load, const Body& body) {
-  const bool has_area = load.region.near
-                            ? load.region.radius.has_value()
-                            : std::holds_alternative<MeshFile>(body) || n_box_faces(load.region) == 1;
+  const bool has_area =
+      load.region.near ? load.region.radius.has_value()
+                       : std::holds_alternative<MeshFile>(body) || words_of(load.region.name).size() == 1;
   if (!has_area)
     throw InputError(
         load.region.where,
@@ -81,14 +72,10 @@ void check_has_area(const Load& load, const Body& body) {
 
 } // namespace
 
-int n_box_faces(const Region& region) {
-  return static_cast<int>(split(region.name).size());
-}
-
 Region read_region_text(const Entry& entry, const Body& body) {
   const std::string text = read_text(entry);
-  const std::vector<std::string> words = split(text);
-  if (words.front() == "near") return {"", read_near_words(entry, words), entry.where};
+  const std::vector<std::string> words = words_of(text);
+  if (words.front() == "near") return {"", read_near_words(entry, text), entry.where};
   if (!std::holds_alternative<MeshFile>(body)) check_box_region(entry, words);
   return {text, std::nullopt, entry.where};
 }
@@ -96,15 +83,14 @@ Region read_region_text(const Entry& entry, const Body& body) {
 Region read_region(Table& table, const Body& body) {
   if (!table.has("near")) {
     Region region = read_region_text(table.entry("region"), body);
-    table.optional("near", read_text); // known, though absent
-    if (table.has("radius"))
-      table.entry("radius").refuse("left out without near, whose patch it is the radius of");
+    table.know({"near"});
+    table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
     return region;
   }
-  if (table.has("region"))
-    table.entry("near").refuse("left out beside region: they say the same thing twice");
+  table.refuse_unless(!table.has("region"), {"near"},
+                      "left out beside region: they say the same thing twice");
   const Entry near = table.entry("near");
-  Region region{"", Vector{"a point of three finite numbers (mm)"}(near), near.where};
+  Region region{"", read_point(near), near.where};
   region.radius = table.optional("radius", Number{"a number above 0 (mm)", is_positive});
   if (region.radius)
     region.name = fmt::format("within {} of ({}, {}, {})", *region.radius, region.near->x(), region.near->y(),
@@ -112,38 +98,33 @@ Region read_region(Table& table, const Body& body) {
   return region;
 }
 
+namespace {
+
 Fixed read_fixed(Table& table, const Body& body) {
   Fixed fixed;
   fixed.region = read_region(table, body);
-  fixed.components =
-      table.optional("components", read_components).value_or(std::array<bool, 3>{true, true, true});
+  fixed.components = table.optional("components", read_components).value_or(fixed.components);
   return fixed;
 }
 
-Fixed read_symmetry(Table& table, const Body&) {
+Fixed read_symmetry(Table& table) {
   const Entry entry = table.entry("plane");
-  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
-  if (!text || std::find(face_names.begin(), face_names.end(), *text) == face_names.end())
-    entry.refuse_word(face_names);
-  Fixed fixed{{*text, std::nullopt, entry.where}, {false, false, false}};
-  fixed.components[static_cast<std::size_t>((*text)[0] - 'x')] = true;
-  return fixed;
+  const std::string face = entry.word(face_names);
+  return {{face, std::nullopt, entry.where}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}};
 }
 
 Moved read_moved(Table& table, const Body& body) {
   Moved moved;
   moved.region = read_region(table, body);
   const bool is_turned = table.has("angle");
-  for (const char* key : {"displacement", "components"})
-    if (is_turned && table.has(key))
-      table.entry(key).refuse("left out beside angle: a region is shifted or turned, not both");
-  for (const char* key : {"axis", "centre"})
-    if (!is_turned && table.has(key)) table.entry(key).refuse("left out without angle");
+  table.refuse_unless(!is_turned, {"displacement", "components"},
+                      "left out beside angle: a region is shifted or turned, not both");
+  table.refuse_unless(is_turned, {"axis", "centre"}, "left out without angle");
   if (is_turned) {
     moved.angle = table.required(
         "angle", Number{"a number other than 0 (degrees)", [](double angle) { return angle != 0; }});
     moved.axis = table.required("axis", read_direction);
-    moved.centre = table.required("centre", Vector{"a point of three finite numbers (mm)"});
+    moved.centre = table.required("centre", read_point);
   } else {
     moved.components = table.optional("components", read_components).value_or(moved.components);
     const Entry entry = table.entry("displacement");
@@ -151,7 +132,7 @@ Moved read_moved(Table& table, const Body& body) {
     for (std::size_t a = 0; a < 3; ++a)
       if (!moved.components[a] && moved.displacement[static_cast<int>(a)] != 0)
         entry.refuse("0 in the components that are not moved");
-    table.optional("angle", read_text); // known, though absent
+    table.know({"angle"});
   }
   return moved;
 }
@@ -160,23 +141,47 @@ Load read_load(Table& table, const Body& body) {
   Load load;
   load.region = read_region(table, body);
   load.kind = table.required("kind", read_name<LoadKind>);
-  switch (load.kind) {
-  case LoadKind::nodal_force:
-  case LoadKind::total_force:
-    load.value = table.required("value", Vector{"a force of three finite numbers (N)"});
-    break;
-  case LoadKind::traction:
-    load.value = table.required("value", Vector{"a traction of three finite numbers (MPa)"});
-    check_has_area(load, body);
-    break;
-  case LoadKind::torque:
+  if (load.kind == LoadKind::torque) {
     load.moment = table.required("value", Number{"one finite number, the moment (N mm)"});
     load.axis = table.required("axis", read_direction);
-    load.centre = table.required("centre", Vector{"a point of three finite numbers (mm)"});
-    check_has_area(load, body);
-    break;
+    load.centre = table.required("centre", read_point);
+  } else {
+    load.value =
+        table.required("value", acts_on_area(load.kind) ? Vector{"a traction of three finite numbers (MPa)"}
+                                                        : Vector{"a force of three finite numbers (N)"});
   }
+  if (acts_on_area(load.kind)) check_has_area(load, body);
   return load;
+}
+
+bool is_zero(const Load& load) {
+  return load.value.isZero(0) && load.moment == 0;
+}
+
+} // namespace
+
+void read_boundary(Table& root, Case& result) {
+  const auto with_body = [&](auto read) {
+    return [&, read](Table& table) { return read(table, result.body); };
+  };
+  result.fixed = root.sections("fixed", with_body(read_fixed));
+  result.symmetry = root.sections("symmetry", read_symmetry);
+  if (result.fixed.empty() && result.symmetry.empty())
+    root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
+  for (std::size_t i = 0; i < result.symmetry.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (const Region& plane = result.symmetry[i].region; plane.name == result.symmetry[j].region.name)
+        throw InputError(plane.where,
+                         fmt::format("is \"{}\", must be another plane than symmetry[{}]", plane.name, j));
+  result.moved = root.sections("moved", with_body(read_moved));
+  result.loads = root.sections("load", with_body(read_load));
+  const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
+  if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
+  if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
+  if (std::all_of(result.loads.begin(), result.loads.end(), is_zero)) {
+    Table first(root.entry("load").elements("tables").front(), "a table");
+    first.entry("value").refuse("other than 0, here or in another [[load]]: nothing would move");
+  }
 }
 
 } // namespace springproof::cases

@@ -2,8 +2,6 @@
 
 #include "cases/case/override.hpp"
 #include "cases/case/read_boundary.hpp"
-#include "cases/case/read_material.hpp"
-#include "cases/case/read_measures.hpp"
 #include "cases/case/read_models.hpp"
 #include "cases/case/read_stress.hpp"
 
@@ -59,13 +57,12 @@ Box read_box(Table& table) {
   box.size = table.required("size", Vector{"three numbers above 0 (mm)", is_positive});
   const Entry entry = table.entry("cells");
   const std::string allowed = "three whole numbers above 0";
-  const std::vector<Entry> cells = entry.elements(allowed);
-  if (cells.size() != 3) entry.refuse(allowed);
   double nodes = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto n = cells[a].node->value_exact<int64_t>();
+  std::size_t a = 0;
+  for (const Entry& cells : entry.elements(allowed, 3)) {
+    const auto n = cells.value<int64_t>();
     if (!n || *n < 1 || *n > 1000000) entry.refuse(allowed + ", none above a million");
-    box.cells[a] = static_cast<int>(*n);
+    box.cells[a++] = static_cast<int>(*n);
     nodes *= static_cast<double>(*n) + 1;
   }
   if (!(3 * nodes < 2147483647.0)) entry.refuse("fewer: more than 715 million nodes cannot be numbered");
@@ -78,74 +75,119 @@ std::string read_file_name(const Entry& entry, const std::vector<std::string>& e
                            const std::string& allowed, const std::string& case_path) {
   const std::filesystem::path file = read_text(entry);
   if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
-  const std::filesystem::path path = std::filesystem::path(case_path).parent_path() / file;
+  const std::filesystem::path path =
+      (std::filesystem::path(case_path).parent_path() / file).lexically_normal();
   std::error_code unreadable; // a name that is too long, for one
   if (!std::filesystem::is_regular_file(path, unreadable))
-    entry.refuse(fmt::format("a file that exists: there is no {}", path.lexically_normal().string()));
-  return path.lexically_normal().string();
-}
-
-MeshFile read_mesh_file(Table& table, const std::string& case_path) {
-  const Entry entry = table.entry("file");
-  return {read_file_name(entry, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path), entry.where};
-}
-
-Voxels read_voxels(Table& table, const std::string& case_path) {
-  const Entry entry = table.entry("surface");
-  Voxels voxels{read_file_name(entry, {".stl"}, "a closed surface in STL, .stl", case_path), 0, entry.where};
-  voxels.edge = table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive});
-  return voxels;
+    entry.refuse(fmt::format("a file that exists: there is no {}", path.string()));
+  return path.string();
 }
 
 Body read_body(Table& table, const std::string& case_path) {
-  const Entry entry = table.entry("shape");
-  const auto shape = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
+  const std::string shape = table.entry("shape").word({"box", "mesh", "voxels"});
   if (shape == "box") return read_box(table);
-  if (shape == "mesh") return read_mesh_file(table, case_path);
-  if (shape == "voxels") return read_voxels(table, case_path);
-  entry.refuse_word({"box", "mesh", "voxels"});
+  const Entry file = table.entry(shape == "mesh" ? "file" : "surface");
+  if (shape == "mesh")
+    return MeshFile{read_file_name(file, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path),
+                    file.where};
+  return Voxels{read_file_name(file, {".stl"}, "a closed surface in STL, .stl", case_path),
+                table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive}),
+                file.where};
 }
 
-bool is_zero(const Load& load) {
-  return load.value.isZero(0) && load.moment == 0;
+/// Two nodes that must differ for the direction between them to exist. Different names of one node are found
+/// on the mesh.
+void check_differ(Table& table, const std::string& key, const Region& here, const Region& other,
+                  const std::string& other_key) {
+  if (here.name == other.name && here.near == other.near)
+    table.entry(key).refuse(
+        fmt::format("another node than {}: there is no direction from a node to itself", other_key));
 }
 
-void read_boundary(Table& root, Case& result) {
-  result.fixed = root.sections("fixed", [&](Table& table) { return read_fixed(table, result.body); });
-  result.symmetry =
-      root.sections("symmetry", [&](Table& table) { return read_symmetry(table, result.body); });
-  if (result.fixed.empty() && result.symmetry.empty())
-    root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
-  for (std::size_t i = 0; i < result.symmetry.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (result.symmetry[i].region.name == result.symmetry[j].region.name)
-        throw InputError(result.symmetry[i].region.where,
-                         fmt::format("is \"{}\", must be another plane than symmetry[{}]",
-                                     result.symmetry[i].region.name, j));
-  result.moved = root.sections("moved", [&](Table& table) { return read_moved(table, result.body); });
-  result.loads = root.sections("load", [&](Table& table) { return read_load(table, result.body); });
-  const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
-  if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
-  if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
-  if (std::all_of(result.loads.begin(), result.loads.end(), is_zero)) {
-    Table first(root.entry("load").elements("tables").front(), "a table");
-    first.entry("value").refuse("other than 0, here or in another [[load]]: nothing would move");
+Measure read_measure(Table& table, const Body& body) {
+  const auto node = [&](const Entry& entry) { return read_region_text(entry, body); };
+  Measure measure;
+  measure.where = table.where();
+  measure.name = table.required("name", read_text);
+  measure.kind = table.required("kind", read_name<MeasureKind>);
+  switch (measure.kind) {
+  case MeasureKind::coordinate:
+    measure.node = table.required("node", node);
+    measure.axis = table.required("axis", read_name<Axis>);
+    break;
+  case MeasureKind::displacement:
+    measure.node = table.required("node", node);
+    measure.component = table.required("component", read_name<Component>);
+    break;
+  case MeasureKind::tilt:
+    measure.top = table.required("top", node);
+    measure.bottom = table.required("bottom", node);
+    measure.toward = table.required("toward", read_name<Axis>);
+    measure.axis = table.optional("up", read_name<Axis>).value_or(Axis::z);
+    check_differ(table, "top", measure.top, measure.bottom, "bottom");
+    if (measure.toward == measure.axis)
+      table.entry("toward").refuse(
+          fmt::format("another axis than up, which is \"{}\"", name_of(measure.axis)));
+    break;
+  case MeasureKind::twist:
+    measure.node = table.required("node", node);
+    measure.centre = table.required("centre", node);
+    measure.axis = table.optional("axis", read_name<Axis>).value_or(Axis::z);
+    check_differ(table, "node", measure.node, measure.centre, "centre");
+    break;
+  case MeasureKind::volume:
+  case MeasureKind::displacement_field_l2:
+  case MeasureKind::displacement_field_max:
+    break;
   }
+  return measure;
+}
+
+Expectation read_expectation(Table& table, const std::vector<std::string>& measures) {
+  Expectation expectation;
+  expectation.where = table.where();
+  expectation.measure = table.required("measure", read_text);
+  table.entry("measure").word(measures);
+  int n_quantities = 0;
+  for (const auto& [quantity, key] : names<Quantity>()) {
+    const auto interval = table.optional(key, Numbers{"an interval [lower, upper] of two finite numbers", 2});
+    if (!interval) continue;
+    if (++n_quantities > 1)
+      table.entry(key).refuse("left out: an expectation bounds one quantity, give each its own");
+    if (!((*interval)[0] <= (*interval)[1]))
+      table.entry(key).refuse("an interval [lower, upper] with lower <= upper");
+    expectation.quantity = quantity;
+    expectation.interval_where = table.entry(key).where;
+    expectation.interval = {(*interval)[0], (*interval)[1]};
+  }
+  if (n_quantities == 0)
+    table.entry("error_percent").refuse("an interval [lower, upper], here or for msm or for fem");
+  expectation.reference = table.required("reference", read_name<ReferenceKind>);
+  expectation.reason = table.required("reason", read_text);
+  return expectation;
 }
 
 void read_measures(Table& root, Case& result) {
   std::vector<std::string> seen;
   result.measures = root.sections("measure", [&](Table& table) {
     Measure measure = read_measure(table, result.body);
-    if (std::find(seen.begin(), seen.end(), measure.name) != seen.end())
-      table.entry("name").refuse(
-          fmt::format("a new name: measure[{}] has this one",
-                      std::find(seen.begin(), seen.end(), measure.name) - seen.begin()));
+    const auto same = std::find(seen.begin(), seen.end(), measure.name);
+    if (same != seen.end())
+      table.entry("name").refuse(fmt::format("a new name: measure[{}] has this one", same - seen.begin()));
     seen.push_back(measure.name);
     return measure;
   });
-  result.expectations =
-      root.sections("expect", [&](Table& table) { return read_expectation(table, result.measures); });
+  result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });
+}
+
+/// Automatic choices need expectations that require an accuracy.
+void check_accuracy(Table& root, const Case& definition) {
+  if (!definition.fem.has_auto_accuracy && !definition.fem.has_auto_formulation) return;
+  const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
+  if (std::none_of(definition.expectations.begin(), definition.expectations.end(), asks_of_fem))
+    root.entry("expect").refuse(
+        "one or more tables [[expect]] with error_percent or fem: \"auto\" in [fem] is as accurate "
+        "as they ask for");
 }
 
 toml::table parse_file(const std::string& path, const std::vector<std::string>& overrides) {
@@ -162,15 +204,9 @@ Case read_definition(Table& root, const std::string& path) {
   result.name = root.required("name", read_case_name);
   result.description = root.optional("description", read_text).value_or("");
   result.body = root.section("body", [&](Table& table) { return read_body(table, path); });
-  result.material = root.section("material", read_material);
-  result.region_materials = root.sections("region_material", [&](Table& table) {
-    return read_region_material(table, result.material, result.body);
-  });
+  read_materials(root, result);
   read_boundary(root, result);
-  result.fem = root.optional_section(
-      "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
-  result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result.material); });
-  check_region_materials(result);
+  read_models(root, result);
   read_measures(root, result);
   check_accuracy(root, result);
   return result;

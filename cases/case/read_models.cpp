@@ -2,100 +2,142 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
+#include <numeric>
 
 namespace springproof::cases {
 
 namespace {
 
-bool is_poissons_ratio(double value) {
-  return value > -1 && value < 0.5;
+constexpr auto is_poissons_ratio = [](double value) { return value > -1 && value < 0.5; };
+
+LinearElastic read_linear_elastic(Table& table) {
+  return {table.required("youngs_modulus", Number{"a number above 0 (MPa)", is_positive}),
+          table.required("poissons_ratio",
+                         Number{"a number above -1 and below 0.5 (at 0.5 the bulk modulus is infinite: "
+                                "model = \"ogden\" is for incompressible materials)",
+                                is_poissons_ratio})};
 }
 
-/// Refuses a key that has no meaning beside the others.
-void refuse_unless(bool has_meaning, Table& table, const std::string& key, const std::string& reason) {
-  if (table.has(key) && !has_meaning) table.entry(key).refuse("left out: " + reason);
+Ogden read_ogden(Table& table) {
+  Ogden material;
+  const Entry mu = table.entry("mu");
+  material.mu = Numbers{"one or more finite numbers (MPa)", 0}(mu);
+  if (!(std::accumulate(material.mu.begin(), material.mu.end(), 0.0) > 0))
+    mu.refuse("numbers with a sum above 0 (MPa): the sum is the initial shear modulus");
+  const Entry alpha = table.entry("alpha");
+  material.alpha = Numbers{"as many finite numbers as mu, none 0", 0, [](double a) { return a != 0; }}(alpha);
+  if (material.alpha.size() != material.mu.size())
+    alpha.refuse(fmt::format("as many numbers as mu has, which is {}", material.mu.size()));
+  material.bulk_modulus = table.optional("bulk_modulus", Number{"a number above 0 (MPa)", is_positive});
+  return material;
 }
 
-/// One line per formulation: the elements it has, its default first. The pressure of a mixed or averaged
+const std::vector<std::string> model_names{"linear_elastic", "ogden"}; // in the order of Material
+
+Material read_material(Table& table) {
+  if (table.entry("model").word(model_names) == "ogden") return read_ogden(table);
+  return read_linear_elastic(table);
+}
+
+/// Cells between two planes: axis, from, to; either end may be left out.
+void read_layer(Table& table, RegionMaterial& region) {
+  const int axis = static_cast<int>(table.required("axis", read_name<Axis>));
+  const Number position{"a finite number (mm)"};
+  const auto from = table.optional("from", position), to = table.optional("to", position);
+  if (!from && !to) table.entry("from").refuse("a finite number (mm), here or for to: where the layer ends");
+  region.lower[axis] = from.value_or(region.lower[axis]);
+  region.upper[axis] = to.value_or(region.upper[axis]);
+  if (!(region.lower[axis] < region.upper[axis])) table.entry("to").refuse("a number above from");
+}
+
+void read_corners(const Entry& entry, RegionMaterial& region) {
+  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
+  const std::vector<Entry> corners = entry.elements(allowed, 2);
+  region.lower = Vector{allowed}(corners[0]);
+  region.upper = Vector{allowed}(corners[1]);
+  if (!(region.lower.array() < region.upper.array()).all()) entry.refuse(allowed);
+}
+
+/// A material and the cells that consist of it.  @param own  the body's material
+RegionMaterial read_region_material(Table& table, const Material& own, const Body& body) {
+  RegionMaterial region;
+  region.where = table.where();
+  region.upper.setConstant(std::numeric_limits<double>::infinity());
+  region.lower = -region.upper;
+  const bool has_group = table.has("group"), has_box = table.has("box"), has_axis = table.has("axis");
+  if (has_group + has_box + has_axis != 1)
+    table.entry("axis").refuse(
+        "one of group, box, or axis with from and to: which cells are of this material");
+  table.refuse_unless(std::holds_alternative<MeshFile>(body), {"group"},
+                      "left out: only a body of shape = \"mesh\" has physical groups");
+  region.group = table.optional("group", read_text).value_or("");
+  if (has_box) read_corners(table.entry("box"), region);
+  if (has_axis) read_layer(table, region);
+  table.know({"box", "axis", "from", "to"});
+  table.refuse_unless(has_axis, {"from", "to"}, "left out without axis");
+  region.material = read_material(table);
+  if (region.material.index() != own.index())
+    table.entry("model").refuse(fmt::format("\"{}\" as in [material]: one formulation serves the whole body",
+                                            model_names[own.index()]));
+  return region;
+}
+
+/// The elements that a formulation has, its default first. The pressure of a mixed or averaged
 /// element acts on the volume ratio J; the law S = lambda tr(E) I + 2 mu E has no such part, so there is
 /// nothing to average in it.
-const std::vector<std::pair<Formulation, std::vector<Element>>>& elements_of_formulations() {
+std::vector<Element> elements_of(Formulation formulation) {
   using E = Element;
-  static const std::vector<std::pair<Formulation, std::vector<Element>>> table{
-      {Formulation::small_strain, {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1}},
-      {Formulation::saint_venant_kirchhoff, {E::q1, E::q2}},
-      {Formulation::log_strain, {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1}},
-      {Formulation::hyperelastic, {E::q1_p0, E::q1_bbar, E::q1, E::q2, E::q2_p1}}};
-  return table;
-}
-
-const std::vector<Element>& elements_of(Formulation formulation) {
-  const auto& table = elements_of_formulations();
-  return std::find_if(table.begin(), table.end(), [&](const auto& line) { return line.first == formulation; })
-      ->second;
-}
-
-/// A key whose only word is "auto".
-bool read_auto(const Entry& entry) {
-  if (!entry.node || entry.node->value_exact<std::string>() != "auto") entry.refuse_word({"auto"});
-  return true;
-}
-
-bool is_auto(Table& table, const std::string& key) {
-  return table.has(key) && table.entry(key).node->value_exact<std::string>() == "auto";
-}
-
-Formulation read_formulation_name(const Entry& entry) {
-  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
-  const auto formulation = text ? value_of<Formulation>(*text) : std::nullopt;
-  std::vector<std::string> allowed = all_names<Formulation>();
-  allowed.emplace_back("auto");
-  if (!formulation) entry.refuse_word(allowed);
-  return *formulation;
+  switch (formulation) {
+  case Formulation::saint_venant_kirchhoff:
+    return {E::q1, E::q2};
+  case Formulation::hyperelastic:
+    return {E::q1_p0, E::q1_bbar, E::q1, E::q2, E::q2_p1};
+  case Formulation::small_strain:
+  case Formulation::log_strain:
+    break;
+  }
+  return {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1};
 }
 
 /// "auto" falls back on the default.
-Formulation read_formulation(Table& table, const Material& material) {
+void read_formulation(Table& table, const Material& material, Fem& fem) {
+  std::vector<std::string> words = all_names<Formulation>();
+  words.emplace_back("auto");
+  const auto word = table.optional("formulation", [&](const Entry& entry) { return entry.word(words); });
   const bool is_ogden = std::holds_alternative<Ogden>(material);
-  if (is_auto(table, "formulation")) {
-    if (is_ogden)
-      table.entry("formulation")
-          .refuse("\"hyperelastic\" with the ogden material, which has no small strains");
-    return Formulation::log_strain;
-  }
-  const auto formulation = table.optional("formulation", read_formulation_name);
-  if (!formulation) return is_ogden ? Formulation::hyperelastic : Formulation::log_strain;
-  const bool needs_ogden = *formulation == Formulation::hyperelastic;
-  if (needs_ogden && !is_ogden)
-    table.entry("formulation")
-        .refuse("\"small_strain\" | \"saint_venant_kirchhoff\" | \"log_strain\" with the linear_elastic "
-                "material; "
-                "hyperelastic needs model = \"ogden\"");
-  if (!needs_ogden && is_ogden)
-    table.entry("formulation")
-        .refuse("\"hyperelastic\" with the ogden material; the others need model = \"linear_elastic\"");
-  return *formulation;
+  fem.has_auto_formulation = word == "auto";
+  table.refuse_unless(!(fem.has_auto_formulation && is_ogden), {"formulation"},
+                      "\"hyperelastic\" with the ogden material, which has no small strains");
+  fem.formulation = value_of<Formulation>(word.value_or("auto"))
+                        .value_or(is_ogden ? Formulation::hyperelastic : Formulation::log_strain);
+  const bool needs_ogden = fem.formulation == Formulation::hyperelastic;
+  table.refuse_unless(
+      is_ogden || !needs_ogden, {"formulation"},
+      "\"small_strain\" | \"saint_venant_kirchhoff\" | \"log_strain\" with the linear_elastic "
+      "material; hyperelastic needs model = \"ogden\"");
+  table.refuse_unless(!is_ogden || needs_ogden, {"formulation"},
+                      "\"hyperelastic\" with the ogden material; the others need model = \"linear_elastic\"");
 }
 
-/// The elements required by the material, when this one is not among them.
-std::optional<std::string> element_needed(Element element, const Material& material) {
+/// The elements required by the material, when this one is not among them; otherwise empty.
+std::string element_needed(Element element, const Material& material) {
   const Ogden* ogden = std::get_if<Ogden>(&material);
   if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
     return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
            "nearly incompressible, and a displacement element without averaged volume locks";
-  return std::nullopt;
+  return "";
 }
 
 Element read_element(Table& table, Formulation formulation, const Material& material) {
-  const std::vector<Element>& allowed = elements_of(formulation);
+  const std::vector<Element> allowed = elements_of(formulation);
   const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
-  if (std::find(allowed.begin(), allowed.end(), element) == allowed.end()) {
-    std::vector<std::string> words;
-    for (const Element e : allowed) words.push_back(name_of(e));
-    table.entry("element").refuse(
-        fmt::format("{} with formulation = \"{}\"", alternatives(words), name_of(formulation)));
-  }
-  if (const auto needed = element_needed(element, material)) table.entry("element").refuse(*needed);
+  std::vector<std::string> words;
+  for (const Element e : allowed) words.push_back(name_of(e));
+  table.refuse_unless(std::count(allowed.begin(), allowed.end(), element) > 0, {"element"},
+                      fmt::format("{} with formulation = \"{}\"", alternatives(words), name_of(formulation)));
+  const std::string needed = element_needed(element, material);
+  if (!needed.empty()) table.entry("element").refuse(needed);
   return element;
 }
 
@@ -110,60 +152,35 @@ void check_refined_size(const Entry& entry, const Body& body, int refine) {
         fmt::format("fewer: the refined mesh would have {:.3g} nodes, above what can be numbered", nodes));
 }
 
-} // namespace
-
 Fem read_fem(Table& table, const Material& material, const Body& body) {
   Fem fem;
   fem.where = table.where();
-  fem.formulation = read_formulation(table, material);
-  fem.has_auto_formulation = is_auto(table, "formulation");
+  read_formulation(table, material, fem);
   fem.element = read_element(table, fem.formulation, material);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
     check_refined_size(table.entry("refine"), body, fem.refine);
   }
-  fem.has_auto_accuracy = table.optional("accuracy", read_auto).value_or(false);
-  refuse_unless(!fem.has_auto_accuracy, table, "refine", "accuracy = \"auto\" finds it");
+  fem.has_auto_accuracy =
+      table.optional("accuracy", [](const Entry& entry) { return entry.word({"auto"}); }).has_value();
+  table.refuse_unless(!fem.has_auto_accuracy, {"refine"}, "left out: accuracy = \"auto\" finds it");
   return fem;
 }
 
-void check_accuracy(Table& root, const Case& definition) {
-  if (!definition.fem.has_auto_accuracy && !definition.fem.has_auto_formulation) return;
-  const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
-  if (std::none_of(definition.expectations.begin(), definition.expectations.end(), asks_of_fem))
-    root.entry("expect").refuse(
-        "one or more tables [[expect]] with error_percent or fem: \"auto\" in [fem] is as accurate "
-        "as they ask for");
-}
-
-void check_element(const Fem& fem, const Material& material, const Where& where) {
-  if (const auto needed = element_needed(fem.element, material))
-    throw InputError(where, "the element must be " + *needed);
-}
-
-namespace {
-
-void check_given_stiffness(const Entry& entry, const std::array<double, 3>& stiffness) {
-  if (!(stiffness[0] > 0 || stiffness[1] > 0 || stiffness[2] > 0))
-    entry.refuse("stiffnesses of which one is above 0");
-}
-
-/// The requirement of the design on Poisson's ratio, when it is not met.
-std::optional<std::string> design_needed(const Msm& msm, const Material& material) {
+/// The requirement of the design on Poisson's ratio, when it is not met; otherwise empty.
+std::string design_needed(const Msm& msm, const Material& material) {
   const LinearElastic* linear = std::get_if<LinearElastic>(&material);
   const Ogden* ogden = std::get_if<Ogden>(&material);
   const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
   if (msm.design == Design::linear_method && is_incompressible)
     return "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
            "material has none without bulk_modulus; or give msm.poissons_ratio";
-  const std::optional<double> ratio = msm.poissons_ratio ? msm.poissons_ratio
-                                      : linear           ? std::optional(linear->poissons_ratio)
-                                                         : std::nullopt;
-  if (msm.design == Design::hybrid && ratio && *ratio < 0.25)
+  const double ratio = msm.poissons_ratio.value_or(linear ? linear->poissons_ratio : 0.5);
+  if (msm.design == Design::hybrid && ratio < 0.25)
     return fmt::format("another design than \"hybrid\", which needs a Poisson's ratio of 0.25 and more: "
                        "at {} its volume stiffness would be negative",
-                       *ratio);
-  return std::nullopt;
+                       ratio);
+  return "";
 }
 
 std::vector<LoadPath> read_paths(const Entry& entry) {
@@ -173,36 +190,31 @@ std::vector<LoadPath> read_paths(const Entry& entry) {
     if (std::count(paths.begin(), paths.end(), paths.back()) > 1)
       element.refuse("a path that is not in the list yet");
   }
-  if (paths.empty()) entry.refuse("one path or more of " + alternatives(all_names<LoadPath>()));
   return paths;
 }
 
 /// What the designs that are fitted to curves are fitted to.
 void read_fit(Table& table, Msm& msm) {
   msm.paths = table.optional("paths", read_paths).value_or(std::vector<LoadPath>{});
-  const std::size_t n_paths = msm.paths.empty() ? all_names<LoadPath>().size() : msm.paths.size();
+  const std::size_t n_paths = msm.paths.empty() ? names<LoadPath>().size() : msm.paths.size();
   const std::string per_path = fmt::format("{} numbers, none below 0 and not all 0: one per path", n_paths);
   if (const auto weights = table.optional("weights", Numbers{per_path, n_paths, is_not_negative})) {
     if (std::all_of(weights->begin(), weights->end(), [](double w) { return w == 0; }))
       table.entry("weights").refuse(per_path);
     msm.weights = *weights;
   }
-  if (const auto range =
-          table.optional("strain_range", Numbers{"two numbers from -2 to 2, the smaller first", 2,
-                                                 [](double e) { return e >= -2 && e <= 2; }})) {
-    if (!((*range)[0] < (*range)[1]))
-      table.entry("strain_range").refuse("two numbers from -2 to 2, the smaller first");
+  const std::string two = "two numbers from -2 to 2, the smaller first";
+  const auto is_allowed = [](double strain) { return strain >= -2 && strain <= 2; };
+  if (const auto range = table.optional("strain_range", Numbers{two, 2, is_allowed})) {
+    if (!((*range)[0] < (*range)[1])) table.entry("strain_range").refuse(two);
     msm.strain_range = {(*range)[0], (*range)[1]};
   }
   const auto volume_term = table.optional("volume_term", [](const Entry& entry) {
-    const std::string word = read_text(entry);
-    if (word != "fitted" && word != "none") entry.refuse_word({"fitted", "none"});
-    return word;
+    read_text(entry);
+    return entry.word({"fitted", "none"});
   });
-  msm.has_volume_term = volume_term.value_or("fitted") == "fitted";
+  msm.has_volume_term = volume_term != "none";
 }
-
-} // namespace
 
 Msm read_msm(Table& table, const Material& material) {
   Msm msm;
@@ -213,16 +225,14 @@ Msm read_msm(Table& table, const Material& material) {
   const bool is_given = msm.design == Design::given;
   const bool is_multi_load = msm.design == Design::multi_load;
   const bool has_split = msm.design == Design::moduli || msm.design == Design::hybrid || is_multi_load;
-  const std::string belongs = " belongs to design = ";
-  refuse_unless(!is_given, table, "poissons_ratio",
-                "a given stiffness is not designed from a Poisson's ratio");
-  refuse_unless(has_split, table, "split", "it" + belongs + "\"moduli\" | \"hybrid\" | \"multi_load\"");
-  for (const char* key : {"paths", "weights", "volume_term"})
-    refuse_unless(is_multi_load, table, key, "it" + belongs + "\"multi_load\"");
-  refuse_unless(is_multi_load || msm.design == Design::nonlinear_method, table, "strain_range",
-                "it" + belongs + "\"multi_load\" | \"nonlinear_method\"");
-  refuse_unless(is_given, table, "stiffness", "it" + belongs + "\"given\"");
-  refuse_unless(is_given, table, "volume_stiffness", "it" + belongs + "\"given\"");
+  const std::string belongs = "left out: it belongs to design = ";
+  table.refuse_unless(!is_given, {"poissons_ratio"},
+                      "left out: a given stiffness is not designed from a Poisson's ratio");
+  table.refuse_unless(has_split, {"split"}, belongs + "\"moduli\" | \"hybrid\" | \"multi_load\"");
+  table.refuse_unless(is_multi_load, {"paths", "weights", "volume_term"}, belongs + "\"multi_load\"");
+  table.refuse_unless(is_multi_load || msm.design == Design::nonlinear_method, {"strain_range"},
+                      belongs + "\"multi_load\" | \"nonlinear_method\"");
+  table.refuse_unless(is_given, {"stiffness", "volume_stiffness"}, belongs + "\"given\"");
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   msm.poissons_ratio =
@@ -233,20 +243,44 @@ Msm read_msm(Table& table, const Material& material) {
     const Entry entry = table.entry("stiffness");
     const auto k = Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
     msm.stiffness = {k[0], k[1], k[2]};
-    check_given_stiffness(entry, *msm.stiffness);
-  } else {
-    table.optional("stiffness", read_text); // known, though absent
+    if (std::none_of(k.begin(), k.end(), is_positive)) entry.refuse("stiffnesses of which one is above 0");
   }
+  table.know({"stiffness"});
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   read_fit(table, msm);
-  if (const auto needed = design_needed(msm, material)) table.entry("design").refuse(*needed);
+  const std::string needed = design_needed(msm, material);
+  if (!needed.empty()) table.entry("design").refuse(needed);
   return msm;
 }
 
-void check_design_ratio(const Msm& msm, const Material& material, const Where& where) {
-  if (const auto needed = design_needed(msm, material))
-    throw InputError(where, "the springs' design must be " + *needed);
+/// What the element and the design require of the materials of regions.
+void check_region_materials(const Case& definition) {
+  for (const RegionMaterial& region : definition.region_materials) {
+    if (definition.msm.design == Design::given)
+      throw InputError(region.where, "must be left out beside msm.design = \"given\", which gives one set of "
+                                     "springs for all cells");
+    const std::string element = element_needed(definition.fem.element, region.material),
+                      design = design_needed(definition.msm, region.material);
+    if (!element.empty()) throw InputError(region.where, "the element must be " + element);
+    if (!design.empty()) throw InputError(region.where, "the springs' design must be " + design);
+  }
+}
+
+} // namespace
+
+void read_materials(Table& root, Case& result) {
+  result.material = root.section("material", read_material);
+  result.region_materials = root.sections("region_material", [&](Table& table) {
+    return read_region_material(table, result.material, result.body);
+  });
+}
+
+void read_models(Table& root, Case& result) {
+  result.fem = root.optional_section(
+      "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
+  result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result.material); });
+  check_region_materials(result);
 }
 
 } // namespace springproof::cases

@@ -3,17 +3,13 @@
 #include "cases/case/case.hpp"
 #include "cases/case/toml_table.hpp"
 
-/// [fem] and [msm].
+/// What both models are made of: [material], [[region_material]], [fem] and [msm].
 namespace springproof::cases {
 
-Fem read_fem(Table& table, const Material& material, const Body& body);
-Msm read_msm(Table& table, const Material& material);
-
-/// @throws InputError if the material has no meaning in the element
-void check_element(const Fem& fem, const Material& material, const Where& where);
-/// @throws InputError if the springs' design does not exist for the material
-void check_design_ratio(const Msm& msm, const Material& material, const Where& where);
-/// Automatic choices need expectations that require an accuracy.  @throws InputError
-void check_accuracy(Table& root, const Case& definition);
+/// Reads them into a case whose body is read.
+/// @throws InputError, also if a material has no meaning in the element, or the springs' design does not
+/// exist for it
+void read_materials(Table& root, Case& result);
+void read_models(Table& root, Case& result);
 
 } // namespace springproof::cases

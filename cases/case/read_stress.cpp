@@ -15,9 +15,7 @@ Stiffer read_stiffer(Table& table) {
 Outcome read_outcome(const Entry& entry) {
   std::vector<std::string> allowed = all_names<Outcome>();
   allowed.erase(std::remove(allowed.begin(), allowed.end(), name_of(Outcome::unknown)), allowed.end());
-  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
-  if (!text || std::find(allowed.begin(), allowed.end(), *text) == allowed.end()) entry.refuse_word(allowed);
-  return *value_of<Outcome>(*text);
+  return *value_of<Outcome>(entry.word(allowed));
 }
 
 /// What may be expected of a hard case's models: the table, and what is solved for it.
@@ -47,7 +45,7 @@ ExpectedOutcome read_expected(Table& table, const HardModel& model) {
 /// A table that may be left out.
 template<class Reader>
 auto read_if_there(Table& table, const std::string& key, const Reader& read) {
-  table.optional(key, [](const Entry&) { return 0; }); // known, though absent
+  table.know({key.c_str()});
   return table.has(key) ? std::optional(table.section(key, read)) : std::nullopt;
 }
 
@@ -58,10 +56,8 @@ void read_start(Table& table, Stress& result) {
     result.seed = table.required("seed", WholeNumber{"a whole number from 0", 0, 2147483647});
     return;
   }
-  for (const char* key : {"amplitude", "seed"}) {
-    if (table.has(key)) table.entry(key).refuse("left out: it belongs to start = \"perturbed\"");
-    table.optional(key, read_text); // known, though absent
-  }
+  table.refuse_unless(false, {"amplitude", "seed"}, "left out: it belongs to start = \"perturbed\"");
+  table.know({"amplitude", "seed"});
 }
 
 } // namespace

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "cases/case/outcome.hpp"
+#include "cases/case/error.hpp"
 
 #include <Eigen/Core>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace springproof::cases {
 

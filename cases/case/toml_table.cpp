@@ -1,5 +1,6 @@
 #include "cases/case/toml_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <sstream>
@@ -32,6 +33,7 @@ std::string shown(const toml::node& node) {
   return line.size() <= longest ? line : line.substr(0, longest) + "...";
 }
 
+/// A node from the command line has neither file nor line.
 Where place_of(const toml::source_region& source, const std::string& key) {
   if (!source.path) return {"", 0, 0, key};
   return {*source.path, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column), key};
@@ -45,40 +47,37 @@ std::optional<double> finite_number(const toml::node* node) {
 
 } // namespace
 
-Where place_of(const toml::node& node, const std::string& key) {
-  return place_of(node.source(), key);
-}
-
 void Entry::refuse(const std::string& allowed) const {
   throw InputError(where, fmt::format("is {}, must be {}", node ? shown(*node) : "missing", allowed));
 }
 
-void Entry::refuse_word(const std::vector<std::string>& allowed) const {
-  const auto written = node ? node->value_exact<std::string>() : std::nullopt;
+std::string Entry::word(const std::vector<std::string>& allowed) const {
+  const auto written = value<std::string>();
+  if (written && std::find(allowed.begin(), allowed.end(), *written) != allowed.end()) return *written;
   const auto nearest = written ? nearest_name(*written, allowed) : std::nullopt;
   refuse(alternatives(allowed) + (nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
 }
 
-std::vector<Entry> Entry::elements(const std::string& allowed) const {
+std::vector<Entry> Entry::elements(const std::string& allowed, std::size_t count) const {
   const toml::array* array = node ? node->as_array() : nullptr;
-  if (!array || array->empty()) refuse(allowed);
+  if (!array || array->empty() || (count != 0 && array->size() != count)) refuse(allowed);
   std::vector<Entry> entries;
   for (const toml::node& element : *array) {
     const std::string key = fmt::format("{}[{}]", where.key, entries.size());
-    entries.push_back({&element, place_of(element, key)});
+    entries.push_back({&element, place_of(element.source(), key)});
   }
   return entries;
 }
 
 std::string read_text(const Entry& entry) {
-  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
+  const auto text = entry.value<std::string>();
   if (!text || text->find_first_not_of(" \t\r\n") == std::string::npos)
     entry.refuse("a text in quotes, not empty");
   return *text;
 }
 
 bool read_truth(const Entry& entry) {
-  const auto value = entry.node ? entry.node->value_exact<bool>() : std::nullopt;
+  const auto value = entry.value<bool>();
   if (!value) entry.refuse("true or false");
   return *value;
 }
@@ -91,22 +90,20 @@ double Number::operator()(const Entry& entry) const {
 
 std::vector<double> Numbers::operator()(const Entry& entry) const {
   std::vector<double> values;
-  for (const Entry& element : entry.elements(allowed)) {
+  for (const Entry& element : entry.elements(allowed, count)) {
     const auto value = finite_number(element.node);
     if (!value || !condition(*value)) entry.refuse(allowed);
     values.push_back(*value);
   }
-  if (count != 0 && values.size() != count) entry.refuse(allowed);
   return values;
 }
 
 Eigen::Vector3d Vector::operator()(const Entry& entry) const {
-  const std::vector<double> values = Numbers{allowed, 3, condition}(entry);
-  return {values[0], values[1], values[2]};
+  return Eigen::Vector3d(Numbers{allowed, 3, condition}(entry).data());
 }
 
 int WholeNumber::operator()(const Entry& entry) const {
-  const auto value = entry.node ? entry.node->value_exact<int64_t>() : std::nullopt;
+  const auto value = entry.value<int64_t>();
   if (!value || *value < lowest || *value > highest) entry.refuse(allowed);
   return static_cast<int>(*value);
 }
@@ -116,32 +113,38 @@ Table::Table(const Entry& entry, const std::string& allowed) : where_(entry.wher
   if (!table_) entry.refuse(allowed);
 }
 
-std::string Table::path_to(const std::string& key) const {
-  return where_.key.empty() ? key : where_.key + "." + key;
+Where Table::place_of(const std::string& key) const {
+  Where where = where_;
+  where.key = where.key.empty() ? key : where.key + "." + key;
+  return where;
 }
 
 Entry Table::entry(const std::string& key) {
   asked_.insert(key);
-  if (const toml::node* node = table_->get(key)) return {node, place_of(*node, path_to(key))};
+  if (const toml::node* node = table_->get(key))
+    return {node, cases::place_of(node->source(), place_of(key).key)};
   for (const auto& [other, value] : *table_)
     if (asked_.count(std::string(other)) == 0 && nearest_name(std::string(other), {key}))
       refuse_key(other, value, fmt::format("is not a key here; did you mean \"{}\"?", key));
-  Where where = where_;
-  where.key = path_to(key);
-  return {nullptr, where};
+  return {nullptr, place_of(key)};
+}
+
+void Table::refuse_unless(bool have_meaning, std::initializer_list<const char*> keys,
+                          const std::string& instead) {
+  for (const char* key : keys)
+    if (!have_meaning && has(key)) entry(key).refuse(instead);
 }
 
 void Table::refuse_key(const toml::key& key, const toml::node& value, const std::string& problem) const {
   // A key from the command line has no position in the file; the position is that of its value.
   const toml::source_region& source = value.source().path ? key.source() : value.source();
-  throw InputError(place_of(source, path_to(std::string(key))), problem);
+  throw InputError(cases::place_of(source, place_of(std::string(key)).key), problem);
 }
 
 void Table::refuse_unknown_keys() const {
   for (const auto& [key, value] : *table_) {
     if (asked_.count(std::string(key)) != 0) continue;
-    std::string problem = "is not a key here, allowed are";
-    for (const std::string& asked : asked_) problem += (asked == *asked_.begin() ? " " : ", ") + asked;
+    std::string problem = fmt::format("is not a key here, allowed are {}", fmt::join(asked_, ", "));
     if (const auto nearest = nearest_name(std::string(key), {asked_.begin(), asked_.end()}))
       problem += fmt::format("; did you mean \"{}\"?", *nearest);
     refuse_key(key, value, problem);

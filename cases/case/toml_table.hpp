@@ -1,15 +1,11 @@
 #pragma once
 
 #include "cases/case/error.hpp"
-#include "cases/case/names.hpp"
 
 #include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <set>
-#include <string>
 #include <toml++/toml.h>
-#include <vector>
 
 /// Typed access to a TOML document whose every failure is an InputError that says where, which key, which
 /// value, and what is allowed. Only the readers of case files include this.
@@ -23,27 +19,24 @@ struct Entry {
 
   /// Throws InputError "is VALUE, must be ALLOWED", or "is missing, must be ALLOWED".
   [[noreturn]] void refuse(const std::string& allowed) const;
-  /// The same for a word out of a list, with the nearest one as a suggestion.
-  [[noreturn]] void refuse_word(const std::vector<std::string>& allowed) const;
-  /// The elements of an array; refuses anything else.
-  std::vector<Entry> elements(const std::string& allowed) const;
+  /// The value, if it is of that type: std::string, bool, int64_t.
+  template<class Type>
+  std::optional<Type> value() const {
+    return node ? node->value_exact<Type>() : std::nullopt;
+  }
+  /// A word out of a list; refuses anything else, with the nearest one as a suggestion.
+  std::string word(const std::vector<std::string>& allowed) const;
+  /// The elements of an array; refuses anything else, and another number of them than `count`, if that is not
+  /// 0.
+  std::vector<Entry> elements(const std::string& allowed, std::size_t count = 0) const;
 };
-
-/// Position of a node; a node from the command line has neither file nor line.
-Where place_of(const toml::node& node, const std::string& key);
 
 // Readers: functions of an entry that return a checked value.
 
 using Condition = std::function<bool(double)>;
-inline bool is_anything(double) {
-  return true;
-}
-inline bool is_positive(double value) {
-  return value > 0;
-}
-inline bool is_not_negative(double value) {
-  return value >= 0;
-}
+inline constexpr auto is_anything = [](double) { return true; };
+inline constexpr auto is_positive = [](double value) { return value > 0; };
+inline constexpr auto is_not_negative = [](double value) { return value >= 0; };
 
 /// A text that is not empty.
 std::string read_text(const Entry& entry);
@@ -82,10 +75,7 @@ struct WholeNumber {
 /// The name of an enumerator.
 template<class Enum>
 Enum read_name(const Entry& entry) {
-  const auto text = entry.node ? entry.node->value_exact<std::string>() : std::nullopt;
-  const auto value = text ? value_of<Enum>(*text) : std::nullopt;
-  if (!value) entry.refuse_word(all_names<Enum>());
-  return *value;
+  return *value_of<Enum>(entry.word(all_names<Enum>()));
 }
 
 /// A table that records which keys were read: the others are unknown keys.
@@ -99,6 +89,10 @@ class Table {
   /// The value of a key. If it is missing and a key that was not read is similar, that one is reported
   /// as misspelt.
   Entry entry(const std::string& key);
+  /// These keys are known, whether they are read or not.
+  void know(std::initializer_list<const char*> keys) { asked_.insert(keys.begin(), keys.end()); }
+  /// Refuses keys that have no meaning beside the others.  @param instead  "left out: REASON"
+  void refuse_unless(bool have_meaning, std::initializer_list<const char*> keys, const std::string& instead);
 
   template<class Reader>
   auto required(const std::string& key, const Reader& read) {
@@ -124,9 +118,7 @@ class Table {
     static const toml::table nothing;
     if (has(key)) return section(key, read);
     asked_.insert(key);
-    Where where = where_;
-    where.key = path_to(key);
-    Table empty({&nothing, where}, "a table");
+    Table empty({&nothing, place_of(key)}, "a table");
     return read(empty);
   }
   /// [[key]]: any number of tables, read one by one.
@@ -149,7 +141,8 @@ class Table {
  private:
   [[noreturn]] void refuse_key(const toml::key& key, const toml::node& value,
                                const std::string& problem) const;
-  std::string path_to(const std::string& key) const;
+  /// Where a key would be that is missing.
+  Where place_of(const std::string& key) const;
 
   const toml::table* table_;
   Where where_;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -27,17 +26,16 @@ const std::array<std::array<int, 4>, 6> cell_faces{
 
 namespace {
 
-template<std::size_t N>
-std::array<int, N> sorted(std::array<int, N> values) {
-  std::sort(values.begin(), values.end());
-  return values;
+/// Calls action(i, j, k) for every place of a grid, x fastest.
+template<class Action>
+void for_each_place(const std::array<int, 3>& counts, const Action& action) {
+  for (int k = 0; k < counts[2]; ++k)
+    for (int j = 0; j < counts[1]; ++j)
+      for (int i = 0; i < counts[0]; ++i) action(i, j, k);
 }
 
-template<std::size_t N>
-std::array<int, N> pick(const std::array<int, 8>& cell, const std::array<int, N>& local) {
-  std::array<int, N> nodes{};
-  for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[static_cast<std::size_t>(local[v])];
-  return nodes;
+std::size_t number_of(int i, int j, int k, const std::array<int, 3>& counts) {
+  return index(i) + index(counts[0]) * (index(j) + index(counts[1]) * index(k));
 }
 
 } // namespace
@@ -48,38 +46,31 @@ std::size_t Grid::n_lattice_cells() const {
 
 bool Grid::has(int i, int j, int k) const {
   if (i < 0 || j < 0 || k < 0 || i >= cells[0] || j >= cells[1] || k >= cells[2]) return false;
-  return present.empty() || present[index(i) + index(cells[0]) * (index(j) + index(cells[1]) * index(k))];
+  return present.empty() || present[number_of(i, j, k, cells)];
 }
 
 HexMesh make_grid_mesh(const Grid& grid) {
   assert(grid.present.empty() || grid.present.size() == grid.n_lattice_cells());
   const std::array<int, 3> points{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1};
-  const auto point = [&](int i, int j, int k) {
-    return index(i) + index(points[0]) * (index(j) + index(points[1]) * index(k));
+  std::vector<int> numbers(index(points[0]) * index(points[1]) * index(points[2]), -1);
+  /// Calls action(place of a vertex in the cell, its number) for the vertices of every present cell.
+  const auto for_each_vertex = [&](const auto& action) {
+    for_each_place(grid.cells, [&](int i, int j, int k) {
+      for (int v = 0; grid.has(i, j, k) && v < 8; ++v)
+        action(v, numbers[number_of(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2), points)]);
+    });
   };
-  const auto for_each_present = [&](const auto& action) {
-    for (int k = 0; k < grid.cells[2]; ++k)
-      for (int j = 0; j < grid.cells[1]; ++j)
-        for (int i = 0; i < grid.cells[0]; ++i)
-          if (grid.has(i, j, k)) action(i, j, k);
-  };
-  std::vector<int> number(index(points[0]) * index(points[1]) * index(points[2]), -1);
-  for_each_present([&](int i, int j, int k) {
-    for (int v = 0; v < 8; ++v) number[point(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2))] = 0;
-  });
+  for_each_vertex([](int, int& number) { number = 0; });
   HexMesh mesh;
-  for (int k = 0; k < points[2]; ++k)
-    for (int j = 0; j < points[1]; ++j)
-      for (int i = 0; i < points[0]; ++i) {
-        int& n = number[point(i, j, k)];
-        if (n < 0) continue;
-        n = static_cast<int>(mesh.nodes.size());
-        mesh.nodes.emplace_back(grid.origin + Vector3d(i, j, k).cwiseProduct(grid.spacing));
-      }
-  for_each_present([&](int i, int j, int k) {
-    std::array<int, 8> cell{};
-    for (int v = 0; v < 8; ++v) cell[index(v)] = number[point(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2))];
-    mesh.cells.push_back(cell);
+  for_each_place(points, [&](int i, int j, int k) {
+    int& number = numbers[number_of(i, j, k, points)];
+    if (number < 0) return;
+    number = static_cast<int>(mesh.nodes.size());
+    mesh.nodes.emplace_back(grid.origin + Vector3d(i, j, k).cwiseProduct(grid.spacing));
+  });
+  for_each_vertex([&](int v, int number) {
+    if (v == 0) mesh.cells.emplace_back();
+    mesh.cells.back()[index(v)] = number;
   });
   mesh.grid = grid;
   return mesh;
@@ -99,23 +90,97 @@ HexMesh make_box_mesh(const Vector3d& size, const std::array<int, 3>& cells) {
 
 namespace {
 
+/// A position in steps of a spacing, if it is a whole number of them in each direction. It may be off by 1e-8
+/// of the spacing.
+std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vector3d& spacing) {
+  std::array<int, 3> whole{};
+  for (int a = 0; a < 3; ++a) {
+    const double ratio = from_origin[a] / spacing[a];
+    const double nearest = std::round(ratio);
+    if (!(std::abs(ratio - nearest) <= 1e-8 * std::max(1.0, nearest)) || !(nearest < 1e6))
+      return std::nullopt;
+    whole[index(a)] = static_cast<int>(nearest);
+  }
+  return whole;
+}
+
+template<class Points>
+Eigen::AlignedBox3d bounding_box(const Points& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points) box.extend(point);
+  return box;
+}
+
+/// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid of that spacing.
+std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t cell, const Vector3d& spacing) {
+  const auto vertices = cell_vertices(mesh, cell);
+  const Vector3d lower = bounding_box(vertices).min();
+  std::array<int, 8> ordered;
+  ordered.fill(-1);
+  for (std::size_t v = 0; v < 8; ++v) {
+    const auto corner = steps(vertices[v] - lower, spacing);
+    if (!corner || sorted(*corner).back() > 1) return std::nullopt;
+    ordered[number_of((*corner)[0], (*corner)[1], (*corner)[2], {2, 2, 2})] = mesh.cells[cell][v];
+  }
+  if (sorted(ordered).front() < 0) return std::nullopt;
+  return ordered;
+}
+
+} // namespace
+
+bool find_grid(HexMesh& mesh) {
+  const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
+  Grid grid;
+  grid.origin = body.min();
+  grid.spacing = bounding_box(cell_vertices(mesh, 0)).sizes();
+  if (!((grid.spacing.array() > 0).all())) return false;
+  const auto extent = steps(body.sizes(), grid.spacing);
+  if (!extent) return false;
+  grid.cells = *extent;
+
+  std::map<std::size_t, std::pair<std::array<int, 8>, std::size_t>> by_place;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto cell = along_axes(mesh, c, grid.spacing);
+    if (!cell) return false;
+    const auto place = steps(mesh.nodes[index((*cell)[0])] - grid.origin, grid.spacing);
+    if (!place) return false;
+    const std::size_t number = number_of((*place)[0], (*place)[1], (*place)[2], grid.cells);
+    if (!by_place.emplace(number, std::pair(*cell, c)).second) return false;
+  }
+  // The spacing of the first cell carries its rounding; that of the whole body less.
+  grid.spacing = body.sizes().cwiseQuotient(Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
+
+  if (mesh.cells.size() < grid.n_lattice_cells()) grid.present.assign(grid.n_lattice_cells(), false);
+  const std::vector<std::string> groups = mesh.group_of_cell;
+  std::size_t c = 0;
+  for (const auto& [number, cell] : by_place) {
+    if (!grid.present.empty()) grid.present[number] = true;
+    mesh.cells[c] = cell.first;
+    if (!groups.empty()) mesh.group_of_cell[c] = groups[cell.second];
+    ++c;
+  }
+  mesh.grid = grid;
+  return true;
+}
+
+namespace {
+
 /// Numbers the midpoints of edges, faces and cells, each made once.
 class Midpoints {
  public:
   explicit Midpoints(std::vector<Vector3d>& nodes) : nodes_(nodes) {}
 
-  template<std::size_t N>
-  int of(const std::array<int, N>& vertices) {
-    if constexpr (N == 1) return vertices[0];
+  /// @param vertices  1 (its own midpoint), 2, 4 or 8
+  int of(const std::vector<int>& vertices) {
+    if (vertices.size() == 1) return vertices[0];
     std::array<int, 8> key;
     key.fill(-1);
     std::copy(vertices.begin(), vertices.end(), key.begin());
-    std::sort(key.begin(), key.begin() + N);
-    const auto [found, is_new] = numbers_.try_emplace(key, static_cast<int>(nodes_.size()));
+    const auto [found, is_new] = numbers_.try_emplace(sorted(key), static_cast<int>(nodes_.size()));
     if (is_new) {
       Vector3d sum = Vector3d::Zero();
       for (int v : vertices) sum += nodes_[index(v)];
-      nodes_.push_back(sum / static_cast<double>(N));
+      nodes_.push_back(sum / static_cast<double>(vertices.size()));
     }
     return found->second;
   }
@@ -134,39 +199,28 @@ int cell_lattice_node(const std::array<int, 8>& cell, int a, int b, int c, Midpo
     if (matches(a, v & 1) && matches(b, (v >> 1) & 1) && matches(c, v >> 2))
       vertices.push_back(cell[index(v)]);
   }
-  switch (vertices.size()) {
-  case 1:
-    return vertices[0];
-  case 2:
-    return midpoints.of<2>({vertices[0], vertices[1]});
-  case 4:
-    return midpoints.of<4>({vertices[0], vertices[1], vertices[2], vertices[3]});
-  default:
-    return midpoints.of<8>(cell);
-  }
+  return midpoints.of(vertices);
 }
 
 Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
   Selection fine;
   fine.nodes = coarse.nodes;
   for (const auto& edge : coarse.edges) {
-    const int middle = midpoints.of(edge);
+    const int middle = midpoints.of({edge[0], edge[1]});
     fine.nodes.push_back(middle);
-    for (int end : edge) fine.edges.push_back(sorted<2>({end, middle}));
+    for (int end : edge) fine.edges.push_back(sorted(std::array<int, 2>{end, middle}));
   }
   for (const auto& face : coarse.faces) {
-    const int middle = midpoints.of(face);
+    const int middle = midpoints.of({face.begin(), face.end()});
     fine.nodes.push_back(middle);
     for (std::size_t v = 0; v < 4; ++v) {
-      const int next = midpoints.of<2>({face[v], face[(v + 1) % 4]});
-      const int previous = midpoints.of<2>({face[v], face[(v + 3) % 4]});
+      const int next = midpoints.of({face[v], face[(v + 1) % 4]});
+      const int previous = midpoints.of({face[v], face[(v + 3) % 4]});
       fine.faces.push_back({face[v], next, middle, previous});
-      fine.edges.push_back(sorted<2>({next, middle}));
+      fine.edges.push_back(sorted(std::array<int, 2>{next, middle}));
       fine.nodes.push_back(next);
     }
   }
-  std::sort(fine.nodes.begin(), fine.nodes.end());
-  fine.nodes.erase(std::unique(fine.nodes.begin(), fine.nodes.end()), fine.nodes.end());
   return fine;
 }
 
@@ -193,11 +247,7 @@ HexMesh refine(const HexMesh& mesh) {
     Selection& group = fine.groups[fine.group_of_cell[c]];
     group.nodes.insert(group.nodes.end(), fine.cells[c].begin(), fine.cells[c].end());
   }
-  for (auto& entry : fine.groups) {
-    std::vector<int>& nodes = entry.second.nodes;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
+  for (auto& entry : fine.groups) make_set(entry.second.nodes);
   return fine;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -50,6 +51,12 @@ HexMesh make_grid_mesh(const Grid& grid);
 /// Box from the origin to size (mm), divided into cells.
 HexMesh make_box_mesh(const Eigen::Vector3d& size, const std::array<int, 3>& cells);
 
+/// Whether the cells of a mesh are equal cuboids along the axes, however they are numbered and turned; if so,
+/// mesh.grid is set, and the cells are put in the order and orientation that Grid asks for. Nodes keep their
+/// numbers and positions. Positions may be off by 1e-8 of the spacing, which is what mesh generators leave.
+/// @return whether a grid was found
+bool find_grid(HexMesh& mesh);
+
 /// Every cell split into eight at its trilinear midpoints, so the body stays the same body. The old nodes
 /// keep their numbers; the children of cell c are cells 8c .. 8c+7; groups are refined with it. The result is
 /// not numbered like a grid, so its grid is empty.
@@ -66,6 +73,28 @@ double smallest_corner_jacobian(const std::array<Eigen::Vector3d, 8>& vertices);
 /// The vertices of one cell, displaced.  @param displacement  one per node, or empty for the rest shape
 std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
                                              const std::vector<Eigen::Vector3d>& displacement = {});
+
+/// Nodes of a cell's edge, face, ... that is given by its vertices.
+template<std::size_t N>
+std::array<int, N> pick(const std::array<int, 8>& cell, const std::array<int, N>& vertices) {
+  std::array<int, N> nodes;
+  for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[static_cast<std::size_t>(vertices[v])];
+  return nodes;
+}
+
+/// The same numbers in ascending order.
+template<class Numbers>
+Numbers sorted(Numbers numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+/// Sorts a list and leaves every value in it once.
+template<class Value>
+void make_set(std::vector<Value>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
 /// Faces that belong to one cell only.
 std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh);

@@ -1,9 +1,9 @@
 #include "cases/mesh/voxels.hpp"
 
 #include "cases/case/index.hpp"
-#include "cases/mesh/surface.hpp"
+#include "cases/mesh/vtk.hpp"
 
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -16,36 +16,24 @@ namespace {
 
 constexpr double most_cells = 50e6;
 
-struct Bounds {
-  Vector3d lower, upper;
-};
-
-Bounds bounds_of(const Surface& surface) {
-  Bounds bounds{surface[0][0], surface[0][0]};
-  for (const auto& triangle : surface)
-    for (const Vector3d& vertex : triangle) {
-      bounds.lower = bounds.lower.cwiseMin(vertex);
-      bounds.upper = bounds.upper.cwiseMax(vertex);
-    }
-  return bounds;
-}
-
 Grid empty_grid(const Surface& surface, const Voxels& voxels) {
-  const auto [lower, upper] = bounds_of(surface);
+  Eigen::AlignedBox3d body;
+  for (const auto& triangle : surface)
+    for (const Vector3d& vertex : triangle) body.extend(vertex);
   Grid grid;
-  grid.origin = lower;
+  grid.origin = body.min();
   grid.spacing.setConstant(voxels.edge);
   double n_cells = 1;
   for (int a = 0; a < 3; ++a) {
     // A body of exactly n edges has n cells, whatever the rounding of its coordinates to single precision.
     const double rounding =
-        std::numeric_limits<float>::epsilon() * std::max(std::abs(lower[a]), std::abs(upper[a]));
-    const double n = std::max(1.0, std::ceil((upper[a] - lower[a] - rounding) / voxels.edge - 1e-6));
+        std::numeric_limits<float>::epsilon() * std::max(std::abs(body.min()[a]), std::abs(body.max()[a]));
+    const double n = std::max(1.0, std::ceil((body.sizes()[a] - rounding) / voxels.edge - 1e-6));
     n_cells *= n;
     if (!(n_cells <= most_cells))
       throw InputError(voxels.where,
                        fmt::format("{}: {} mm across needs more than {:.0e} cells of edge {} mm", voxels.path,
-                                   (upper - lower).maxCoeff(), most_cells, voxels.edge));
+                                   body.sizes().maxCoeff(), most_cells, voxels.edge));
     grid.cells[index(a)] = static_cast<int>(n);
   }
   grid.present.assign(grid.n_lattice_cells(), false);
@@ -57,6 +45,7 @@ Grid empty_grid(const Surface& surface, const Voxels& voxels) {
 struct Crossing {
   double z;
   int side;
+  bool operator<(const Crossing& other) const { return z < other.z; }
 };
 
 /// Twice the signed area of a triangle seen from above.
@@ -67,19 +56,15 @@ double doubled_area(const Vector3d& a, const Vector3d& b, double x, double y) {
 /// The columns of centres below and above a triangle's shadow get their crossings.
 void cast(const std::array<Vector3d, 3>& t, const Grid& grid, const Vector3d& first,
           std::vector<std::vector<Crossing>>& columns) {
-  const auto range = [&](int axis) {
-    const double low = std::min({t[0][axis], t[1][axis], t[2][axis]}),
-                 high = std::max({t[0][axis], t[1][axis], t[2][axis]});
-    const double edge = grid.spacing[axis];
-    const int from = std::max(0, static_cast<int>(std::ceil((low - first[axis]) / edge)));
-    const int to =
-        std::min(grid.cells[index(axis)] - 1, static_cast<int>(std::floor((high - first[axis]) / edge)));
-    return std::array<int, 2>{from, to};
-  };
-  const auto [i_from, i_to] = range(0);
-  const auto [j_from, j_to] = range(1);
-  for (int j = j_from; j <= j_to; ++j)
-    for (int i = i_from; i <= i_to; ++i) {
+  std::array<int, 2> from, to;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const auto place = [&](std::size_t v) { return (t[v][int(a)] - first[int(a)]) / grid.spacing[int(a)]; };
+    const auto [low, high] = std::minmax({place(0), place(1), place(2)});
+    from[a] = std::max(0, static_cast<int>(std::ceil(low)));
+    to[a] = std::min(grid.cells[a] - 1, static_cast<int>(std::floor(high)));
+  }
+  for (int j = from[1]; j <= to[1]; ++j)
+    for (int i = from[0]; i <= to[0]; ++i) {
       const double x = first.x() + i * grid.spacing.x(), y = first.y() + j * grid.spacing.y();
       const double a = doubled_area(t[1], t[2], x, y), b = doubled_area(t[2], t[0], x, y),
                    c = doubled_area(t[0], t[1], x, y);
@@ -100,8 +85,7 @@ void fill(Grid& grid, const Surface& surface) {
   std::vector<std::vector<Crossing>> columns(index(grid.cells[0]) * index(grid.cells[1]));
   for (const auto& triangle : surface) cast(triangle, grid, first, columns);
   for (std::size_t column = 0; column < columns.size(); ++column) {
-    std::sort(columns[column].begin(), columns[column].end(),
-              [](const Crossing& a, const Crossing& b) { return a.z < b.z; });
+    std::sort(columns[column].begin(), columns[column].end());
     int winding = 0;
     auto next = columns[column].begin();
     for (int k = 0; k < grid.cells[2]; ++k) {
@@ -140,6 +124,36 @@ std::vector<std::size_t> pieces(const Grid& grid) {
 }
 
 } // namespace
+
+Surface read_stl(const std::string& path, const Where& where) {
+  try {
+    const Surface surface = vtk().read_triangles(path);
+    if (surface.empty()) throw std::runtime_error(path + ": has no triangles");
+    for (const auto& triangle : surface)
+      for (const Vector3d& vertex : triangle)
+        if (!vertex.allFinite()) throw std::runtime_error(path + ": has a position that is not finite");
+    return surface;
+  } catch (const std::exception& error) {
+    throw InputError(where, error.what());
+  }
+}
+
+std::size_t n_open_edges(const Surface& surface) {
+  using Point = std::array<double, 3>;
+  std::map<std::array<Point, 2>, long> balance; // of the edges between two points: one way less the other way
+  const auto point = [](const Vector3d& v) {
+    return Point{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
+  }; // -0 is 0
+  for (const auto& triangle : surface)
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Point a = point(triangle[v]), b = point(triangle[(v + 1) % 3]);
+      if (a < b) ++balance[{a, b}];
+      if (b < a) --balance[{b, a}];
+    }
+  std::size_t open = 0;
+  for (const auto& [edge, difference] : balance) open += static_cast<std::size_t>(std::abs(difference));
+  return open;
+}
 
 HexMesh make_voxel_mesh(const Voxels& voxels) {
   const Surface surface = read_stl(voxels.path, voxels.where);

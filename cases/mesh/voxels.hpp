@@ -1,9 +1,20 @@
 #pragma once
 
 #include "cases/case/case.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 namespace springproof::cases {
+
+/// Reads a surface in STL, text or binary; coordinates are rounded to single precision.
+/// @param where  the place in a case file that names it, for messages
+/// @throws InputError if it cannot be read, ends within a triangle, has none or a position that is not finite
+Surface read_stl(const std::string& path, const Where& where);
+
+/// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
+/// has an inside. Vertices are the same when their coordinates are. (VTK's boundary edges have no direction:
+/// they miss a triangle that is turned over, and report an edge that two closed parts share.)
+/// @return how many edges have no such partner; 0: closed
+std::size_t n_open_edges(const Surface& surface);
 
 /// The grid of cubes of a voxel body: a cube belongs to it when its centre is inside the surface (winding
 /// number other than 0, by a ray along z through the centre). All cubes hang together by faces.

@@ -1,6 +1,7 @@
 #include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <vtkAlgorithm.h>
@@ -52,11 +53,14 @@ vtkStandardNewMacro(FirstError)
 /// VTK's order of a hexahedron's vertices in terms of v = i + 2j + 4k.
 constexpr std::array<std::size_t, 8> vtk_order{0, 1, 3, 2, 4, 5, 7, 6};
 
-vtkNew<vtkDoubleArray> array_of(const std::string& name, const std::vector<Eigen::Vector3d>& vectors) {
+/// An array of numbers or vectors.
+template<class Value>
+vtkNew<vtkDoubleArray> array_of(const std::string& name, const std::vector<Value>& values) {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name.c_str());
-  array->SetNumberOfComponents(3);
-  for (const Eigen::Vector3d& vector : vectors) array->InsertNextTuple(vector.data());
+  array->SetNumberOfComponents(sizeof(Value) / sizeof(double));
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(Value));
   return array;
 }
 
@@ -79,12 +83,8 @@ std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<Point
   }
   for (const PointField& field : point_fields)
     grid->GetPointData()->AddArray(array_of(field.name, field.values));
-  for (const CellField& field : cell_fields) {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(field.name.c_str());
-    for (const double value : field.values) array->InsertNextValue(value);
-    grid->GetCellData()->AddArray(array);
-  }
+  for (const CellField& field : cell_fields)
+    grid->GetCellData()->AddArray(array_of(field.name, field.values));
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/surface.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
+
+/// A surface of triangles, seen from outside anticlockwise, mm.
+using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
 
 /// A vector at every node.
 struct PointField {

@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
-#include <sstream>
 
 namespace springproof::cases {
 
@@ -22,104 +20,84 @@ constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node and does no
 
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
-  int nearest = 0;
-  for (int n = 1; n < static_cast<int>(mesh.nodes.size()); ++n)
-    if ((mesh.nodes[index(n)] - point).squaredNorm() < (mesh.nodes[index(nearest)] - point).squaredNorm())
-      nearest = n;
-  const double distance = (mesh.nodes[index(nearest)] - point).norm();
+  const auto nearest =
+      std::min_element(mesh.nodes.begin(), mesh.nodes.end(), [&](const auto& a, const auto& b) {
+        return (a - point).squaredNorm() < (b - point).squaredNorm();
+      });
+  const double distance = (*nearest - point).norm();
   if (!(distance <= near_tolerance))
-    throw InputError(
-        region.where,
-        fmt::format("no node within {} mm of ({}, {}, {}): the nearest is {:.6g} mm away at ({}, {}, {})",
-                    near_tolerance, point.x(), point.y(), point.z(), distance, mesh.nodes[index(nearest)].x(),
-                    mesh.nodes[index(nearest)].y(), mesh.nodes[index(nearest)].z()));
-  return {{nearest}, {}, {}};
+    throw InputError(region.where,
+                     fmt::format("no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
+                                 near_tolerance, fmt::join(point, ", "), distance,
+                                 fmt::join(*nearest, ", ")));
+  return {{static_cast<int>(nearest - mesh.nodes.begin())}, {}, {}};
 }
 
-struct Plane {
-  int axis;
-  bool upper;
-};
-
-/// "z+ x-" as planes; nothing if a word is not the name of a face of a box.
-std::optional<std::vector<Plane>> parse_planes(const std::string& name) {
-  std::vector<Plane> planes;
-  std::istringstream words(name);
-  for (std::string word; words >> word;) {
-    if (word.size() != 2 || word[0] < 'x' || word[0] > 'z' || (word[1] != '-' && word[1] != '+'))
-      return std::nullopt;
-    planes.push_back({word[0] - 'x', word[1] == '+'});
-  }
-  if (planes.empty()) return std::nullopt;
-  return planes;
+/// Whether these are names of a box's faces.
+bool are_faces(const std::vector<std::string>& words) {
+  return !words.empty() && std::all_of(words.begin(), words.end(), [](const std::string& word) {
+    return std::count(face_names.begin(), face_names.end(), word) > 0;
+  });
 }
 
-Selection select_on_planes(const HexMesh& mesh, const std::vector<Plane>& planes) {
-  Vector3d lower = mesh.nodes.front(), upper = mesh.nodes.front();
-  for (const Vector3d& node : mesh.nodes) {
-    lower = lower.cwiseMin(node);
-    upper = upper.cwiseMax(node);
-  }
-  const double rounding =
-      1e-9 * (upper - lower).norm(); // far above the rounding of i * spacing, far below a cell
-  std::vector<bool> selected(mesh.nodes.size());
+/// Nodes, edges and faces on all of these planes of the mesh's bounding box.
+/// @param faces  of the box, such as "z+" and "x-"
+Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
+  Eigen::AlignedBox3d body;
+  for (const Vector3d& node : mesh.nodes) body.extend(node);
+  const double rounding = 1e-9 * body.sizes().norm(); // far above that of i * spacing, far below a cell
   Selection selection;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    selected[n] = std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
-      const double position = (plane.upper ? upper : lower)[plane.axis];
-      return std::abs(mesh.nodes[n][plane.axis] - position) <= rounding;
-    });
-    if (selected[n]) selection.nodes.push_back(static_cast<int>(n));
+  std::vector<bool> is_selected;
+  for (const Vector3d& node : mesh.nodes) {
+    is_selected.push_back(std::all_of(faces.begin(), faces.end(), [&](const std::string& face) {
+      const int axis = face[0] - 'x';
+      return std::abs(node[axis] - (face[1] == '+' ? body.max() : body.min())[axis]) <= rounding;
+    }));
+    if (is_selected.back()) selection.nodes.push_back(static_cast<int>(is_selected.size()) - 1);
   }
-  std::set<std::array<int, 2>> edges;
+  const auto are_selected = [&](const auto& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return is_selected[index(n)]; });
+  };
   for (const auto& cell : mesh.cells) {
-    for (const auto& local : cell_edges) {
-      const auto [a, b] = std::minmax(cell[index(local[0])], cell[index(local[1])]);
-      if (selected[index(a)] && selected[index(b)]) edges.insert({a, b});
-    }
-    for (const auto& local : cell_faces) {
-      const std::array<int, 4> face{cell[index(local[0])], cell[index(local[1])], cell[index(local[2])],
-                                    cell[index(local[3])]};
-      if (std::all_of(face.begin(), face.end(), [&](int n) { return selected[index(n)]; }))
-        selection.faces.push_back(face);
-    }
+    for (const auto& local : cell_edges)
+      if (const auto edge = sorted(pick(cell, local)); are_selected(edge)) selection.edges.push_back(edge);
+    for (const auto& local : cell_faces)
+      if (const auto face = pick(cell, local); are_selected(face)) selection.faces.push_back(face);
   }
-  selection.edges.assign(edges.begin(), edges.end());
+  make_set(selection.edges);
   return selection;
 }
 
 /// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
 Selection select_patch(const HexMesh& mesh, const Region& region) {
   Selection patch;
-  std::set<int> nodes;
-  std::set<std::array<int, 2>> edges;
   for (const auto& face : boundary_faces(mesh)) {
     Vector3d centre = Vector3d::Zero();
     for (const int node : face) centre += mesh.nodes[index(node)] / 4;
     if (!((centre - *region.near).norm() <= *region.radius)) continue;
     patch.faces.push_back(face);
     for (std::size_t v = 0; v < 4; ++v) {
-      const auto [a, b] = std::minmax(face[v], face[(v + 1) % 4]);
-      nodes.insert(face[v]);
-      edges.insert({a, b});
+      patch.nodes.push_back(face[v]);
+      patch.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
     }
   }
   if (patch.faces.empty())
     throw InputError(region.where, fmt::format("'{}' has no face of the body's surface", region.name));
-  patch.nodes.assign(nodes.begin(), nodes.end());
-  patch.edges.assign(edges.begin(), edges.end());
+  make_set(patch.nodes);
+  make_set(patch.edges);
   return patch;
 }
 
-/// A patch becomes a group of the mesh, so that refined meshes keep the same patch.
-void add_patch(HexMesh& mesh, const Region& region) {
-  if (region.radius) mesh.groups.emplace(region.name, select_patch(mesh, region));
-}
-
+/// Patches become groups of the mesh, so that refined meshes keep the same patches.
 void add_patches(Scene& scene) {
-  for (const Fixed& fixed : scene.definition.fixed) add_patch(scene.mesh, fixed.region);
-  for (const Moved& moved : scene.definition.moved) add_patch(scene.mesh, moved.region);
-  for (const Load& load : scene.definition.loads) add_patch(scene.mesh, load.region);
+  const auto add_patches_of = [&](const auto& conditions) {
+    for (const auto& condition : conditions)
+      if (const Region& region = condition.region; region.radius)
+        scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, region));
+  };
+  add_patches_of(scene.definition.fixed);
+  add_patches_of(scene.definition.moved);
+  add_patches_of(scene.definition.loads);
 }
 
 bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
@@ -135,18 +113,34 @@ void resolve_materials(Scene& scene) {
   int material = 0;
   for (const RegionMaterial& region : scene.definition.region_materials) {
     ++material;
-    bool selects = false;
     for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-      if (has_cell(scene.mesh, region, c)) {
-        scene.material_of_cell[c] = material;
-        selects = true;
-      }
-    if (!selects)
+      if (has_cell(scene.mesh, region, c)) scene.material_of_cell[c] = material;
+    const auto& given = scene.material_of_cell;
+    if (std::count(given.begin(), given.end(), material) == 0)
       throw InputError(region.where,
                        region.group.empty()
                            ? "no cell has its centre in the box"
                            : fmt::format("'{}' is no group of cells of this body", region.group));
   }
+}
+
+/// Calls action(face, point, shape values, area weight) at the 2x2 Gauss points of the bilinear faces of a
+/// selection; exact for what is at most cubic in each direction: shape functions times a linear traction on a
+/// planar face.
+template<class Action>
+void integrate(const HexMesh& mesh, const Selection& selection, const Action& action) {
+  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+  for (const auto& face : selection.faces)
+    for (double s : gauss)
+      for (double t : gauss) {
+        const auto vertex = [&](std::size_t v) -> const Vector3d& { return mesh.nodes[index(face[v])]; };
+        const std::array<double, 4> shape{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+        const Vector3d along_s = (1 - t) * (vertex(1) - vertex(0)) + t * (vertex(2) - vertex(3));
+        const Vector3d along_t = (1 - s) * (vertex(3) - vertex(0)) + s * (vertex(2) - vertex(1));
+        Vector3d point = Vector3d::Zero();
+        for (std::size_t v = 0; v < 4; ++v) point += shape[v] * vertex(v);
+        action(face, point, shape, along_s.cross(along_t).norm() / 4);
+      }
 }
 
 /// Part of a node's load that the modelled part of a symmetric scene carries: halved by each symmetry plane
@@ -156,12 +150,6 @@ std::vector<double> modelled_share(const Scene& scene) {
   for (const Fixed& plane : scene.definition.symmetry)
     for (int n : select(scene.mesh, plane.region).nodes) share[index(n)] /= 2;
   return share;
-}
-
-/// Every region that a measure names is one node.
-void check_measure(const HexMesh& mesh, const Measure& measure) {
-  for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-    if (region->near || !region->name.empty()) select_node(mesh, *region);
 }
 
 /// Constrained and moved nodes of the definition on the scene's mesh.
@@ -194,14 +182,19 @@ void check_motions(const Scene& scene) {
 void resolve_loads(Scene& scene) {
   for (const Load& load : scene.definition.loads) {
     Selection selection = select(scene.mesh, load.region);
-    const bool needs_faces = load.kind == LoadKind::traction || load.kind == LoadKind::torque;
-    if (needs_faces && selection.faces.empty())
+    if (acts_on_area(load.kind) && selection.faces.empty())
       throw InputError(load.region.where, fmt::format("'{}' has no faces, and a {} acts on faces",
                                                       load.region.name, name_of(load.kind)));
     scene.loads.push_back({std::move(selection), load});
     if (load.kind == LoadKind::torque && !(polar_moment(scene.mesh, scene.loads.back()) > 0))
       throw InputError(load.region.where, "the region has no extent about the torque's axis");
   }
+}
+
+HexMesh make_mesh(const Body& body) {
+  if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
+  if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
+  return read_mesh(std::get<MeshFile>(body));
 }
 
 } // namespace
@@ -213,14 +206,13 @@ Selection select(const HexMesh& mesh, const Region& region) {
     selection = group->second;
   } else if (region.radius) {
     selection = select_patch(mesh, region);
-  } else if (const auto planes = parse_planes(region.name)) {
-    selection = select_on_planes(mesh, *planes);
+  } else if (const auto words = words_of(region.name); are_faces(words)) {
+    selection = select_on_planes(mesh, words);
   } else {
-    std::string known;
+    std::string known = mesh.groups.empty() ? "" : ", and the mesh's groups";
     for (const auto& entry : mesh.groups) known += " '" + entry.first + "'";
-    throw InputError(region.where,
-                     fmt::format("'{}' names no region; allowed are x- x+ y- y+ z- z+ joined by blanks{}",
-                                 region.name, known.empty() ? "" : ", and the mesh's groups" + known));
+    throw InputError(region.where, fmt::format("'{}' names no region; allowed are {} joined by blanks{}",
+                                               region.name, fmt::join(face_names, " "), known));
   }
   if (selection.nodes.empty())
     throw InputError(region.where, fmt::format("'{}' selects no node", region.name));
@@ -245,16 +237,6 @@ int material_of(const Scene& scene, std::size_t cell) {
   return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
 }
 
-namespace {
-
-HexMesh make_mesh(const Body& body) {
-  if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
-  if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
-  return read_mesh(std::get<MeshFile>(body));
-}
-
-} // namespace
-
 Scene make_scene(const Case& definition) {
   Scene scene;
   scene.definition = definition;
@@ -264,7 +246,9 @@ Scene make_scene(const Case& definition) {
   resolve_supports(scene);
   check_motions(scene);
   resolve_loads(scene);
-  for (const Measure& measure : definition.measures) check_measure(scene.mesh, measure);
+  for (const Measure& measure : definition.measures) // every region that one names is one node
+    for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
+      if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
   return scene;
 }
 
@@ -304,38 +288,14 @@ std::vector<Vector3d> point_forces(const Scene& scene) {
   std::vector<Vector3d> forces(scene.mesh.nodes.size(), Vector3d::Zero());
   const std::vector<double> share = modelled_share(scene);
   for (const auto& [selection, load] : scene.loads) {
-    if (load.kind != LoadKind::nodal_force && load.kind != LoadKind::total_force) continue;
-    double divisor = 1;
-    if (load.kind == LoadKind::total_force) {
-      divisor = 0;
+    if (acts_on_area(load.kind)) continue;
+    double divisor = load.kind == LoadKind::total_force ? 0 : 1;
+    if (divisor == 0)
       for (int node : selection.nodes) divisor += share[index(node)];
-    }
     for (int node : selection.nodes) forces[index(node)] += load.value * (share[index(node)] / divisor);
   }
   return forces;
 }
-
-namespace {
-
-/// Calls action(point, shape values, area weight) at the 2x2 Gauss points of a bilinear face; exact for what
-/// is at most cubic in each direction: shape functions times a linear traction on a planar face.
-template<class Action>
-void integrate_face(const HexMesh& mesh, const std::array<int, 4>& face, const Action& action) {
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-  std::array<Vector3d, 4> vertex;
-  for (std::size_t v = 0; v < 4; ++v) vertex[v] = mesh.nodes[index(face[v])];
-  for (double s : gauss)
-    for (double t : gauss) {
-      const std::array<double, 4> shape{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
-      const Vector3d along_s = (1 - t) * (vertex[1] - vertex[0]) + t * (vertex[2] - vertex[3]);
-      const Vector3d along_t = (1 - s) * (vertex[3] - vertex[0]) + s * (vertex[2] - vertex[1]);
-      Vector3d point = Vector3d::Zero();
-      for (std::size_t v = 0; v < 4; ++v) point += shape[v] * vertex[v];
-      action(point, shape, along_s.cross(along_t).norm() / 4);
-    }
-}
-
-} // namespace
 
 Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& point, double polar_moment) {
   if (applied.load.kind == LoadKind::traction) return applied.load.value;
@@ -344,23 +304,22 @@ Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& poi
 
 double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {
   double moment = 0;
-  for (const auto& face : applied.selection.faces)
-    integrate_face(mesh, face, [&](const Vector3d& point, const auto&, double weight) {
-      moment += weight * applied.load.axis.cross(point - applied.load.centre).squaredNorm();
-    });
+  integrate(mesh, applied.selection, [&](const auto&, const Vector3d& point, const auto&, double weight) {
+    moment += weight * applied.load.axis.cross(point - applied.load.centre).squaredNorm();
+  });
   return moment;
 }
 
 std::vector<Vector3d> nodal_forces(const Scene& scene) {
   std::vector<Vector3d> forces = point_forces(scene);
   for (const Scene::AppliedLoad& applied : scene.loads) {
-    if (applied.load.kind != LoadKind::traction && applied.load.kind != LoadKind::torque) continue;
+    if (!acts_on_area(applied.load.kind)) continue;
     const double moment = applied.load.kind == LoadKind::torque ? polar_moment(scene.mesh, applied) : 0;
-    for (const auto& face : applied.selection.faces)
-      integrate_face(scene.mesh, face, [&](const Vector3d& point, const auto& shape, double weight) {
-        const Vector3d force = weight * surface_traction(applied, point, moment);
-        for (std::size_t v = 0; v < 4; ++v) forces[index(face[v])] += shape[v] * force;
-      });
+    integrate(scene.mesh, applied.selection,
+              [&](const auto& face, const Vector3d& point, const auto& shape, double weight) {
+                const Vector3d force = weight * surface_traction(applied, point, moment);
+                for (std::size_t v = 0; v < 4; ++v) forces[index(face[v])] += shape[v] * force;
+              });
   }
   return forces;
 }

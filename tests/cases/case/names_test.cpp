@@ -1,5 +1,8 @@
 #include "cases/case/names.hpp"
 
+#include "cases/case/case.hpp"
+#include "cases/case/solution.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace springproof;

@@ -1,4 +1,4 @@
-#include "cases/mesh/find_grid.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

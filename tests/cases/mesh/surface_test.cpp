@@ -1,4 +1,4 @@
-#include "cases/mesh/surface.hpp"
+#include "cases/mesh/voxels.hpp"
 
 #include "tests/support/case_text.hpp"
 
