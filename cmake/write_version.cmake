@@ -4,7 +4,7 @@ execute_process(COMMAND git describe --always --dirty --abbrev=10
 if(NOT COMMIT)
   set(COMMIT unknown)
 endif()
-file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[#include "compare/provenance/version.hpp"
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[#include "compare/provenance/machine.hpp"
 
 namespace springproof::compare {
 std::string program_version() { return "@VERSION@"; }

@@ -96,6 +96,15 @@ void make_set(std::vector<Value>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// Mean of the rest positions of a cell's, a face's, ... nodes.
+template<class Nodes>
+Eigen::Vector3d centre_of(const HexMesh& mesh, const Nodes& nodes) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const int node : nodes)
+    centre += mesh.nodes[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
+  return centre;
+}
+
 /// Faces that belong to one cell only.
 std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh);
 

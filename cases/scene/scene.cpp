@@ -72,9 +72,7 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
 Selection select_patch(const HexMesh& mesh, const Region& region) {
   Selection patch;
   for (const auto& face : boundary_faces(mesh)) {
-    Vector3d centre = Vector3d::Zero();
-    for (const int node : face) centre += mesh.nodes[index(node)] / 4;
-    if (!((centre - *region.near).norm() <= *region.radius)) continue;
+    if (!((centre_of(mesh, face) - *region.near).norm() <= *region.radius)) continue;
     patch.faces.push_back(face);
     for (std::size_t v = 0; v < 4; ++v) {
       patch.nodes.push_back(face[v]);
@@ -102,8 +100,7 @@ void add_patches(Scene& scene) {
 
 bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
   if (!region.group.empty()) return !mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == region.group;
-  Vector3d centre = Vector3d::Zero();
-  for (const Vector3d& vertex : cell_vertices(mesh, cell)) centre += vertex / 8;
+  const Vector3d centre = centre_of(mesh, mesh.cells[cell]);
   return (centre.array() >= region.lower.array()).all() && (centre.array() <= region.upper.array()).all();
 }
 

@@ -18,6 +18,6 @@ void add_run_command(CLI::App& program, Action& chosen);
 void add_stress_command(CLI::App& program, Action& chosen);
 void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
-void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see pool/solve_jobs.hpp
+void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see solve/solve_jobs.hpp
 
 } // namespace springproof::compare

@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,6 @@
 #include "cases/case/error.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/version.hpp"
 #include "fem_reference/session.hpp"
 
 #include <iostream>
@@ -43,15 +42,11 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
   program.require_subcommand(1);
   compare::Action chosen;
-  compare::add_run_command(program, chosen);
-  compare::add_gate_command(program, chosen);
-  compare::add_new_command(program, chosen);
-  compare::add_design_command(program, chosen);
-  compare::add_eigen_command(program, chosen);
-  compare::add_stress_command(program, chosen);
-  compare::add_sweep_command(program, chosen);
-  compare::add_tables_command(program, chosen);
-  compare::add_worker_command(program, chosen);
+  for (const auto add :
+       {compare::add_run_command, compare::add_gate_command, compare::add_new_command,
+        compare::add_design_command, compare::add_eigen_command, compare::add_stress_command,
+        compare::add_sweep_command, compare::add_tables_command, compare::add_worker_command})
+    add(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

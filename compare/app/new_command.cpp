@@ -1,13 +1,14 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 
 namespace springproof::compare {
@@ -61,16 +62,14 @@ int write_new_case(const NewOptions& options) {
   if (std::find(known.begin(), known.end(), options.template_name) == known.end())
     throw cases::InputError("new: there is no template \"" + options.template_name + "\", allowed are " +
                             cases::alternatives(known));
-  std::vector<std::pair<fs::path, fs::path>> copies; // from, to
+  std::map<fs::path, fs::path> copies; // from, to
   for (const auto& entry : fs::directory_iterator(templates()))
     if (entry.path().stem() == options.template_name)
-      copies.emplace_back(entry.path(), options.name + entry.path().extension().string());
-  std::sort(copies.begin(), copies.end());
+      copies[entry.path()] = options.name + entry.path().extension().string();
   for (const auto& [from, to] : copies)
     if (fs::exists(fs::symlink_status(to)))
       throw cases::InputError("new: " + to.string() + " exists, and nothing is overwritten");
-  const int rank = mpi_rank();
-  if (rank != 0) return 0;
+  if (mpi_rank() != 0) return 0;
   for (const auto& [from, to] : copies) {
     const std::string text = filled(from, options.name);
     write_file(to.string(), [&](std::ostream& out) { out << text; });

@@ -6,7 +6,7 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/finished.hpp"
-#include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_results.hpp"

@@ -2,11 +2,11 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/solve/solve_side.hpp"
 #include "compare/write/write_stress.hpp"
 
 #include <algorithm>

@@ -4,7 +4,9 @@
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/sweep/time_variant.hpp"
 
+#include <csignal>
 #include <memory>
+#include <sys/prctl.h>
 
 namespace springproof::compare {
 
@@ -14,7 +16,7 @@ void add_worker_command(CLI::App& program, Action& chosen) {
   auto is_timing = std::make_shared<bool>(false);
   command->add_flag("--timing", *is_timing, "variants of a sweep in place of cases");
   command->callback([is_timing, &chosen] {
-    end_with_parent();
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // it ends with the process that started it, even in the midst of a job
     chosen = [is_timing] {
       if (*is_timing)
         serve_jobs(answer_timing_job);

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

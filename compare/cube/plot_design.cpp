@@ -1,7 +1,7 @@
 #include "compare/cube/plot_design.hpp"
 
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "msm/design/nonlinear_method.hpp"

@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>

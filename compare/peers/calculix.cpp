@@ -1,7 +1,7 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
 #include "msm/problem.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "compare/provenance/machine.hpp"
 
+#include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
 #include <sys/utsname.h>
@@ -24,6 +25,11 @@ std::string processor_name() {
 }
 
 } // namespace
+
+std::string cases_folder() {
+  const char* moved = std::getenv("SPRINGPROOF_CASES");
+  return moved ? moved : SPRINGPROOF_CASES_DIR;
+}
 
 /// Not getrusage(): its figure is inherited from the process that started this one.
 std::optional<double> peak_resident_megabytes() {

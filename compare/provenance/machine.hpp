@@ -5,6 +5,14 @@
 
 namespace springproof::compare {
 
+std::string program_version();
+/// Short hash, with "-dirty" for uncommitted changes; "unknown" outside a checkout.
+std::string program_commit();
+
+/// Folder of the case files and data that come with the program; the environment variable SPRINGPROOF_CASES
+/// moves it.
+std::string cases_folder();
+
 /// The machine and build that a timing depends on.
 struct Machine {
   std::string processor;

@@ -1,8 +1,7 @@
 #include "compare/solve/finished.hpp"
 
-#include "compare/provenance/digest.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/provenance/version.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"

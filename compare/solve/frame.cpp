@@ -1,12 +1,18 @@
 #include "compare/solve/frame.hpp"
 
-#include "compare/provenance/digest.hpp"
-
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <openssl/sha.h>
 #include <sstream>
 
 namespace springproof::compare {
+
+std::string digest(const std::string& bytes) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> sum;
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), sum.data());
+  return fmt::format("{:02x}", fmt::join(sum, ""));
+}
 
 std::string framed(const Frame& frame) {
   return fmt::format("{} {} {}\n", frame.kind, frame.content.size(),

@@ -5,6 +5,10 @@
 
 namespace springproof::compare {
 
+/// SHA-256 of these bytes as 64 hexadecimal digits: it tells inputs apart, and finds damage to what was kept
+/// or sent.
+std::string digest(const std::string& bytes);
+
 /// Bytes with their length and digest, as kept in files and sent between processes: a heading "KIND LENGTH
 /// DIGEST" and a line break, then the content. The digest is of kind and content.
 struct Frame {

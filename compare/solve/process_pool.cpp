@@ -11,7 +11,6 @@
 #include <poll.h>
 #include <spawn.h>
 #include <stdexcept>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -146,9 +145,8 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
   const auto employ = [&](std::unique_ptr<Worker>& worker) {
-    worker.reset();
-    if (next == n_jobs) return;
-    worker = std::make_unique<Worker>(pool.worker);
+    if (next == n_jobs) return worker.reset();
+    if (!worker) worker = std::make_unique<Worker>(pool.worker);
     worker->give(next, bytes_of(next));
     ++next;
   };
@@ -168,12 +166,8 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
       answers[job] = std::move(*news.answer);
       ++n_answered;
       on_done(job, answers[job]);
-      if (news.has_ended || next == n_jobs)
-        employ(workers[w]);
-      else {
-        workers[w]->give(next, bytes_of(next));
-        ++next;
-      }
+      if (news.has_ended) workers[w].reset();
+      employ(workers[w]);
     }
   }
   return answers;
@@ -184,10 +178,6 @@ bool is_under_mpi_launcher() {
     for (const char* mark : {"OMPI_COMM_WORLD_SIZE=", "PMI_SIZE=", "PMI_RANK=", "PMIX_RANK="})
       if (variable.rfind(mark, 0) == 0) return true;
   return false;
-}
-
-void end_with_parent() {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
 void serve_jobs(const std::function<std::string(const std::string& job)>& work) {

@@ -36,10 +36,6 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
 /// the job itself prints goes to standard error. An exception is a failed job; its message is the reason.
 void serve_jobs(const std::function<std::string(const std::string& job)>& work);
 
-/// The worker's side: this process is killed when the one that started it ends, even in the midst of a job.
-/// To be called first of all.
-void end_with_parent();
-
 /// Whether mpirun or its like started this process: processes started from here would join its job.
 bool is_under_mpi_launcher();
 

@@ -1,9 +1,49 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
+#include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/answers.hpp"
 
 namespace springproof::compare {
+
+/// Solution of a failed solve.
+inline cases::Solution failed_solution(const cases::SolveError& error) {
+  cases::Solution solution;
+  solution.status = cases::Status::failed;
+  solution.message = error.what();
+  solution.outcome = error.outcome();
+  solution.load_reached = error.load_reached();
+  solution.residual = error.residual();
+  solution.newton_iterations = error.progress().newton_iterations;
+  solution.lowest_eigenvalue = error.progress().lowest_eigenvalue;
+  solution.inverted_cells = error.progress().inverted_cells;
+  return solution;
+}
+
+/// Solution of a case that no model can be made of.
+inline cases::Solution failed_solution(const cases::InputError& error) {
+  cases::Solution solution;
+  solution.status = cases::Status::failed;
+  solution.message = error.what();
+  solution.outcome = cases::Outcome::refused;
+  return solution;
+}
+
+/// Builds a model and solves it; both sides have the same two steps. A solve that fails is a failed answer.
+/// @param make_model  answers a model   @param solve  answers the model's solution
+template<class MakeModel, class Solve>
+Answer solve_side(const MakeModel& make_model, const Solve& solve) {
+  Answer answer;
+  Stopwatch stopwatch;
+  try {
+    auto model = make_model();
+    answer.setup_seconds = stopwatch.lap();
+    answer.solution = solve(model);
+  } catch (const cases::SolveError& error) {
+    answer.solution = failed_solution(error);
+  }
+  answer.solve_seconds = stopwatch.lap();
+  return answer;
+}
 
 /// The finite elements' answer, and the [fem] that it is the answer to.
 struct FemAnswer {
@@ -18,6 +58,20 @@ using SolveFem = FemAnswer (*)(const cases::Scene& scene);
 
 /// With the formulation and refinement of the scene's definition as they are. Collective over MPI_COMM_WORLD.
 FemAnswer solve_fem_as_given(const cases::Scene& scene);
+
+/// Why this scene has no continuum limit, if it has none: the displacement under forces on points or edges
+/// grows without bound as the mesh is refined.
+std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);
+
+/// The scene with another [fem], such as the one that "auto" was found to mean.
+cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem);
+
+/// Solves the finite elements on n_meshes meshes, from the body's own on, or on the finest of them around the
+/// case's own when that is refined further. Nothing is solved when there is no continuum limit. A solve that
+/// fails leaves its reason alone. Collective over MPI_COMM_WORLD.
+/// @param own       the solution at the scene's own refinement, used again
+/// @param n_meshes  at least 3
+RefinedMeshes solve_refined(const cases::Scene& scene, const cases::Solution& own, int n_meshes);
 
 /// Solves both sides of a case, or the one asked for, and the refined meshes if asked for. A solve that fails
 /// is a failed side. Collective over MPI_COMM_WORLD; the mass-spring side is solved on rank 0 alone.

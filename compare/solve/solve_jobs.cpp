@@ -4,7 +4,7 @@
 #include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
 
 #include <algorithm>
 #include <cmath>

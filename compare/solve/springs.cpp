@@ -1,26 +1,53 @@
 #include "compare/solve/springs.hpp"
 
-#include "compare/solve/design.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
+#include "fem_reference/element_stiffness.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <map>
 #include <random>
 
 namespace springproof::compare {
 
+using Eigen::Vector3d;
+
 namespace {
 
-using Eigen::Vector3d;
+msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell) {
+  const cases::Material material =
+      cases::materials_of(scene.definition)[static_cast<std::size_t>(cases::material_of(scene, cell))];
+  return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), scene.definition.msm));
+}
+
+/// Cells of equal shape and material share one design. Every warning comes once, with the number of its
+/// cells.
+msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
+  msm::DesignResult all;
+  std::map<std::string, int> n_cells;
+  std::map<int, msm::DesignResult> of_material;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
+    const int material = cases::material_of(scene, c);
+    if (!scene.mesh.grid) of_material.clear(); // every cell has its own shape
+    if (of_material.count(material) == 0) of_material[material] = design_cell(scene, c);
+    const msm::DesignResult& cell = of_material[material];
+    for (const std::string& warning : cell.warnings) ++n_cells[warning];
+    all.cells.push_back(cell.stiffness);
+    if (c == 0) all.moduli = cell.moduli;
+  }
+  all.stiffness = all.cells.front();
+  for (const auto& [warning, n] : n_cells)
+    all.warnings.push_back(fmt::format("{} of {} cells: {}", n, all.cells.size(), warning));
+  return all;
+}
 
 /// The springs of every cell, stiffer beyond the plane.
 std::vector<msm::CellStiffness> stiffened(std::vector<msm::CellStiffness> springs,
                                           const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
   if (springs.size() == 1) springs.resize(mesh.cells.size(), springs.front());
   for (std::size_t c = 0; c < springs.size(); ++c) {
-    Vector3d centre = Vector3d::Zero();
-    for (const Vector3d& vertex : cases::cell_vertices(mesh, c)) centre += vertex / 8;
-    if (!(centre[static_cast<int>(stiffer.axis)] > stiffer.beyond)) continue;
+    if (!(cases::centre_of(mesh, mesh.cells[c])[static_cast<int>(stiffer.axis)] > stiffer.beyond)) continue;
     auto& [edge, face_diagonal, internal_diagonal, volume] = springs[c];
     for (double* k : {&edge, &face_diagonal, &internal_diagonal, &volume}) *k *= stiffer.factor;
   }
@@ -48,6 +75,25 @@ msm::Points start_points(const cases::Stress& stress, const cases::HexMesh& mesh
 }
 
 } // namespace
+
+msm::DesignRequest design_request(const cases::Material& material, const msm::CellVertices& cell,
+                                  const cases::Msm& options, cases::Element element) {
+  return {material, cell, options,
+          [cell, element](const cases::LinearElastic& elastic) {
+            return fem_reference::element_stiffness(cell, elastic, element);
+          },
+          std::nullopt};
+}
+
+msm::DesignResult design_for(const cases::Scene& scene) {
+  const bool are_alike = scene.mesh.grid && scene.material_of_cell.empty();
+  if (are_alike || scene.definition.msm.design == cases::Design::given) return design_cell(scene, 0);
+  return design_cell_by_cell(scene);
+}
+
+std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design) {
+  return design.cells.empty() ? std::vector<msm::CellStiffness>{design.stiffness} : design.cells;
+}
 
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
                                        mechanics::EquilibriumSettings settings) {

@@ -1,10 +1,23 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
 #include "compare/solve/answers.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
 namespace springproof::compare {
+
+/// A design request whose K_FEM comes from the finite-element side.
+/// @param cell  mm    @param element  q1 (the thesis's choice) or q1_bbar
+msm::DesignRequest design_request(const cases::Material& material, const msm::CellVertices& cell,
+                                  const cases::Msm& options, cases::Element element = cases::Element::q1);
+
+/// The stiffnesses that a scene's [msm] block asks for. On a grid all cells of a material are alike; on
+/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, given), the result's own
+/// stiffness and moduli are those of the first cell, and its warnings count the cells they hold for.
+/// @throws InputError when the method cannot serve the material or the mesh's cells
+msm::DesignResult design_for(const cases::Scene& scene);
+
+/// What make_lattice() takes: one stiffness for all cells, or one each.
+std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design);
 
 /// A solver's settings with the limits of a hard case: load steps, iterations, seconds from now on. For
 /// another case they stay as they are.

@@ -3,7 +3,7 @@
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve.hpp"
 
 #include <algorithm>
 #include <cmath>

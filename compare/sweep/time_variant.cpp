@@ -3,9 +3,9 @@
 #include "compare/peers/calculix.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/mpi_rank.hpp"
-#include "compare/solve/design.hpp"
 #include "compare/solve/fields.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
+#include "compare/solve/springs.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 

@@ -1,6 +1,6 @@
 #include "compare/thesis/cells.hpp"
 
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

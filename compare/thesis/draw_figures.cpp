@@ -3,7 +3,7 @@
 #include "cases/case/read_case.hpp"
 #include "compare/cube/plot_design.hpp"
 #include "compare/modes/write_eigen.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"

@@ -1,7 +1,7 @@
 #include "compare/thesis/published.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 
 #include <algorithm>
 #include <charconv>

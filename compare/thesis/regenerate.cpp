@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/stopwatch.hpp"
 
 #include <algorithm>

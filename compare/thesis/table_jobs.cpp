@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/provenance/cases_folder.hpp"
+#include "compare/provenance/machine.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

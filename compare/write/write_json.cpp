@@ -2,7 +2,6 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/version.hpp"
 #include "compare/write/json.hpp"
 
 namespace springproof::compare {

@@ -3,7 +3,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/hard/stress.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
 
 #include <iostream>

@@ -2,7 +2,7 @@
 
 #include "compare/cube/design_study.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 #include "compare/thesis/advice.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "compare/error_bars/mesh_study.hpp"
 
-#include "compare/solve/refined_meshes.hpp"
+#include "compare/solve/solve.hpp"
 #include "fem_reference/model.hpp"
 
 #include <catch2/catch.hpp>

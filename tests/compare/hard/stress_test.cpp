@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/gates/judge.hpp"
-#include "compare/solve/solve_side.hpp"
+#include "compare/solve/solve.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "compare/modes/eigenspaces.hpp"
 
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "tests/support/largest.hpp"
 

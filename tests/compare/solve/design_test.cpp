@@ -1,4 +1,4 @@
-#include "compare/solve/design.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
