@@ -1,43 +1,16 @@
 #include "cases/case/read_case.hpp"
 
-#include "cases/case/override.hpp"
 #include "cases/case/read_boundary.hpp"
 #include "cases/case/read_models.hpp"
 #include "cases/case/read_stress.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 namespace springproof::cases {
 
 namespace {
-
-std::string text_of(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  // A folder opens, but cannot be read.
-  if (!file || !(text << file.rdbuf())) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
-    throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);
-  }
-  return text.str();
-}
-
-toml::table parse(const std::string& text, const std::string& path) {
-  try {
-    return toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
-    throw InputError(Where{path, static_cast<int>(at.line), static_cast<int>(at.column), ""},
-                     fmt::format("is not valid TOML: {}", error.description()));
-  }
-}
 
 /// Names label rows of reports and files of results.
 std::string read_case_name(const Entry& entry) {
@@ -190,13 +163,6 @@ void check_accuracy(Table& root, const Case& definition) {
         "as they ask for");
 }
 
-toml::table parse_file(const std::string& path, const std::vector<std::string>& overrides) {
-  if (!is_line_of_text(path)) throw InputError("the name of a case file must be one line of UTF-8 text");
-  toml::table document = parse(text_of(path), path);
-  for (const std::string& setting : overrides) apply_override(document, setting);
-  return document;
-}
-
 Case read_definition(Table& root, const std::string& path) {
   Case result;
   result.file = path;
@@ -228,7 +194,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 }
 
 Case read_case_text(const std::string& text, const std::string& path) {
-  return read_document(parse(text, path), path);
+  return read_document(parse_document(text, path), path);
 }
 
 Case read_hard_case(const std::string& path) {

@@ -11,6 +11,15 @@
 /// value, and what is allowed. Only the readers of case files include this.
 namespace springproof::cases {
 
+/// Parses TOML 1.0.  @param path  what messages call it   @throws InputError
+toml::table parse_document(const std::string& text, const std::string& path);
+/// The same for a file, whose name must be a line of UTF-8, so that it can stand in messages and JSON, with
+/// settings of the command line: "fem.refine=1", "load[0].value=[0, 0, 0.01]", "fem.element=q2". A value is
+/// TOML; what is not valid TOML is taken as a text, so that words need no quotes. Tables that do not exist
+/// are made; elements of arrays must exist.
+/// @throws InputError, also if a setting is not KEY=VALUE or leads through something that is no table
+toml::table parse_file(const std::string& path, const std::vector<std::string>& settings);
+
 /// The value of a key. A missing key is an entry without a node, so that one line of a reader reports both
 /// missing and wrong values.
 struct Entry {

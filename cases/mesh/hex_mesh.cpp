@@ -190,18 +190,6 @@ class Midpoints {
   std::map<std::array<int, 8>, int> numbers_;
 };
 
-/// Node at lattice position (a, b, c) in {0, 1, 2}³ of a cell: a vertex, or the midpoint of an edge, a face
-/// or the cell.
-int cell_lattice_node(const std::array<int, 8>& cell, int a, int b, int c, Midpoints& midpoints) {
-  std::vector<int> vertices;
-  for (int v = 0; v < 8; ++v) {
-    const auto matches = [](int position, int bit) { return position == 1 || position == 2 * bit; };
-    if (matches(a, v & 1) && matches(b, (v >> 1) & 1) && matches(c, v >> 2))
-      vertices.push_back(cell[index(v)]);
-  }
-  return midpoints.of(vertices);
-}
-
 Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
   Selection fine;
   fine.nodes = coarse.nodes;
@@ -233,12 +221,13 @@ HexMesh refine(const HexMesh& mesh) {
   fine.cells.reserve(8 * mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (int child = 0; child < 8; ++child) {
-      std::array<int, 8> cell{};
-      for (int v = 0; v < 8; ++v)
-        cell[index(v)] =
-            cell_lattice_node(mesh.cells[c], (child & 1) + (v & 1), ((child >> 1) & 1) + ((v >> 1) & 1),
-                              (child >> 2) + (v >> 2), midpoints);
-      fine.cells.push_back(cell);
+      std::array<int, 8>& cell = fine.cells.emplace_back();
+      for (int v = 0; v < 8; ++v) {
+        std::vector<int> around; // vertices of the coarse cell on the child's side wherever v is on it too
+        for (int w = 0; w < 8; ++w)
+          if (((w ^ child) & ~(v ^ child)) == 0) around.push_back(mesh.cells[c][index(w)]);
+        cell[index(v)] = midpoints.of(around);
+      }
       if (!mesh.group_of_cell.empty()) fine.group_of_cell.push_back(mesh.group_of_cell[c]);
     }
   for (const auto& [name, group] : mesh.groups) fine.groups[name] = refine_selection(group, midpoints);

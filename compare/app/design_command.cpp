@@ -3,7 +3,7 @@
 #include "compare/app/design_options.hpp"
 #include "compare/cube/plot_design.hpp"
 #include "compare/cube/write_design.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "msm/design/nonlinear_method.hpp"

@@ -3,7 +3,7 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/modes/write_eigen.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <iostream>

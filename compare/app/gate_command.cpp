@@ -5,7 +5,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/peers/external_side.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/finished.hpp"
 #include "compare/solve/solve_jobs.hpp"

@@ -2,7 +2,6 @@
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>

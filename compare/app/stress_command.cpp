@@ -3,7 +3,6 @@
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"

@@ -1,6 +1,6 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"

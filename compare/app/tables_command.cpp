@@ -1,5 +1,5 @@
 #include "compare/app/commands.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"

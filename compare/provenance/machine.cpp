@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
+#include <mpi.h>
 #include <sys/utsname.h>
 #include <thread>
 
@@ -17,11 +18,12 @@ Function* find_function(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-std::string processor_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown";
+/// What follows "KEY...:" and a character in a file of the system.
+std::optional<std::string> value_in(const char* file, const char* key) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind(key, 0) == 0) return line.substr(line.find(':') + 2);
+  return std::nullopt;
 }
 
 } // namespace
@@ -31,12 +33,16 @@ std::string cases_folder() {
   return moved ? moved : SPRINGPROOF_CASES_DIR;
 }
 
+int mpi_rank() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
 /// Not getrusage(): its figure is inherited from the process that started this one.
 std::optional<double> peak_resident_megabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmHWM:", 0) == 0) return std::stod(line.substr(6)) * 1024e-6; // KiB
-  return std::nullopt;
+  const auto kibibytes = value_in("/proc/self/status", "VmHWM:");
+  return kibibytes ? std::optional(std::stod(*kibibytes) * 1024e-6) : std::nullopt;
 }
 
 bool blas_is_openblas() {
@@ -51,7 +57,8 @@ Machine describe_machine() {
   utsname system{};
   uname(&system);
   auto* config = find_function<char*()>("openblas_get_config");
-  return {processor_name(), static_cast<int>(std::thread::hardware_concurrency()),
+  return {value_in("/proc/cpuinfo", "model name").value_or("unknown"),
+          static_cast<int>(std::thread::hardware_concurrency()),
           std::string(system.sysname) + " " + system.release + " " + system.machine, "g++ " __VERSION__,
           config ? config() : "not OpenBLAS"};
 }

@@ -13,6 +13,9 @@ std::string program_commit();
 /// moves it.
 std::string cases_folder();
 
+/// This process's number in MPI's world; 0 for a process alone. MPI must have been started.
+int mpi_rank();
+
 /// The machine and build that a timing depends on.
 struct Machine {
   std::string processor;

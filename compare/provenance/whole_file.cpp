@@ -1,7 +1,7 @@
 #include "compare/provenance/whole_file.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 
 #include <cerrno>
 #include <fcntl.h>

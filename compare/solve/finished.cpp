@@ -1,7 +1,6 @@
 #include "compare/solve/finished.hpp"
 
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/mpi_rank.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"

@@ -1,7 +1,7 @@
 #include "compare/solve/solve_jobs.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/provenance/mpi_rank.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve.hpp"
@@ -30,40 +30,24 @@ double estimated_cost(const Question& question) {
   return cost;
 }
 
-/// The questions without an answer, in the order in which they are handed out.
-void sort_by_cost(std::vector<std::size_t>& open, const std::vector<Question>& questions) {
-  std::vector<double> cost;
-  for (const Question& question : questions) cost.push_back(estimated_cost(question));
-  std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
-}
-
 /// When there are none: the sides that should have been solved have failed.
-Answers failed_answers(const Request& request, const cases::Solution& failed) {
+Answers failed_answers(const Request& request, const std::exception& error) {
   Answers answers;
-  if (request.asks(cases::Side::fem)) answers.fem.solution = failed;
-  if (request.asks(cases::Side::msm)) answers.msm.solution = failed;
+  if (request.asks(cases::Side::fem)) answers.fem.solution = failed_solution(error);
+  if (request.asks(cases::Side::msm)) answers.msm.solution = failed_solution(error);
   return answers;
-}
-
-Answers failed_answers(const Request& request, const std::string& reason) {
-  cases::Solution failed;
-  failed.status = cases::Status::failed;
-  failed.message = reason;
-  return failed_answers(request, failed);
 }
 
 Answers solve_in_this_process(const Question& question, SolveFem solve_fem) {
   try {
     return solve(question.scene, question.request, solve_fem);
-  } catch (const cases::InputError& error) {
-    return failed_answers(question.request, failed_solution(error));
   } catch (const std::exception& error) {
-    return failed_answers(question.request, error.what());
+    return failed_answers(question.request, error);
   }
 }
 
 Answers answers_from(const JobAnswer& job, const Request& request) {
-  if (!job.bytes) return failed_answers(request, job.reason);
+  if (!job.bytes) return failed_answers(request, std::runtime_error(job.reason));
   Answers answers;
   cases::from_bytes(*job.bytes, answers);
   return answers;
@@ -100,7 +84,9 @@ answer_all(const std::vector<Question>& questions, const FinishedCases& finished
       answers[q] = std::move(*earlier);
     else
       open.push_back(q);
-  sort_by_cost(open, questions);
+  std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+    return estimated_cost(questions[a]) > estimated_cost(questions[b]);
+  });
   const auto take = [&](std::size_t q, Answers fresh) {
     if (mpi_rank() == 0) finished.keep(questions[q], fresh);
     answers[q] = std::move(fresh);
@@ -139,7 +125,7 @@ std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve
           {cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
       job_of_question.push_back(j);
     } catch (const cases::InputError& error) {
-      solved[j].answers = failed_answers(request, failed_solution(error));
+      solved[j].answers = failed_answers(request, error);
     }
   }
   int n_done = 0;

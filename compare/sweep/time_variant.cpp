@@ -2,7 +2,6 @@
 
 #include "compare/peers/calculix.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/mpi_rank.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"

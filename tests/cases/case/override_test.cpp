@@ -1,4 +1,4 @@
-#include "cases/case/override.hpp"
+#include "cases/case/read_case.hpp"
 
 #include "tests/support/case_text.hpp"
 
