@@ -9,8 +9,8 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/finished.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"
-#include "compare/write/write_results.hpp"
 
 #include <algorithm>
 #include <iostream>

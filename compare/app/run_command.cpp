@@ -9,7 +9,6 @@
 #include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_results.hpp"
 
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "compare/app/commands.hpp"
 
+#include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"

@@ -78,12 +78,10 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
   std::vector<BlessedInterval> blessed;
   for (const Gate& gate : judged.gates) {
-    const cases::Expectation& expected = gate.judgement.expectation;
-    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.judgement.value)
-      continue;
+    const cases::Expectation& expected = gate.expectation;
+    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.value) continue;
     const double half = (expected.interval[1] - expected.interval[0]) / 2;
-    blessed.push_back(
-        {expected.interval_where, {*gate.judgement.value - half, *gate.judgement.value + half}});
+    blessed.push_back({expected.interval_where, {*gate.value - half, *gate.value + half}});
   }
   return blessed;
 }

@@ -2,6 +2,8 @@
 
 #include "compare/error_bars/auto_fem.hpp"
 
+#include <algorithm>
+
 namespace springproof::compare {
 
 Comparison comparison_of(cases::Scene scene, Answers answers) {
@@ -19,6 +21,34 @@ Comparison compare_case(const cases::Case& definition, const Request& request) {
   cases::Scene scene = cases::make_scene(definition);
   Answers answers = solve(scene, request, solve_fem);
   return comparison_of(std::move(scene), std::move(answers));
+}
+
+bool GatedCase::met() const {
+  return failures.empty() &&
+         std::all_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.met(); });
+}
+
+GatedCase judge_gates(const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  GatedCase judged{definition.name, definition.file, comparison.gates, {}};
+  if (judged.gates.empty()) judged.failures.push_back("it expects nothing: there is no [[expect]]");
+  for (const auto& [side, answer] :
+       {std::pair("fem", &comparison.answers.fem), std::pair("msm", &comparison.answers.msm)})
+    if (answer->solution.status == cases::Status::failed)
+      judged.failures.push_back(describe_failure(side, answer->solution));
+  return judged;
+}
+
+bool all_met(const std::vector<GatedCase>& cases) {
+  return std::all_of(cases.begin(), cases.end(), [](const GatedCase& c) { return c.met(); });
+}
+
+bool asks_for_mesh_study(const cases::Case& definition) {
+  return std::any_of(definition.expectations.begin(), definition.expectations.end(),
+                     [](const auto& expected) {
+                       return expected.reference == cases::ReferenceKind::converged &&
+                              expected.quantity != cases::Quantity::msm;
+                     });
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "compare/error_bars/mesh_study.hpp"
 #include "compare/gates/judge.hpp"
 
 namespace springproof::compare {
@@ -20,5 +19,23 @@ Comparison comparison_of(cases::Scene scene, Answers answers);
 
 /// Solves a case in this process and compares. Collective over MPI_COMM_WORLD.  @throws InputError
 Comparison compare_case(const cases::Case& definition, const Request& request = {});
+
+/// A case with all its gates: what a continuous-integration server is told.
+struct GatedCase {
+  std::string name, file;
+  std::vector<Gate> gates;
+  std::vector<std::string> failures; ///< of the case as a whole: it expects nothing, a solve failed
+  bool met() const;
+};
+
+/// The gates of a case, and what failed as a whole. Never met are: an expectation of a measure that is not
+/// there, or has no finite value; a case that expects nothing; a case of which a solve has failed.
+GatedCase judge_gates(const Comparison& comparison);
+
+bool all_met(const std::vector<GatedCase>& cases);
+
+/// Whether a case asks for the reference's error bar by itself: an expectation against a converged reference
+/// does.
+bool asks_for_mesh_study(const cases::Case& definition);
 
 } // namespace springproof::compare

@@ -1,7 +1,6 @@
 #include "compare/gates/judge.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/measure/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +22,7 @@ const Named* find(const std::vector<Named>& all, const std::string& name) {
 std::string why_without_value(const Answers& answers, Quantity quantity) {
   const auto why = [](const char* side, const cases::Solution& solution) -> std::string {
     if (solution.status == cases::Status::skipped) return fmt::format("{} was not solved", side);
-    if (solution.status == cases::Status::converged) return "";
-    return fmt::format("{} failed at {:.4g} of the load: {}", side, solution.load_reached, solution.message);
+    return solution.status == cases::Status::converged ? "" : describe_failure(side, solution);
   };
   std::string reason;
   if (quantity != Quantity::msm) reason = why("fem", answers.fem.solution);
@@ -35,31 +33,25 @@ std::string why_without_value(const Answers& answers, Quantity quantity) {
 /// From an error bar of d percent of the finite elements' value f: d f/100 of f itself; of r = 100 (m/f - 1),
 /// to first order in d, (100 + r) d/100 points. The error of a field norm is of a difference of fields, of
 /// which the bar of the norm says nothing.
-std::optional<double> uncertainty(const Judgement& judgement, const cases::Measure* measure,
+std::optional<double> uncertainty(const Gate& gate, const cases::Measure* measure,
                                   const StudiedMeasure* study) {
-  const cases::Expectation& expected = judgement.expectation;
-  if (!study || !measure || !study->discretisation_error_percent || !judgement.value) return std::nullopt;
+  const Quantity quantity = gate.expectation.quantity;
+  if (!study || !measure || !study->discretisation_error_percent || !gate.value || quantity == Quantity::msm)
+    return std::nullopt;
   const double part = *study->discretisation_error_percent / 100;
-  switch (expected.quantity) {
-  case Quantity::fem:
-    return part * std::abs(*judgement.value);
-  case Quantity::error_percent:
-    if (is_field_norm(measure->kind)) return std::nullopt;
-    return part * std::abs(100 + *judgement.value);
-  case Quantity::msm:
-    break;
-  }
-  return std::nullopt;
+  if (quantity == Quantity::fem) return part * std::abs(*gate.value);
+  if (is_field_norm(measure->kind)) return std::nullopt;
+  return part * std::abs(100 + *gate.value);
 }
 
 std::string warning_of(const Gate& gate, const StudiedMeasure* study) {
-  const cases::Expectation& expected = gate.judgement.expectation;
+  const cases::Expectation& expected = gate.expectation;
   const double width = expected.interval[1] - expected.interval[0];
   if (gate.uncertainty && !(width >= 2 * *gate.uncertainty))
     return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}",
                        *gate.uncertainty, gate.unit);
   if (expected.reference != cases::ReferenceKind::converged || gate.uncertainty ||
-      expected.quantity == Quantity::msm || !gate.judgement.value)
+      expected.quantity == Quantity::msm || !gate.value)
     return "";
   return "the reference has no error bar" + (study && !study->reason.empty() ? ": " + study->reason : "");
 }
@@ -73,30 +65,17 @@ bool is_finite(const cases::Solution& s) {
 
 } // namespace
 
-Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
+Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
   const MeasuredValue* found = find(measures, expectation.measure);
-  if (!found) return {expectation, Verdict::missed, std::nullopt, "there is no such measure"};
-  std::optional<double> value;
-  switch (expectation.quantity) {
-  case Quantity::error_percent:
-    value = found->error_percent;
-    break;
-  case Quantity::msm:
-    value = found->msm;
-    break;
-  case Quantity::fem:
-    value = found->fem;
-    break;
-  }
-  if (!value)
-    return {expectation, Verdict::missed, value, "it has no value: a side failed or was not solved"};
-  if (!std::isfinite(*value))
-    return {expectation, Verdict::missed, std::nullopt, "it is not a finite number"};
-  if (expectation.interval[0] <= *value && *value <= expectation.interval[1])
-    return {expectation, Verdict::met, value, ""};
-  return {expectation, Verdict::missed, value,
-          fmt::format("{:.6g} is outside [{:.6g}, {:.6g}]", *value, expectation.interval[0],
-                      expectation.interval[1])};
+  if (!found) return {expectation, std::nullopt, "there is no such measure"};
+  const std::optional<double> value = expectation.quantity == Quantity::error_percent ? found->error_percent
+                                      : expectation.quantity == Quantity::msm         ? found->msm
+                                                                                      : found->fem;
+  if (!value) return {expectation, value, "it has no value: a side failed or was not solved"};
+  if (!std::isfinite(*value)) return {expectation, std::nullopt, "it is not a finite number"};
+  const auto& [lower, upper] = expectation.interval;
+  if (lower <= *value && *value <= upper) return {expectation, value};
+  return {expectation, value, fmt::format("{:.6g} is outside [{:.6g}, {:.6g}]", *value, lower, upper)};
 }
 
 std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
@@ -105,18 +84,22 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
   for (const cases::Expectation& expected : scene.definition.expectations) {
     const cases::Measure* measure = find(scene.definition.measures, expected.measure);
     const StudiedMeasure* studied = study ? find(study->measures, expected.measure) : nullptr;
-    Gate gate{judge(expected, measures), "", std::nullopt, "", ""};
+    Gate gate = judge(expected, measures);
     if (expected.quantity == Quantity::error_percent)
       gate.unit = "%";
     else if (measure)
       gate.unit = unit_of(*measure);
-    if (!gate.met() && !gate.judgement.value && find(measures, expected.measure))
+    if (!gate.met() && !gate.value && find(measures, expected.measure))
       gate.cause = why_without_value(answers, expected.quantity);
-    gate.uncertainty = uncertainty(gate.judgement, measure, studied);
+    gate.uncertainty = uncertainty(gate, measure, studied);
     gate.warning = warning_of(gate, studied);
     gates.push_back(gate);
   }
   return gates;
+}
+
+std::string describe_failure(const char* side, const cases::Solution& solution) {
+  return fmt::format("{} failed at {:.4g} of the load: {}", side, solution.load_reached, solution.message);
 }
 
 std::vector<std::string> misses(const cases::Stress& limits, const cases::ExpectedOutcome& expected,

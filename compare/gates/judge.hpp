@@ -1,34 +1,27 @@
 #pragma once
 
 #include "compare/error_bars/mesh_study.hpp"
-#include "compare/measure/measured_values.hpp"
+#include "compare/measure/measure.hpp"
 
 namespace springproof::compare {
 
-enum class Verdict { met, missed };
-
-/// An expectation held against what was measured. What cannot be measured is missed, with the reason.
-struct Judgement {
-  cases::Expectation expectation;
-  Verdict verdict;
-  std::optional<double> value;
-  std::string reason; ///< empty when met
-};
-
-/// An expectation of a case, judged, and what the reader of the verdict must know besides.
+/// An expectation held against what was measured, and what the reader of the verdict must know besides. What
+/// cannot be measured is missed, with the reason.
 struct Gate {
-  Judgement judgement;
-  std::string unit; ///< of the interval and the value: "%", "mm", "deg", "mm3"
+  cases::Expectation expectation;
+  std::optional<double> value;
+  std::string missed{}; ///< why it is not met; empty when it is
+  std::string unit{};   ///< of the interval and the value: "%", "mm", "deg", "mm3"
   /// Half the width of the reference's own error bar from its mesh study, in the unit: shown, and added to
   /// neither side. Absent where there is none, and for the springs' own value, which has no reference.
-  std::optional<double> uncertainty;
-  std::string warning; ///< such as that the interval is narrower than the error bar; empty: none
-  std::string cause;   ///< why a measure that is there has no value; empty when it has one
-  bool met() const { return judgement.verdict == Verdict::met; }
+  std::optional<double> uncertainty{};
+  std::string warning{}; ///< such as that the interval is narrower than the error bar; empty: none
+  std::string cause{};   ///< why a measure that is there has no value; empty when it has one
+  bool met() const { return missed.empty(); }
 };
 
 /// By the values alone.  @param measures  of the same case
-Judgement judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
+Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
 
 /// Judges every expectation of a case by what was measured.
 /// @param study  null: there is none
@@ -39,5 +32,8 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
 /// empty: nothing.
 std::vector<std::string> misses(const cases::Stress& limits, const cases::ExpectedOutcome& expected,
                                 const Answer& answer);
+
+/// "fem failed at 0.25 of the load: REASON"
+std::string describe_failure(const char* side, const cases::Solution& solution);
 
 } // namespace springproof::compare

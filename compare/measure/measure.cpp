@@ -62,13 +62,10 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
   return std::sqrt(integral / volume);
 }
 
-double largest(const std::vector<Vector3d>& field) {
+double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
+  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field);
   const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
   return vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
-}
-
-double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
-  return kind == MeasureKind::displacement_field_l2 ? root_mean_square(mesh, field) : largest(field);
 }
 
 } // namespace
@@ -127,6 +124,23 @@ std::optional<double> error_percent(double fem, double msm) {
   // A reference that is zero but for rounding has no relative error.
   if (!std::isfinite(error) || !(std::abs(fem) > 1e-9 * std::abs(msm))) return std::nullopt;
   return error;
+}
+
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers) {
+  std::vector<MeasuredValue> values;
+  for (const cases::Measure& measure : scene.definition.measures) {
+    const auto value_by = [&](const Answer& answer) -> std::optional<double> {
+      if (answer.solution.status != cases::Status::converged) return std::nullopt;
+      return evaluate(measure, scene, answer.solution);
+    };
+    MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm),
+                        std::nullopt};
+    if (answers.peer) value.peer = value_by(answers.peer->answer);
+    if (value.fem && value.msm)
+      value.error_percent = measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
+    values.push_back(value);
+  }
+  return values;
 }
 
 } // namespace springproof::compare

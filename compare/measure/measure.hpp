@@ -1,9 +1,6 @@
 #pragma once
 
-#include "cases/case/solution.hpp"
-#include "cases/scene/scene.hpp"
-
-#include <string>
+#include "compare/solve/answers.hpp"
 
 namespace springproof::compare {
 
@@ -29,5 +26,15 @@ std::string unit_of(const cases::Measure& measure);
 /// r = (msm - fem)/fem x 100 %, as in the thesis; nothing when fem is zero next to msm or either is not
 /// finite.
 std::optional<double> error_percent(double fem, double msm);
+
+/// A measure on both sides. A side that failed or was skipped has no value.
+struct MeasuredValue {
+  std::string name, unit;
+  std::optional<double> fem, msm, error_percent;
+  std::optional<double> peer = std::nullopt; ///< by another program, when it was asked
+};
+
+/// All measures of a case, in its order.
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers);
 
 } // namespace springproof::compare

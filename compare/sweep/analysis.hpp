@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/sweep/variant.hpp"
+#include "compare/sweep/plan.hpp"
 
 #include <optional>
 #include <vector>

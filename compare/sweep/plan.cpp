@@ -57,11 +57,11 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
   const bool is_linear = formulation == Formulation::small_strain;
   for (const auto& cells : plan.levels) {
     const long size = n_unknowns(cells, element);
-    const auto is_reference = [&](const Variant& v) {
-      return v.formulation == formulation && v.element == element && v.cells == cells;
-    };
-    if (std::any_of(plan.reference.begin(), plan.reference.end(), is_reference) && size > limits.loose)
-      continue; // it is in the plan already
+    const bool is_planned = // as a mesh of the reference
+        std::any_of(plan.reference.begin(), plan.reference.end(), [&](const Variant& v) {
+          return v.formulation == formulation && v.element == element && v.cells == cells;
+        });
+    if (is_planned && size > limits.loose) continue;
     const std::string name =
         cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
     const long limit = is_linear ? limits.small : limits.finite;
@@ -72,7 +72,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
     for (const double tolerance : tolerances) {
       const bool is_loose = tolerance != tight;
       if (is_loose && (is_linear || extent == Extent::quick || size > limits.loose)) continue;
-      if (!is_loose && std::any_of(plan.reference.begin(), plan.reference.end(), is_reference)) continue;
+      if (!is_loose && is_planned) continue;
       plan.variants.push_back(finite_elements(formulation, element, cells, tolerance));
     }
     if (!is_linear && extent == Extent::full && size > limits.loose)
@@ -95,6 +95,50 @@ void add_calculix(Plan& plan) {
 }
 
 } // namespace
+
+Family family_of(const Variant& variant) {
+  return variant.program == Program::springs ? Family::springs : Family::finite_elements;
+}
+
+std::string method_name(const Variant& variant) {
+  if (variant.program == Program::springs) return "springs " + cases::name_of(variant.design);
+  const std::string name = cases::name_of(variant.formulation) + " " + cases::name_of(variant.element);
+  return variant.program == Program::calculix ? "CalculiX " + name : name;
+}
+
+std::string cells_name(const std::array<int, 3>& cells) {
+  return fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
+}
+
+std::array<int, 3> field_cells(const Variant& variant) {
+  std::array<int, 3> cells = variant.cells;
+  if (variant.program == Program::finite_elements && variant.element == cases::Element::q2)
+    for (int& n : cells) n *= 2;
+  return cells;
+}
+
+std::string full_name(const Variant& variant) {
+  const std::string name = method_name(variant) + " " + cells_name(variant.cells);
+  if (variant.program == Program::calculix) return name;
+  return name + fmt::format(" to {:.0e}", variant.tolerance);
+}
+
+cases::Case with_variant(const cases::Case& definition, const Variant& variant) {
+  cases::Case result = definition;
+  std::get<cases::Box>(result.body).cells = variant.cells;
+  result.measures.clear();
+  result.expectations.clear();
+  result.fem.refine = 0;
+  if (variant.program == Program::springs) {
+    result.msm = {};
+    result.msm.design = variant.design;
+    result.msm.where = definition.msm.where;
+  } else {
+    result.fem.formulation = variant.formulation;
+    result.fem.element = variant.element;
+  }
+  return result;
+}
 
 long n_unknowns(const std::array<int, 3>& cells, Element element) {
   const int degree = element == Element::q2 || element == Element::q2_p1 ? 2 : 1;

@@ -1,10 +1,42 @@
 #pragma once
 
-#include "compare/sweep/variant.hpp"
-
-#include <vector>
+#include "cases/case/case.hpp"
 
 namespace springproof::compare {
+
+enum class Program { springs, finite_elements, calculix };
+
+/// Springs against everything else: what "which model is faster" is about.
+enum class Family { springs, finite_elements };
+
+/// One way to answer a case on a box: a model, its resolution, and how exactly its equations are solved.
+struct Variant {
+  Program program = Program::springs;
+  cases::Design design{};           ///< springs
+  cases::Formulation formulation{}; ///< finite elements, CalculiX
+  cases::Element element{};         ///< finite elements, CalculiX
+  std::array<int, 3> cells{};       ///< of the box, along x, y, z
+  double tolerance = 1e-9;          ///< on |imbalance| / |applied load|; CalculiX has its own
+};
+
+Family family_of(const Variant& variant);
+
+/// The model without its resolution: "springs hybrid", "log_strain q2", "CalculiX small_strain q1".
+std::string method_name(const Variant& variant);
+
+/// "8x8x8"
+std::string cells_name(const std::array<int, 3>& cells);
+
+/// The grid on whose nodes a variant knows displacements: that of its cells, for a quadratic element of twice
+/// as many.
+std::array<int, 3> field_cells(const Variant& variant);
+
+/// Method, cells and tolerance.
+std::string full_name(const Variant& variant);
+
+/// The case as a variant has it, without measures: their nodes need not exist on every mesh.
+/// @param definition  its body is a box
+cases::Case with_variant(const cases::Case& definition, const Variant& variant);
 
 enum class Extent { full, quick };
 

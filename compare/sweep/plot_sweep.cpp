@@ -1,5 +1,6 @@
+#include "compare/sweep/plot_sweep.hpp"
+
 #include "compare/provenance/whole_file.hpp"
-#include "compare/sweep/write_sweep.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 

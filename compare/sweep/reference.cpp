@@ -2,8 +2,9 @@
 
 #include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/sweep/box_interpolation.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace springproof::compare {
@@ -15,6 +16,22 @@ using Field = std::vector<Eigen::Vector3d>;
 constexpr double mesh_ratio = 2;
 constexpr double factor_with_order = 1.25, factor_without_order = 3; ///< Roache's (1994)
 constexpr double resolved_percent = 1e-7; ///< what a solve to a residual of 1e-9 leaves undecided
+
+/// Where a node of one grid lies between two of another, along one axis.
+struct Place {
+  std::size_t lower;
+  double weight_of_upper; ///< 0 to 1
+};
+
+/// In whole numbers, so that nodes which coincide do so exactly.
+std::vector<Place> places(int from, int to) {
+  std::vector<Place> all;
+  for (int i = 0; i <= to; ++i) {
+    const int lower = std::min(i * from / to, from - 1);
+    all.push_back({static_cast<std::size_t>(lower), static_cast<double>(i * from - lower * to) / to});
+  }
+  return all;
+}
 
 /// A displacement as the measures want it; volumes are those of the cells that it deforms.
 cases::Solution as_solution(const cases::Scene& scene, const Field& displacement) {
@@ -117,6 +134,26 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
             : error_percent(reference.measures[m].value, evaluate(measures[m], reference.scene, solution)));
   }
   return errors;
+}
+
+Field interpolate(const Field& field, const std::array<int, 3>& from, const std::array<int, 3>& to) {
+  const auto n_x = static_cast<std::size_t>(from[0] + 1), n_y = static_cast<std::size_t>(from[1] + 1);
+  assert(field.size() == n_x * n_y * static_cast<std::size_t>(from[2] + 1));
+  Field result;
+  for (const Place& z : places(from[2], to[2]))
+    for (const Place& y : places(from[1], to[1]))
+      for (const Place& x : places(from[0], to[0])) {
+        Eigen::Vector3d value = Eigen::Vector3d::Zero();
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+          const std::size_t i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+          const double weight = (i ? x.weight_of_upper : 1 - x.weight_of_upper) *
+                                (j ? y.weight_of_upper : 1 - y.weight_of_upper) *
+                                (k ? z.weight_of_upper : 1 - z.weight_of_upper);
+          value += weight * field[(z.lower + k) * n_x * n_y + (y.lower + j) * n_x + x.lower + i];
+        }
+        result.push_back(value);
+      }
+  return result;
 }
 
 } // namespace springproof::compare

@@ -51,4 +51,11 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
 /// The case's scene on a box of that many cells, measures and all.  @throws InputError
 cases::Scene scene_on(const cases::Case& definition, const std::array<int, 3>& cells);
 
+/// A field on the nodes of a box's grid, trilinear between them, at the nodes of another grid of the same
+/// box.
+/// @param field     one vector per node, x fastest
+/// @param from, to  cells along x, y, z
+std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d>& field,
+                                         const std::array<int, 3>& from, const std::array<int, 3>& to);
+
 } // namespace springproof::compare

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/sweep/analysis.hpp"
+#include "compare/sweep/sweep.hpp"
 
 namespace springproof::compare {
 
@@ -23,5 +23,14 @@ std::string floor_sentence(const std::string& design, const std::vector<std::str
 
 /// An error is at its floor when it is within this fraction of the one with the most cells.
 constexpr double floor_fraction = 0.1;
+
+/// What a sweep's numbers say, grouped: a heading and its sentences.
+struct Conclusions {
+  std::string heading;
+  std::vector<std::string> sentences;
+};
+/// For both errors and both clocks: the fastest at 10, 5 and 1 per cent, the most accurate in 1, 16 and 100
+/// ms; and for each error where more cells stop helping the springs.
+std::vector<Conclusions> conclusions(const Sweep& sweep);
 
 } // namespace springproof::compare

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/solution.hpp"
-#include "compare/sweep/variant.hpp"
+#include "compare/sweep/plan.hpp"
 
 #include <optional>
 #include <vector>

@@ -5,24 +5,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
-#include <vector>
 
 /// One plain record (Comparison), many writers.
 namespace springproof::compare {
 
+/// Both sides, warnings, the peer, measures, the mesh study and the expectations.
 void write_text(std::ostream& out, const Comparison& comparison);
-
-/// A table of values, orders and error bars, or the one reason why there is none.
-void write_text(std::ostream& out, const MeshStudy& study);
-
-/// Adds to a finite-element side "discretisation_error_percent" (by measure, null where there is none), and
-/// "mesh_study" with the values behind it and the reasons.
-void add_mesh_study(nlohmann::ordered_json& side, const MeshStudy& study);
-
-/// One line: what became of the peer, and how far it is from the finite elements.
-void write_text(std::ostream& out, const Peer& peer);
-
-nlohmann::ordered_json to_json(const Peer& peer);
 
 /// What every document of results begins with: schema, program and machine.
 nlohmann::ordered_json provenance();
@@ -44,5 +32,10 @@ void write_vtu(std::ostream& out, const Comparison& comparison);
 
 /// Any vectors on a mesh's nodes as a .vtu.
 void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
+
+/// The files of `--out`: results.json and comparison.csv of all cases, and the fields of the last one as
+/// .vtu. Called after every case, so that what is finished is on disk before the next begins.
+/// @param done  at least one
+void write_results(const std::string& folder, const std::vector<Comparison>& done);
 
 } // namespace springproof::compare

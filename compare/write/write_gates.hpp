@@ -1,12 +1,18 @@
 #pragma once
 
-#include "compare/gates/gate.hpp"
+#include "compare/gates/comparison.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
 
 /// What the gates said, for people and for machines. Kinds of references are kept apart in each.
 namespace springproof::compare {
+
+/// Why a gate is not met; empty when it is.
+std::string reason_of(const Gate& gate);
+
+/// A gate in words: "alpha_1 error_percent = -4.98 % in [-6.44, -3.38]", or with the reason why not.
+std::string describe(const Gate& gate);
 
 /// One line per gate (and per failure of a case as a whole), warnings under their gates, and counts per kind.
 void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases);
@@ -23,14 +29,5 @@ nlohmann::ordered_json gates_to_json(const std::vector<GatedCase>& cases);
 /// GitHub's workflow commands: "::error file=...,line=...,title=...::message" for what is not met,
 /// "::warning" for warnings.
 void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& cases);
-
-/// How many gates of a kind there are, and how many are met.
-struct GateCount {
-  cases::ReferenceKind kind;
-  int met = 0, all = 0;
-};
-
-/// Of the kinds that occur, in the order of their table.
-std::vector<GateCount> count_by_kind(const std::vector<GatedCase>& cases);
 
 } // namespace springproof::compare

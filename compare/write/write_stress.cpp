@@ -1,5 +1,6 @@
 #include "compare/write/write_stress.hpp"
 
+#include "cases/case/names.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 

@@ -1,4 +1,4 @@
-#include "compare/gates/gate.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include "tests/compare/gates/judged.hpp"
 
@@ -36,12 +36,12 @@ TEST_CASE("a measure that is not there, and a value that is not a number, are ne
   auto renamed = comparison({expectation(Quantity::fem, {9, 11})});
   renamed.measures[0].name = "M";
   CHECK_FALSE(judged::judge(renamed).met());
-  CHECK(judged::judge(renamed).gates[0].judgement.reason == "there is no such measure");
+  CHECK(judged::judge(renamed).gates[0].missed == "there is no such measure");
 
   auto nan = comparison({expectation(Quantity::msm, {-1e300, 1e300})});
   nan.measures[0].msm = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(judged::judge(nan).met());
-  CHECK_FALSE(judged::judge(nan).gates[0].judgement.value);
+  CHECK_FALSE(judged::judge(nan).gates[0].value);
   CHECK_THAT(describe(judged::judge(nan).gates[0]), Catch::Contains("no finite value"));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/gates/gate.hpp"
+#include "compare/gates/comparison.hpp"
 
 #include <string>
 

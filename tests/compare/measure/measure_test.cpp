@@ -137,18 +137,18 @@ TEST_CASE("an expectation is met on its closed interval alone, and never by a va
           "number") {
   cases::Expectation expectation{
       "m", cases::Quantity::error_percent, {-8, 0}, cases::ReferenceKind::published, "", {}};
-  const auto verdict = [&](std::optional<double> error) {
-    return compare::judge(expectation, {{"m", "mm", 1.0, 1.0, error}}).verdict;
+  const auto is_met = [&](std::optional<double> error) {
+    return compare::judge(expectation, {{"m", "mm", 1.0, 1.0, error}}).met();
   };
-  CHECK(verdict(-8) == compare::Verdict::met);
-  CHECK(verdict(0) == compare::Verdict::met);
-  CHECK(verdict(0.001) == compare::Verdict::missed);
-  CHECK(verdict(-8.001) == compare::Verdict::missed);
-  CHECK(verdict(std::nullopt) == compare::Verdict::missed);
-  CHECK(verdict(std::numeric_limits<double>::quiet_NaN()) == compare::Verdict::missed);
-  CHECK(compare::judge(expectation, {}).verdict == compare::Verdict::missed);
-  CHECK(compare::judge(expectation, {{"other", "mm", 1.0, 1.0, -1.0}}).reason == "there is no such measure");
+  CHECK(is_met(-8));
+  CHECK(is_met(0));
+  CHECK_FALSE(is_met(0.001));
+  CHECK_FALSE(is_met(-8.001));
+  CHECK_FALSE(is_met(std::nullopt));
+  CHECK_FALSE(is_met(std::numeric_limits<double>::quiet_NaN()));
+  CHECK_FALSE(compare::judge(expectation, {}).met());
+  CHECK(compare::judge(expectation, {{"other", "mm", 1.0, 1.0, -1.0}}).missed == "there is no such measure");
   expectation.quantity = cases::Quantity::fem;
   expectation.interval = {1, 1};
-  CHECK(verdict(std::nullopt) == compare::Verdict::met); // fem = 1 is judged, not the error
+  CHECK(is_met(std::nullopt)); // fem = 1 is judged, not the error
 }

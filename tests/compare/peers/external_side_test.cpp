@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/gates/gate.hpp"
+#include "compare/gates/comparison.hpp"
 #include "compare/write/write.hpp"
 #include "tests/support/largest.hpp"
 

@@ -1,4 +1,4 @@
-#include "compare/sweep/box_interpolation.hpp"
+#include "compare/sweep/reference.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
 

@@ -1,7 +1,6 @@
 #include "compare/sweep/reference.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/sweep/box_interpolation.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/sweep/box_interpolation.hpp"
 #include "compare/sweep/instructions.hpp"
+#include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "fem_reference/model.hpp"
 

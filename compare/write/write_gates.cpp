@@ -1,0 +1,221 @@
+#include "compare/write/write_gates.hpp"
+
+#include "cases/case/names.hpp"
+#include "compare/write/escape.hpp"
+#include "compare/write/json.hpp"
+#include "compare/write/write.hpp"
+
+#include <algorithm>
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+namespace springproof::compare {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// How many gates of a kind there are, and how many are met.
+struct GateCount {
+  cases::ReferenceKind kind;
+  int met = 0, all = 0;
+};
+
+/// Of the kinds that occur, in the order of their table.
+std::vector<GateCount> count_by_kind(const std::vector<GatedCase>& cases) {
+  std::vector<GateCount> counts;
+  for (const auto& [kind, name] : cases::names<cases::ReferenceKind>()) {
+    GateCount count{kind};
+    for (const GatedCase& judged : cases)
+      for (const Gate& gate : judged.gates) {
+        if (gate.expectation.reference != kind) continue;
+        ++count.all;
+        if (gate.met()) ++count.met;
+      }
+    if (count.all > 0) counts.push_back(count);
+  }
+  return counts;
+}
+
+/// The error bar in words, " (reference +- 0.21 %)", or nothing.
+std::string describe_uncertainty(const Gate& gate) {
+  return gate.uncertainty ? fmt::format(" (reference +- {:.2g} {})", *gate.uncertainty, gate.unit) : "";
+}
+
+void write_line(std::ostream& out, bool met, const std::string& kind, const std::string& name,
+                const std::string& what) {
+  fmt::print(out, "{} {:<10} {}: {}\n", met ? "met   " : "FAILED", kind, name, what);
+}
+
+/// XML 1.0 has no place for control characters, however they are written.
+std::string in_xml(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') c = '?';
+  return escape(text);
+}
+
+/// A test suite of JUnit's.
+struct TestSuite {
+  std::string name;
+  std::string tests{}; ///< as XML
+  int n = 0, n_failures = 0, n_errors = 0;
+
+  /// @param element  "failure" or "error"; empty: passed    @param output  what a server shows besides
+  void add(const std::string& test, const std::string& of_case, const std::string& element,
+           const std::string& message, const std::string& output) {
+    ++n;
+    n_failures += element == "failure";
+    n_errors += element == "error";
+    tests += fmt::format("    <testcase name=\"{}\" classname=\"{}\">\n", in_xml(test), in_xml(of_case));
+    if (!element.empty())
+      tests += fmt::format("      <{0} message=\"{1}\" type=\"{0}\">{1}</{0}>\n", element, in_xml(message));
+    if (!output.empty()) tests += fmt::format("      <system-out>{}</system-out>\n", in_xml(output));
+    tests += "    </testcase>\n";
+  }
+  void add(const GatedCase& judged, const Gate& gate) {
+    const cases::Expectation& expected = gate.expectation;
+    std::string output =
+        fmt::format("{}{}\ninterval: {}\n", describe(gate), describe_uncertainty(gate), expected.reason);
+    if (!gate.warning.empty()) output += "warning: " + gate.warning + "\n";
+    add(fmt::format("{} {} in [{}, {}]", expected.measure, cases::name_of(expected.quantity),
+                    expected.interval[0], expected.interval[1]),
+        judged.name,
+        gate.met()   ? ""
+        : gate.value ? "failure"
+                     : "error",
+        describe(gate), output);
+  }
+  std::string counts() const {
+    return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", n, n_failures, n_errors);
+  }
+};
+
+/// Suites are named after kinds, a suite for what failed as a whole first; empty ones are left out.
+std::vector<TestSuite> make_suites(const std::vector<GatedCase>& cases) {
+  std::vector<TestSuite> suites{{"springproof.cases"}};
+  for (const GatedCase& judged : cases)
+    for (std::size_t f = 0; f < judged.failures.size(); ++f)
+      suites.front().add("solved and judged" + (f == 0 ? "" : fmt::format(" ({})", f + 1)), judged.name,
+                         "error", judged.failures[f], "");
+  if (suites.front().n == 0) suites.clear();
+  for (const GateCount& count : count_by_kind(cases)) {
+    suites.push_back({"springproof." + cases::name_of(count.kind)});
+    for (const GatedCase& judged : cases)
+      for (const Gate& gate : judged.gates)
+        if (gate.expectation.reference == count.kind) suites.back().add(judged, gate);
+  }
+  return suites;
+}
+
+/// GitHub's escapes: in values of properties a colon and a comma would end them too.
+std::string in_annotation(const std::string& text, const std::string& special) {
+  std::string result;
+  for (const char c : text)
+    result += special.find(c) == std::string::npos ? std::string(1, c) : fmt::format("%{:02X}", int{c});
+  return result;
+}
+
+void annotate(std::ostream& out, const char* level, const std::string& file, int line,
+              const std::string& title, const std::string& message) {
+  const std::string in_message = "%\r\n", in_property = "%\r\n:,";
+  fmt::print(out, "::{} file={},line={},title={}::{}\n", level, in_annotation(file, in_property), line,
+             in_annotation(title, in_property), in_annotation(message, in_message));
+}
+
+Json gate_to_json(const GatedCase& judged, const Gate& gate) {
+  const cases::Expectation& expected = gate.expectation;
+  return {{"case", judged.name},
+          {"file", judged.file},
+          {"line", expected.where.line},
+          {"reference", cases::name_of(expected.reference)},
+          {"measure", expected.measure},
+          {"quantity", cases::name_of(expected.quantity)},
+          {"unit", gate.unit},
+          {"interval", expected.interval},
+          {"interval_reason", expected.reason},
+          {"value", gate.value},
+          {"reference_uncertainty", gate.uncertainty},
+          {"met", gate.met()},
+          {"reason", reason_of(gate)},
+          {"warning", gate.warning}};
+}
+
+} // namespace
+
+std::string reason_of(const Gate& gate) {
+  return gate.cause.empty() ? gate.missed : gate.cause;
+}
+
+std::string describe(const Gate& gate) {
+  const cases::Expectation& expected = gate.expectation;
+  const std::string what = fmt::format("{} {}", expected.measure, cases::name_of(expected.quantity));
+  if (!gate.value) return what + ": " + reason_of(gate);
+  return what + fmt::format(" = {:.9g} {}, {} [{}, {}]", *gate.value, gate.unit, gate.met() ? "in" : "not in",
+                            expected.interval[0], expected.interval[1]);
+}
+
+void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases) {
+  for (const GatedCase& judged : cases) {
+    for (const std::string& failure : judged.failures) write_line(out, false, "case", judged.name, failure);
+    for (const Gate& gate : judged.gates) {
+      write_line(out, gate.met(), cases::name_of(gate.expectation.reference), judged.name,
+                 describe(gate) + describe_uncertainty(gate));
+      if (!gate.warning.empty()) fmt::print(out, "       warning: {}\n", gate.warning);
+    }
+  }
+  std::vector<std::string> counts;
+  for (const auto& [kind, met, all] : count_by_kind(cases))
+    counts.push_back(fmt::format("{} {} of {}", cases::name_of(kind), met, all));
+  if (counts.empty()) counts = {"there are none"};
+  fmt::print(out, "{}: {}\n", all_met(cases) ? "all gates met" : "GATES FAILED", fmt::join(counts, ", "));
+}
+
+void write_gates_junit(std::ostream& out, const std::vector<GatedCase>& cases) {
+  const std::vector<TestSuite> suites = make_suites(cases);
+  TestSuite all;
+  for (const TestSuite& suite : suites) {
+    all.n += suite.n;
+    all.n_failures += suite.n_failures;
+    all.n_errors += suite.n_errors;
+    all.tests += fmt::format("  <testsuite name=\"{}\" {}>\n{}  </testsuite>\n", in_xml(suite.name),
+                             suite.counts(), suite.tests);
+  }
+  fmt::print(out,
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"springproof\" {}>\n{}"
+             "</testsuites>\n",
+             all.counts(), all.tests);
+}
+
+Json gates_to_json(const std::vector<GatedCase>& cases) {
+  Json document = provenance();
+  document["gates"] = Json::array();
+  document["failures"] = Json::array();
+  document["kinds"] = Json::object();
+  for (const GatedCase& judged : cases) {
+    for (const Gate& gate : judged.gates) document["gates"].push_back(gate_to_json(judged, gate));
+    for (const std::string& failure : judged.failures)
+      document["failures"].push_back({{"case", judged.name}, {"file", judged.file}, {"reason", failure}});
+  }
+  for (const auto& [kind, met, all] : count_by_kind(cases))
+    document["kinds"][cases::name_of(kind)] = {{"met", met}, {"all", all}};
+  document["met"] = all_met(cases);
+  return document;
+}
+
+void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& cases) {
+  for (const GatedCase& judged : cases) {
+    for (const std::string& failure : judged.failures)
+      annotate(out, "error", judged.file, 1, judged.name, failure);
+    for (const Gate& gate : judged.gates) {
+      const cases::Expectation& expected = gate.expectation;
+      // An expectation of the command line stands nowhere; the case's first line is as near as can be.
+      const int line = std::max(1, expected.where.line);
+      const std::string title = fmt::format("{} ({})", judged.name, cases::name_of(expected.reference));
+      if (!gate.met()) annotate(out, "error", judged.file, line, title, describe(gate));
+      if (!gate.warning.empty())
+        annotate(out, "warning", judged.file, line, title, expected.measure + ": " + gate.warning);
+    }
+  }
+}
+
+} // namespace springproof::compare
