@@ -66,13 +66,6 @@ std::vector<Piece> numbers_in(const std::string& text, std::size_t bracket) {
   return numbers;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 } // namespace
 
 std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
@@ -102,11 +95,10 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
 }
 
 std::string changed_lines(const std::string& path, const std::string& before, const std::string& after) {
-  const std::vector<std::string> old_lines = lines_of(before), new_lines = lines_of(after);
-  std::string text = fmt::format("--- {0}\n+++ {0}\n", path);
-  for (std::size_t n = 0; n < std::min(old_lines.size(), new_lines.size()); ++n)
-    if (old_lines[n] != new_lines[n])
-      text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", n + 1, old_lines[n], new_lines[n]);
+  std::istringstream old_lines(before), new_lines(after);
+  std::string text = fmt::format("--- {0}\n+++ {0}\n", path), removed, added;
+  for (int n = 1; std::getline(old_lines, removed) && std::getline(new_lines, added); ++n)
+    if (removed != added) text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", n, removed, added);
   return text;
 }
 

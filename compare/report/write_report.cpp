@@ -10,10 +10,10 @@
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
-#include <cstdint>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <openssl/evp.h>
 
 namespace springproof::compare {
 
@@ -22,17 +22,10 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 std::string base64(const std::string& bytes) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  return text; // the null that OpenSSL writes behind it is where the text has its own
 }
 
 /// A drawn picture, which is shown where scripts are off and taken to its place by the page's script
