@@ -1,7 +1,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/error_bars/convergence.hpp"
+#include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/solve.hpp"
 #include "mechanics/hexahedron.hpp"
@@ -18,23 +18,13 @@ namespace {
 
 constexpr double largest_unknowns = 1.5e6; ///< of a mesh that is refined to by itself: minutes and gigabytes
 
-bool has_converged(const Answer& answer) {
-  return answer.solution.status == cases::Status::converged;
-}
-
-double seconds(const Answer& answer) {
-  return answer.setup_seconds + answer.solve_seconds;
-}
-
 /// The expectations that ask something of the finite elements, with the measure of each.
 std::vector<std::pair<cases::Expectation, cases::Measure>> gates_of(const cases::Case& definition) {
   std::vector<std::pair<cases::Expectation, cases::Measure>> gates;
-  for (const cases::Expectation& expectation : definition.expectations) {
-    const auto measure = std::find_if(definition.measures.begin(), definition.measures.end(),
-                                      [&](const cases::Measure& m) { return m.name == expectation.measure; });
-    if (expectation.quantity != cases::Quantity::msm && measure != definition.measures.end())
+  for (const cases::Expectation& expectation : definition.expectations)
+    if (const auto* measure = find_named(definition.measures, expectation.measure);
+        measure && expectation.quantity != cases::Quantity::msm)
       gates.emplace_back(expectation, *measure);
-  }
   return gates;
 }
 
@@ -52,7 +42,7 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
   linear.formulation = cases::Formulation::small_strain;
   FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
   const std::string finite = cases::name_of(scene.definition.fem.formulation);
-  if (!has_converged(tried.answer)) {
+  if (!tried.answer.converged()) {
     return {{},
             scene.definition.fem,
             {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
@@ -64,7 +54,7 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
   tried.choices.push_back(fmt::format(
       "formulation {}: the largest displacement gradient of a linear solve ({:.2f} s) is {:.3g} %, {} "
       "the {:.3g} % that the narrowest expectation tolerates",
-      is_small ? cases::name_of(linear.formulation) : finite, seconds(tried.answer), gradient,
+      is_small ? cases::name_of(linear.formulation) : finite, tried.answer.seconds(), gradient,
       is_small ? "below" : "not below", tolerated));
   if (is_small) return tried;
   return {{}, scene.definition.fem, tried.choices};
@@ -93,7 +83,7 @@ std::string furthest_off(const cases::Scene& scene, const std::vector<cases::Sol
 /// Refines from the first answer on, to that of the last mesh.
 void refine_until_accurate(const cases::Scene& scene, FemAnswer& fem) {
   std::vector<cases::Solution> solutions{fem.answer.solution};
-  double total = seconds(fem.answer);
+  double total = fem.answer.seconds();
   std::string off = furthest_off(scene, solutions), gave_up;
   while (!off.empty()) {
     const double next_unknowns = 8. * double(fem.answer.solution.unknowns);
@@ -104,8 +94,8 @@ void refine_until_accurate(const cases::Scene& scene, FemAnswer& fem) {
     cases::Fem finer = fem.resolved;
     ++finer.refine;
     const FemAnswer next = solve_fem_as_given(with_fem(scene, finer));
-    total += seconds(next.answer);
-    if (!has_converged(next.answer)) {
+    total += next.answer.seconds();
+    if (!next.answer.converged()) {
       gave_up = "; the next mesh was not solved: " + next.answer.solution.message;
       break;
     }
@@ -149,8 +139,8 @@ FemAnswer solve_fem(const cases::Scene& scene) {
   const cases::Fem& asked = scene.definition.fem;
   FemAnswer fem{{}, asked, {}};
   if (asked.has_auto_formulation) fem = try_small_strain(scene);
-  if (!has_converged(fem.answer)) fem.answer = solve_fem_as_given(scene).answer;
-  if (!asked.has_auto_accuracy || !has_converged(fem.answer)) return fem;
+  if (!fem.answer.converged()) fem.answer = solve_fem_as_given(scene).answer;
+  if (!asked.has_auto_accuracy || !fem.answer.converged()) return fem;
   if (const auto reason = reason_without_continuum_limit(scene))
     fem.choices.push_back("accuracy refine = 0: " + *reason);
   else

@@ -12,12 +12,6 @@ namespace {
 
 using cases::Quantity;
 
-template<class Named>
-const Named* find(const std::vector<Named>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 /// What the measures alone do not tell.
 std::string why_without_value(const Answers& answers, Quantity quantity) {
   const auto why = [](const char* side, const cases::Solution& solution) -> std::string {
@@ -66,7 +60,7 @@ bool is_finite(const cases::Solution& s) {
 } // namespace
 
 Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
-  const MeasuredValue* found = find(measures, expectation.measure);
+  const MeasuredValue* found = find_named(measures, expectation.measure);
   if (!found) return {expectation, std::nullopt, "there is no such measure"};
   const std::optional<double> value = expectation.quantity == Quantity::error_percent ? found->error_percent
                                       : expectation.quantity == Quantity::msm         ? found->msm
@@ -82,14 +76,14 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
                         const std::vector<MeasuredValue>& measures, const MeshStudy* study) {
   std::vector<Gate> gates;
   for (const cases::Expectation& expected : scene.definition.expectations) {
-    const cases::Measure* measure = find(scene.definition.measures, expected.measure);
-    const StudiedMeasure* studied = study ? find(study->measures, expected.measure) : nullptr;
+    const cases::Measure* measure = find_named(scene.definition.measures, expected.measure);
+    const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
     Gate gate = judge(expected, measures);
     if (expected.quantity == Quantity::error_percent)
       gate.unit = "%";
     else if (measure)
       gate.unit = unit_of(*measure);
-    if (!gate.met() && !gate.value && find(measures, expected.measure))
+    if (!gate.met() && !gate.value && find_named(measures, expected.measure))
       gate.cause = why_without_value(answers, expected.quantity);
     gate.uncertainty = uncertainty(gate, measure, studied);
     gate.warning = warning_of(gate, studied);
@@ -117,7 +111,7 @@ std::vector<std::string> misses(const cases::Stress& limits, const cases::Expect
   if (expected.inverted_cells && s.inverted_cells != *expected.inverted_cells)
     found.push_back(
         fmt::format("{} inverted cells, expected {}", s.inverted_cells, *expected.inverted_cells));
-  const double seconds = answer.setup_seconds + answer.solve_seconds;
+  const double seconds = answer.seconds();
   if (!(seconds <= limits.max_seconds))
     found.push_back(fmt::format("{:.1f} s, above the limit of {:.1f} s", seconds, limits.max_seconds));
   if (!(s.newton_iterations <= limits.max_iterations))

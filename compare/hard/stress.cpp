@@ -10,7 +10,7 @@ namespace {
 
 const Answer* find_converged(const StressResult& result, const std::string& model) {
   for (const auto& [expected, answer, misses] : result.rows)
-    if (expected.model == model && answer.solution.status == cases::Status::converged) return &answer;
+    if (expected.model == model && answer.converged()) return &answer;
   return nullptr;
 }
 

@@ -34,6 +34,14 @@ struct MeasuredValue {
   std::optional<double> peer = std::nullopt; ///< by another program, when it was asked
 };
 
+/// What has that name, or null.
+template<class Named>
+const Named* find_named(const std::vector<Named>& all, const std::string& name) {
+  for (const Named& one : all)
+    if (one.name == name) return &one;
+  return nullptr;
+}
+
 /// All measures of a case, in its order.
 std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers);
 

@@ -15,6 +15,8 @@ struct Answer {
   cases::Solution solution;
   double setup_seconds = 0; ///< design, mesh, degrees of freedom, pattern
   double solve_seconds = 0; ///< from rest to equilibrium
+  double seconds() const { return setup_seconds + solve_seconds; }
+  bool converged() const { return solution.status == cases::Status::converged; }
 };
 
 /// Another program's answer to the finite elements' question.

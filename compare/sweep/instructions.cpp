@@ -19,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside this program; see kernel_calls.cpp for what it takes.
-fs::path driver() {
-  return fs::read_symlink("/proc/self/exe").parent_path() / "springproof_kernel_calls";
-}
-
 const char* const kernels[] = {"force_double",   "force_float",   "product_double",  "product_float",
                                "diagonal_float", "energy_double", "multigrid_cycle", "list_force"};
 constexpr int cells_of_cube = 10;
@@ -33,12 +28,13 @@ std::vector<double> instructions(const std::string& instruction_set) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("springproof-callgrind-{}", ::getpid());
   fs::create_directories(folder);
   std::vector<double> totals;
-  std::string command =
+  // The driver is beside this program; see kernel_calls.cpp for what it takes.
+  const std::string command =
       fmt::format("SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --collect-atstart=no "
                   "--toggle-collect=springproof_counted_call --dump-after=springproof_counted_call "
-                  "--callgrind-out-file='{}/out' '{}' {}",
-                  instruction_set, folder.string(), driver().string(), cells_of_cube);
-  for (const char* kernel : kernels) command += std::string(" ") + kernel;
+                  "--callgrind-out-file='{}/out' '{}/springproof_kernel_calls' {} {}",
+                  instruction_set, folder.string(), fs::read_symlink("/proc/self/exe").parent_path().string(),
+                  cells_of_cube, fmt::join(kernels, " "));
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
   for (std::size_t n = 1; status == 0 && n <= std::size(kernels); ++n) {
     std::ifstream counted(folder / fmt::format("out.{}", n));
@@ -70,11 +66,9 @@ InstructionCounts count_instructions() {
   result.instruction_set = asked && *asked ? asked : "avx2";
   const double n_nodes = std::pow(cells_of_cube + 1., 3);
   try {
-    const std::vector<double> totals = instructions(result.instruction_set);
-    for (std::size_t n = 0; n < totals.size(); ++n)
-      result.counts.push_back({kernels[n], cells_of_cube, totals[n], totals[n] / n_nodes});
+    for (const double total : instructions(result.instruction_set))
+      result.counts.push_back({kernels[result.counts.size()], cells_of_cube, total, total / n_nodes});
   } catch (const std::exception& error) {
-    result.counts.clear();
     result.reason = std::string("sweep --perf: ") + error.what();
   }
   return result;
@@ -84,20 +78,20 @@ void write_instructions_text(std::ostream& out, const InstructionCounts& counts)
   fmt::print(out, "instructions of the springs' kernels, {} (callgrind, one thread)\n",
              counts.instruction_set);
   fmt::print(out, "  {:<16} {:>9} {:>14} {:>10}\n", "kernel", "cells", "per call", "per node");
-  for (const InstructionCount& c : counts.counts)
-    fmt::print(out, "  {:<16} {:>9} {:>14.0f} {:>10.1f}\n", c.kernel, fmt::format("{0}x{0}x{0}", c.cells),
-               c.per_call, c.per_node);
+  for (const auto& [kernel, cells, per_call, per_node] : counts.counts)
+    fmt::print(out, "  {:<16} {:>9} {:>14.0f} {:>10.1f}\n", kernel, fmt::format("{0}x{0}x{0}", cells),
+               per_call, per_node);
 }
 
 nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts) {
   nlohmann::ordered_json document = provenance();
   document["instruction_set"] = counts.instruction_set;
   document["kernels"] = nlohmann::ordered_json::array();
-  for (const InstructionCount& c : counts.counts)
-    document["kernels"].push_back({{"kernel", c.kernel},
-                                   {"cells", {c.cells, c.cells, c.cells}},
-                                   {"instructions_per_call", c.per_call},
-                                   {"instructions_per_node", c.per_node}});
+  for (const auto& [kernel, cells, per_call, per_node] : counts.counts)
+    document["kernels"].push_back({{"kernel", kernel},
+                                   {"cells", {cells, cells, cells}},
+                                   {"instructions_per_call", per_call},
+                                   {"instructions_per_node", per_node}});
   return document;
 }
 

@@ -38,14 +38,6 @@ VariantRun run_here(const Sweep& sweep, const Variant& variant) {
   }
 }
 
-void hold_against_reference(const Reference& reference, SweepRow& row) {
-  const cases::Solution& solution = row.run.first;
-  if (solution.status != cases::Status::converged || solution.displacement.empty()) return;
-  row.field_error_percent = field_error_percent(reference, field_cells(row.variant), solution.displacement);
-  row.measure_error_percent =
-      measure_errors_percent(reference, field_cells(row.variant), solution.displacement);
-}
-
 /// The reference's variants are the first of the plan.
 void find_reference(Sweep& sweep) {
   std::array<std::array<int, 3>, 3> cells;
@@ -63,10 +55,16 @@ void find_reference(Sweep& sweep) {
   sweep.reference = make_reference(sweep.definition, cells, displacement);
 }
 
-void finish(Sweep& sweep, SweepRow& row) {
-  if (sweep.reference) hold_against_reference(*sweep.reference, row);
-  row.run.first.displacement = {};
-  row.run.first.cell_volume = {};
+/// Holds a row against the reference, and drops its displacement.
+void finish(const Sweep& sweep, SweepRow& row) {
+  cases::Solution& solution = row.run.first;
+  if (sweep.reference && solution.status == cases::Status::converged && !solution.displacement.empty()) {
+    const auto cells = field_cells(row.variant);
+    row.field_error_percent = field_error_percent(*sweep.reference, cells, solution.displacement);
+    row.measure_error_percent = measure_errors_percent(*sweep.reference, cells, solution.displacement);
+  }
+  solution.displacement = {};
+  solution.cell_volume = {};
 }
 
 } // namespace

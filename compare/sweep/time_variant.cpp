@@ -26,19 +26,14 @@ namespace springproof::compare {
 
 namespace {
 
-/// One model made and solved twice: from rest, and after the change of the load.
-struct Round {
-  std::optional<double> setup_seconds; ///< absent where they are part of the first solve's
-  Answer first, again;
-};
+using Times = std::vector<double>; ///< seconds
 
-/// One solve of a model that is there.
-Answer timed(const std::function<cases::Solution()>& solve) {
-  return solve_side([] { return 0; }, [&](int) { return solve(); });
-}
-
-bool is_solved(const Answer& answer) {
-  return answer.solution.status == cases::Status::converged;
+/// One solve of a model that is there; its time counts if it found an equilibrium, and so says the answer.
+bool solve_timed(cases::Solution& solution, Times& times, const std::function<cases::Solution()>& solve) {
+  Answer answer = solve_side([] { return 0; }, [&](int) { return solve(); });
+  if (answer.converged()) times.push_back(answer.solve_seconds);
+  solution = std::move(answer.solution);
+  return solution.status == cases::Status::converged;
 }
 
 cases::Scene with_load(cases::Scene scene, double factor) {
@@ -57,18 +52,17 @@ msm::Model make_springs(const cases::Scene& scene) {
   return msm::Model(scene, stiffness_of_cells(design_for(scene)));
 }
 
+/// A round: the model made and solved twice, from rest and after the change of the load.
 /// @param before  displacement under the smaller load
-Round solve_springs(const cases::Scene& scene, double tolerance, const msm::Points& before) {
-  Round round;
+void solve_springs(VariantRun& run, const cases::Scene& scene, double tolerance, const msm::Points& before) {
   Stopwatch stopwatch;
   msm::Model model = make_springs(scene);
-  round.setup_seconds = stopwatch.lap();
+  run.setup_seconds.push_back(stopwatch.lap());
   mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;
   settings.stability = mechanics::Stability::ignore;
-  round.first = timed([&] { return model.solve(settings); });
-  if (is_solved(round.first)) round.again = timed([&] { return model.solve(settings, before); });
-  return round;
+  if (solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); }))
+    solve_timed(run.again, run.again_seconds, [&] { return model.solve(settings, before); });
 }
 
 /// Under the smaller load, where the equilibrium has to be stable.
@@ -101,63 +95,46 @@ msm::Points on_grid(const std::vector<fem_reference::NodeDisplacement>& nodes, c
   return field;
 }
 
-Round solve_finite_elements(const cases::Scene& scene, const Variant& variant, const TimingRules& rules) {
-  Round round;
+/// A round, as of springs.
+void solve_finite_elements(VariantRun& run, const cases::Scene& scene, const Variant& variant,
+                           const TimingRules& rules) {
   Stopwatch stopwatch;
   fem_reference::Model model(scene, MPI_COMM_WORLD);
-  round.setup_seconds = stopwatch.lap();
+  run.setup_seconds.push_back(stopwatch.lap());
   mechanics::EquilibriumSettings settings = fem_reference::default_settings();
   settings.tolerance = variant.tolerance;
   settings.stability = mechanics::Stability::ignore;
-  round.first = timed([&] { return model.solve(settings); });
-  if (!is_solved(round.first)) return round;
+  if (!solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); })) return;
   if (field_cells(variant) != variant.cells)
-    round.first.solution.displacement = on_grid(
-        model.node_displacements(), std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
-  if (agreed(round.first.solve_seconds) > rules.budget_seconds) {
-    round.again.solution.message = "left out: the first solve took longer than the budget";
-    return round;
+    run.first.displacement = on_grid(model.node_displacements(),
+                                     std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
+  if (agreed(run.first_seconds.back()) > rules.budget_seconds) {
+    run.again.message = "left out: the first solve took longer than the budget";
+    return;
   }
-  round.again = timed([&] { return model.solve_again(1 - load_change, settings); });
-  if (is_solved(round.again)) round.again = timed([&] { return model.solve_again(1, settings); });
-  return round;
+  Times untold;
+  if (solve_timed(run.again, untold, [&] { return model.solve_again(1 - load_change, settings); }))
+    solve_timed(run.again, run.again_seconds, [&] { return model.solve_again(1, settings); });
 }
 
-/// A program of its own: reading its input and writing its output are part of the only time there is.
-Round ask_calculix_once(const cases::Scene& scene) {
-  return {std::nullopt, timed([&] { return solve_with_calculix(scene); }), {}};
-}
-
-void append(VariantRun& run, Round round) {
-  if (round.setup_seconds) run.setup_seconds.push_back(*round.setup_seconds);
-  if (is_solved(round.first)) run.first_seconds.push_back(round.first.solve_seconds);
-  if (is_solved(round.again)) run.again_seconds.push_back(round.again.solve_seconds);
-  run.first = std::move(round.first.solution);
-  run.again = std::move(round.again.solution);
-  run.again.displacement.clear();
-  run.again.cell_volume.clear();
-}
-
-VariantRun repeat(const std::function<Round()>& solve, const TimingRules& rules,
+/// A first round stands for all when the budget does not pay for others, else it is the warm-up.
+VariantRun repeat(const std::function<void(VariantRun&)>& add_round, const TimingRules& rules,
                   const std::function<double(double)>& agree) {
   VariantRun run;
+  const auto add = [&] {
+    run.again = {};
+    add_round(run);
+    run.again.displacement.clear();
+    run.again.cell_volume.clear();
+  };
   const Stopwatch stopwatch;
-  Round trial = solve();
+  add();
   const double seconds = agree(stopwatch.seconds());
-  const int n = is_solved(trial.first) ? n_repetitions(seconds, rules) : 0;
-  run.is_warm = n > 0;
-  if (n == 0) append(run, std::move(trial));
-  for (int i = 0; i < n; ++i) append(run, solve());
-  return run;
-}
-
-VariantRun time_springs(const cases::Scene& scene, double tolerance, const TimingRules& rules) {
-  const Answer before = springs_before(scene, tolerance);
-  if (is_solved(before))
-    return repeat([&] { return solve_springs(scene, tolerance, before.solution.displacement); }, rules,
-                  [](double seconds) { return seconds; });
-  VariantRun run;
-  run.first = before.solution;
+  const int n = run.first.status == cases::Status::converged ? n_repetitions(seconds, rules) : 0;
+  if (n == 0) return run;
+  run = {};
+  run.is_warm = true;
+  for (int i = 0; i < n; ++i) add();
   return run;
 }
 
@@ -171,17 +148,24 @@ int n_repetitions(double seconds_of_first, const TimingRules& rules) {
 
 VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
   const cases::Scene scene = cases::make_scene(with_variant(definition, variant));
-  switch (variant.program) {
-  case Program::springs:
-    if (mpi_rank() != 0) return {};
-    return time_springs(scene, variant.tolerance, rules);
-  case Program::finite_elements:
-    return repeat([&] { return solve_finite_elements(scene, variant, rules); }, rules, agreed);
-  case Program::calculix:
-    if (mpi_rank() != 0) return {};
-    return repeat([&] { return ask_calculix_once(scene); }, rules, [](double seconds) { return seconds; });
-  }
-  return {}; // not reached: every program is above
+  if (variant.program == Program::finite_elements)
+    return repeat([&](VariantRun& run) { solve_finite_elements(run, scene, variant, rules); }, rules, agreed);
+  if (mpi_rank() != 0) return {};
+  const auto alone = [](double seconds) { return seconds; };
+  if (variant.program == Program::calculix) // reading its input and writing its output are part of its time
+    return repeat(
+        [&](VariantRun& run) {
+          solve_timed(run.first, run.first_seconds, [&] { return solve_with_calculix(scene); });
+        },
+        rules, alone);
+  const Answer before = springs_before(scene, variant.tolerance);
+  if (before.converged())
+    return repeat(
+        [&](VariantRun& run) { solve_springs(run, scene, variant.tolerance, before.solution.displacement); },
+        rules, alone);
+  VariantRun unstable;
+  unstable.first = before.solution;
+  return unstable;
 }
 
 std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {

@@ -30,20 +30,15 @@ std::string literal(double number) {
 }
 
 template<class Value>
-std::string literal(const std::vector<Value>& values) {
-  std::vector<std::string> literals;
-  for (const Value& value : values) literals.push_back(literal(value));
-  return fmt::format("[{}]", fmt::join(literals, ", "));
-}
-
-template<class Value>
 std::string assignment(const std::string& name, const Value& value) {
   return fmt::format("{} = {}\n", name, literal(value));
 }
 
 template<class Value>
 std::string assignment(const std::string& name, const std::vector<Value>& values) {
-  return fmt::format("array {}[{}] = {}\n", name, values.size(), literal(values));
+  std::vector<std::string> literals;
+  for (const Value& value : values) literals.push_back(literal(value));
+  return fmt::format("array {}[{}] = [{}]\n", name, values.size(), fmt::join(literals, ", "));
 }
 
 void write_script(std::ostream& out, const std::string& name, const std::string& script,

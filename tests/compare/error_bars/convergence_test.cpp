@@ -1,4 +1,4 @@
-#include "compare/error_bars/convergence.hpp"
+#include "compare/error_bars/mesh_study.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
