@@ -1,7 +1,10 @@
 #include "compare/sweep/analysis.hpp"
 
+#include "compare/measure/box_plot.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -22,6 +25,56 @@ std::optional<std::size_t> best(const std::vector<Point>& points, const IsAllowe
 
 std::tuple<double, double> speed_first(const Point& p) {
   return {p.seconds, p.error_percent};
+}
+
+std::string describe(const Point& p) {
+  return fmt::format("{} ({}, {:.2g} %)", p.name, time_text(p.seconds), p.error_percent);
+}
+
+const char* name_of(Family family) {
+  return family == Family::springs ? "springs" : "finite elements";
+}
+
+template<class Key>
+const Point& least(const std::vector<Point>& points, const Key& key) {
+  return *std::min_element(points.begin(), points.end(),
+                           [&](const Point& a, const Point& b) { return key(a) < key(b); });
+}
+
+/// Two digits, or the whole number.
+std::string factor_text(double factor) {
+  return factor < 99.5 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
+}
+
+constexpr const char* without_points = "no model was measured.";
+
+const char* what(Error error) {
+  return error == Error::field ? "displacement field" : "worst measure";
+}
+
+const char* what(Clock clock) {
+  return clock == Clock::first_answer ? "first answer (setup and solve from rest)"
+                                      : "re-solve after a load change of 5 %";
+}
+
+std::vector<std::string> speed_sentences(const Sweep& sweep, Error error, Clock clock) {
+  const std::vector<Point> points = points_of(sweep, error, clock);
+  const double uncertainty = uncertainty_percent(*sweep.reference, error);
+  std::vector<std::string> sentences;
+  for (const double percent : {10., 5., 1.})
+    sentences.push_back(fastest_sentence(points, percent, uncertainty));
+  for (const double seconds : {1e-3, 16e-3, 100e-3})
+    sentences.push_back(most_accurate_sentence(points, seconds, uncertainty));
+  return sentences;
+}
+
+std::vector<std::string> floor_sentences(const Sweep& sweep, Error error) {
+  std::vector<std::string> levels, sentences;
+  for (const auto& cells : sweep.plan.levels) levels.push_back(cells_name(cells));
+  for (const std::string& method : methods_of(sweep))
+    if (method.rfind("springs ", 0) == 0)
+      sentences.push_back(floor_sentence(method, levels, errors_by_level(sweep, method, error)));
+  return sentences;
 }
 
 } // namespace
@@ -63,6 +116,141 @@ std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<
   std::size_t level = errors.size() - 1;
   while (level > 0 && errors[level - 1] && std::abs(*errors[level - 1] - floor) <= fraction * floor) --level;
   return level;
+}
+
+std::optional<double> worst_measure_error(const SweepRow& row) {
+  std::optional<double> worst;
+  for (const auto& error : row.measure_error_percent)
+    if (error) worst = std::max(worst.value_or(0), std::abs(*error));
+  return worst;
+}
+
+std::optional<double> error_of(const SweepRow& row, Error error) {
+  return error == Error::field ? row.field_error_percent : worst_measure_error(row);
+}
+
+std::optional<double> median_seconds(const SweepRow& row, Clock clock) {
+  if (clock == Clock::re_solve) return median(row.run.again_seconds);
+  const auto first = median(row.run.first_seconds);
+  if (!first) return std::nullopt;
+  return *first + median(row.run.setup_seconds).value_or(0); // CalculiX does not tell them apart
+}
+
+std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock) {
+  std::vector<Point> points;
+  for (const SweepRow& row : sweep.rows) {
+    const auto seconds = median_seconds(row, clock), percent = error_of(row, error);
+    if (seconds && percent)
+      points.push_back({full_name(row.variant), family_of(row.variant), *seconds, *percent});
+  }
+  return points;
+}
+
+std::vector<std::optional<double>> errors_by_level(const Sweep& sweep, const std::string& method,
+                                                   Error error) {
+  std::vector<std::optional<double>> errors;
+  for (const auto& cells : sweep.plan.levels) {
+    const SweepRow* tightest = nullptr;
+    for (const SweepRow& row : sweep.rows)
+      if (method_name(row.variant) == method && row.variant.cells == cells &&
+          (!tightest || row.variant.tolerance < tightest->variant.tolerance))
+        tightest = &row;
+    errors.push_back(tightest ? error_of(*tightest, error) : std::nullopt);
+  }
+  return errors;
+}
+
+double uncertainty_percent(const Reference& reference, Error error) {
+  if (error == Error::field) return reference.field.uncertainty_percent;
+  double largest = 0;
+  for (const ReferenceValue& value : reference.measures)
+    largest = std::max(largest, value.uncertainty_percent);
+  return largest;
+}
+
+std::vector<std::string> methods_of(const Sweep& sweep) {
+  std::vector<std::string> methods;
+  for (const SweepRow& row : sweep.rows) {
+    const std::string method = method_name(row.variant);
+    if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
+  }
+  return methods;
+}
+
+std::string time_text(double seconds) {
+  return seconds < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
+}
+
+std::string fastest_sentence(const std::vector<Point>& points, double error_percent,
+                             double uncertainty_percent) {
+  const std::string start = fmt::format("within {:g} %: ", error_percent);
+  if (points.empty()) return start + without_points;
+  if (!(uncertainty_percent < error_percent))
+    return start + fmt::format("not to be told, for the reference is itself uncertain by {:.2g} %.",
+                               uncertainty_percent);
+  const auto fastest = fastest_within(points, error_percent);
+  if (!fastest)
+    return start + "no model gets there; nearest comes " +
+           describe(least(points, [](const Point& p) { return p.error_percent; })) + ".";
+  const Point& winner = points[*fastest];
+  const Family other = winner.family == Family::springs ? Family::finite_elements : Family::springs;
+  const auto rival = fastest_within(points, error_percent, other);
+  const std::string sentence = start + describe(winner) + " is the fastest";
+  if (!rival) return sentence + fmt::format("; no {} get there.", name_of(other));
+  return sentence + fmt::format(", {} times as fast as the fastest {}, {}.",
+                                factor_text(points[*rival].seconds / winner.seconds), name_of(other),
+                                describe(points[*rival]));
+}
+
+std::string most_accurate_sentence(const std::vector<Point>& points, double seconds,
+                                   double uncertainty_percent) {
+  const std::string start = fmt::format("in {}: ", time_text(seconds));
+  if (points.empty()) return start + without_points;
+  const auto found = most_accurate_within(points, seconds);
+  if (!found)
+    return start + "no model answers in that time; the fastest is " +
+           describe(least(points, [](const Point& p) { return p.seconds; })) + ".";
+  const std::string sentence = start + describe(points[*found]) + " is the most accurate";
+  if (points[*found].error_percent > uncertainty_percent) return sentence + ".";
+  return sentence +
+         fmt::format(", as far as the reference's uncertainty of {:.2g} % can tell.", uncertainty_percent);
+}
+
+std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
+                           const std::vector<std::optional<double>>& errors) {
+  const auto level = first_level_at_floor(errors, floor_fraction);
+  if (!level) return design + ": no error on the finest level, so no floor is known.";
+  const double floor = *errors.back();
+  std::size_t least_level = errors.size() - 1;
+  for (std::size_t l = 0; l < errors.size(); ++l)
+    if (errors[l] && *errors[l] < *errors[least_level]) least_level = l;
+  std::string sentence;
+  if (*level + 1 == errors.size())
+    sentence = fmt::format("{}: no floor in sight: the error still changes up to {}, where it is {:.2g} %",
+                           design, levels.back(), floor);
+  else
+    sentence =
+        fmt::format("{}: more cells than {} do not help: from there on the error stays within {:g} % of its "
+                    "floor, {:.2g} %",
+                    design, levels[*level], 100 * floor_fraction, floor);
+  if (*errors[least_level] < (1 - floor_fraction) * floor)
+    sentence += fmt::format(" (the least, {:.2g} %, is that of {}, where errors of mesh and model cancel)",
+                            *errors[least_level], levels[least_level]);
+  return sentence + ".";
+}
+
+std::vector<Conclusions> conclusions(const Sweep& sweep) {
+  static_assert(load_change == 0.05, "a heading here says so");
+  if (!sweep.reference)
+    return {{"nothing can be concluded without a reference", {sweep.reason_without_reference}}};
+  std::vector<Conclusions> all;
+  for (const Error error : {Error::field, Error::worst_measure}) {
+    if (error == Error::worst_measure && sweep.reference->measures.empty()) continue;
+    for (const Clock clock : {Clock::first_answer, Clock::re_solve})
+      all.push_back({std::string(what(error)) + ", " + what(clock), speed_sentences(sweep, error, clock)});
+    all.push_back({std::string(what(error)) + ", more cells", floor_sentences(sweep, error)});
+  }
+  return all;
 }
 
 } // namespace springproof::compare

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "compare/sweep/plan.hpp"
+#include "compare/sweep/sweep.hpp"
 
-#include <optional>
-#include <vector>
-
-/// What a sweep's numbers say: functions of plain values. Variants that failed or could not be measured are
-/// left out before.
+/// What a sweep's numbers say. Variants that failed or could not be measured give no points.
 namespace springproof::compare {
 
 /// One variant as a point of the plane of time and error.
@@ -35,5 +31,63 @@ std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points
 /// @param errors  per level, coarse to fine; where one is missing, no floor reaches across
 std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors,
                                                 double fraction);
+
+/// What an error is of.
+enum class Error { field, worst_measure };
+/// What a time is of.
+enum class Clock {
+  first_answer, ///< setup and the solve from rest
+  re_solve      ///< the solve after a small change of the load, from the displacement before
+};
+
+/// Largest error of a measure, without sign; nothing when no measure has one.
+std::optional<double> worst_measure_error(const SweepRow& row);
+
+std::optional<double> error_of(const SweepRow& row, Error error);
+
+/// Median of the repetitions; nothing without any.
+std::optional<double> median_seconds(const SweepRow& row, Clock clock);
+
+/// The rows that have both a time and an error.
+std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock);
+
+/// Errors of a spring design at its tightest tolerance, per level of the plan.
+std::vector<std::optional<double>> errors_by_level(const Sweep& sweep, const std::string& method,
+                                                   Error error);
+
+/// The reference's own uncertainty, percent: of the displacement, or the largest of a measure.
+double uncertainty_percent(const Reference& reference, Error error);
+
+/// Names of the methods in the order of the rows.
+std::vector<std::string> methods_of(const Sweep& sweep);
+
+/// A time for reading: "0.41 ms", "16 ms", "2.5 s".
+std::string time_text(double seconds);
+
+/// At an error: which model is fastest, and by what factor over the fastest of the other family.
+/// @param uncertainty_percent  the reference's own; no model can be told to be within less
+std::string fastest_sentence(const std::vector<Point>& points, double error_percent,
+                             double uncertainty_percent);
+
+/// At a time: which model is most accurate.
+std::string most_accurate_sentence(const std::vector<Point>& points, double seconds,
+                                   double uncertainty_percent);
+
+/// Where more cells stop helping a design.
+/// @param levels  names of the resolutions, coarse to fine     @param errors  percent, one per level
+std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
+                           const std::vector<std::optional<double>>& errors);
+
+/// An error is at its floor when it is within this fraction of the one with the most cells.
+constexpr double floor_fraction = 0.1;
+
+/// What a sweep's numbers say, grouped: a heading and its sentences.
+struct Conclusions {
+  std::string heading;
+  std::vector<std::string> sentences;
+};
+/// For both errors and both clocks: the fastest at 10, 5 and 1 per cent, the most accurate in 1, 16 and 100
+/// ms; and for each error where more cells stop helping the springs.
+std::vector<Conclusions> conclusions(const Sweep& sweep);
 
 } // namespace springproof::compare

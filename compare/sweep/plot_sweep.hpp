@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/sweep/sweep.hpp"
+#include "compare/sweep/analysis.hpp"
 
 namespace springproof::compare {
 

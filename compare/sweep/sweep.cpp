@@ -1,12 +1,9 @@
 #include "compare/sweep/sweep.hpp"
 
-#include "compare/measure/box_plot.hpp"
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <mpi.h>
 
 namespace springproof::compare {
@@ -102,65 +99,6 @@ Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules&
     on_row(sweep);
   }
   return sweep;
-}
-
-std::optional<double> worst_measure_error(const SweepRow& row) {
-  std::optional<double> worst;
-  for (const auto& error : row.measure_error_percent)
-    if (error) worst = std::max(worst.value_or(0), std::abs(*error));
-  return worst;
-}
-
-std::optional<double> error_of(const SweepRow& row, Error error) {
-  return error == Error::field ? row.field_error_percent : worst_measure_error(row);
-}
-
-std::optional<double> median_seconds(const SweepRow& row, Clock clock) {
-  if (clock == Clock::re_solve) return median(row.run.again_seconds);
-  const auto first = median(row.run.first_seconds);
-  if (!first) return std::nullopt;
-  return *first + median(row.run.setup_seconds).value_or(0); // CalculiX does not tell them apart
-}
-
-std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock) {
-  std::vector<Point> points;
-  for (const SweepRow& row : sweep.rows) {
-    const auto seconds = median_seconds(row, clock), percent = error_of(row, error);
-    if (seconds && percent)
-      points.push_back({full_name(row.variant), family_of(row.variant), *seconds, *percent});
-  }
-  return points;
-}
-
-std::vector<std::optional<double>> errors_by_level(const Sweep& sweep, const std::string& method,
-                                                   Error error) {
-  std::vector<std::optional<double>> errors;
-  for (const auto& cells : sweep.plan.levels) {
-    const SweepRow* tightest = nullptr;
-    for (const SweepRow& row : sweep.rows)
-      if (method_name(row.variant) == method && row.variant.cells == cells &&
-          (!tightest || row.variant.tolerance < tightest->variant.tolerance))
-        tightest = &row;
-    errors.push_back(tightest ? error_of(*tightest, error) : std::nullopt);
-  }
-  return errors;
-}
-
-double uncertainty_percent(const Reference& reference, Error error) {
-  if (error == Error::field) return reference.field.uncertainty_percent;
-  double largest = 0;
-  for (const ReferenceValue& value : reference.measures)
-    largest = std::max(largest, value.uncertainty_percent);
-  return largest;
-}
-
-std::vector<std::string> methods_of(const Sweep& sweep) {
-  std::vector<std::string> methods;
-  for (const SweepRow& row : sweep.rows) {
-    const std::string method = method_name(row.variant);
-    if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
-  }
-  return methods;
 }
 
 } // namespace springproof::compare

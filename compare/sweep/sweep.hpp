@@ -1,6 +1,5 @@
 #pragma once
 
-#include "compare/sweep/analysis.hpp"
 #include "compare/sweep/plan.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/time_variant.hpp"
@@ -42,34 +41,5 @@ struct Sweep {
 /// that the reference's mesh does not have
 Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
                 const std::string& program, const std::function<void(const Sweep&)>& on_row);
-
-/// What an error is of.
-enum class Error { field, worst_measure };
-/// What a time is of.
-enum class Clock {
-  first_answer, ///< setup and the solve from rest
-  re_solve      ///< the solve after a small change of the load, from the displacement before
-};
-
-/// Largest error of a measure, without sign; nothing when no measure has one.
-std::optional<double> worst_measure_error(const SweepRow& row);
-
-std::optional<double> error_of(const SweepRow& row, Error error);
-
-/// Median of the repetitions; nothing without any.
-std::optional<double> median_seconds(const SweepRow& row, Clock clock);
-
-/// The rows that have both a time and an error.
-std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock);
-
-/// Errors of a spring design at its tightest tolerance, per level of the plan.
-std::vector<std::optional<double>> errors_by_level(const Sweep& sweep, const std::string& method,
-                                                   Error error);
-
-/// The reference's own uncertainty, percent: of the displacement, or the largest of a measure.
-double uncertainty_percent(const Reference& reference, Error error);
-
-/// Names of the methods in the order of the rows.
-std::vector<std::string> methods_of(const Sweep& sweep);
 
 } // namespace springproof::compare

@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/sweep/sentences.hpp"
+#include "compare/sweep/analysis.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"

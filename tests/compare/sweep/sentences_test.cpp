@@ -1,4 +1,4 @@
-#include "compare/sweep/sentences.hpp"
+#include "compare/sweep/analysis.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

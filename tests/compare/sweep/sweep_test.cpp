@@ -2,6 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/sweep/analysis.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
