@@ -9,9 +9,9 @@
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write_stress.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -29,26 +29,23 @@ struct StressOptions {
   bool json = false;
 };
 
-fs::path hard_cases() {
-  return fs::path(cases_folder()) / "hard";
-}
-
-/// Files of all hard cases, in the order of their names.
-std::vector<std::string> all_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(hard_cases()))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
+/// Files of the hard cases by their names.
+std::map<std::string, std::string> hard_cases() {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(cases_folder()) / "hard"))
+    if (entry.path().extension() == ".toml") files[entry.path().stem().string()] = entry.path().string();
   return files;
 }
 
-/// @param name  of a file in cases/hard, without its ending, or a path
+/// @param name  of a hard case, or a path
 std::string file_of(const std::string& name) {
   if (fs::path(name).extension() == ".toml") return name;
-  const fs::path file = hard_cases() / (name + ".toml");
-  if (fs::exists(file)) return file.string();
   std::vector<std::string> known;
-  for (const std::string& path : all_files()) known.push_back(fs::path(path).stem().string());
+  for (const auto& [known_name, file] : hard_cases())
+    if (known_name == name)
+      return file;
+    else
+      known.push_back(known_name);
   const auto nearest = cases::nearest_name(name, known);
   throw cases::InputError(
       "stress: there is no hard case \"" + name + "\"" +
@@ -61,7 +58,8 @@ std::string file_of(const std::string& name) {
 std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
   std::vector<std::string> files;
   for (const std::string& name : options.names) files.push_back(file_of(name));
-  if (files.empty()) files = all_files();
+  if (files.empty())
+    for (const auto& [name, file] : hard_cases()) files.push_back(file);
   std::vector<cases::Case> hard;
   for (const std::string& file : files) {
     cases::Case next = cases::read_hard_case(file);

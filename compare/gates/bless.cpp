@@ -66,19 +66,7 @@ std::vector<Piece> numbers_in(const std::string& text, std::size_t bracket) {
   return numbers;
 }
 
-} // namespace
-
-std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
-  std::vector<BlessedInterval> blessed;
-  for (const Gate& gate : judged.gates) {
-    const cases::Expectation& expected = gate.expectation;
-    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.value) continue;
-    const double half = (expected.interval[1] - expected.interval[0]) / 2;
-    blessed.push_back({expected.interval_where, {*gate.value - half, *gate.value + half}});
-  }
-  return blessed;
-}
-
+/// The text of a case file with some intervals replaced.
 std::string with_intervals(const std::string& text, const std::vector<BlessedInterval>& blessed) {
   std::vector<Piece> pieces;
   for (const BlessedInterval& next : blessed) {
@@ -94,12 +82,26 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
   return result;
 }
 
+/// The lines that two texts of equally many lines differ in.
 std::string changed_lines(const std::string& path, const std::string& before, const std::string& after) {
   std::istringstream old_lines(before), new_lines(after);
   std::string text = fmt::format("--- {0}\n+++ {0}\n", path), removed, added;
   for (int n = 1; std::getline(old_lines, removed) && std::getline(new_lines, added); ++n)
     if (removed != added) text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", n, removed, added);
   return text;
+}
+
+} // namespace
+
+std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
+  std::vector<BlessedInterval> blessed;
+  for (const Gate& gate : judged.gates) {
+    const cases::Expectation& expected = gate.expectation;
+    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.value) continue;
+    const double half = (expected.interval[1] - expected.interval[0]) / 2;
+    blessed.push_back({expected.interval_where, {*gate.value - half, *gate.value + half}});
+  }
+  return blessed;
 }
 
 std::string bless(const GatedCase& judged) {

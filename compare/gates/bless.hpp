@@ -18,15 +18,10 @@ struct BlessedInterval {
 /// do. A gate without a value is left as it is.
 std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged);
 
-/// The text of a case file with some intervals replaced and nothing else touched.
+/// Rewrites the intervals in the file of a judged case and nothing else, whole or not at all.
+/// @return the difference as a unified diff without context; empty when there was nothing to bless, and then
+/// the file is not touched
 /// @throws InputError if no interval stands where it should, for the file has changed meanwhile
-std::string with_intervals(const std::string& text, const std::vector<BlessedInterval>& blessed);
-
-/// The lines that two texts of equally many lines differ in, as a unified diff without context.
-std::string changed_lines(const std::string& path, const std::string& before, const std::string& after);
-
-/// Rewrites the file of a judged case, whole or not at all.
-/// @return the difference; empty when there was nothing to bless, and then the file is not touched
 std::string bless(const GatedCase& judged);
 
 /// Whether a case has an interval that may be blessed.

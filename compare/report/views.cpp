@@ -2,6 +2,7 @@
 
 #include "compare/thesis/draw_figures.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -56,12 +57,9 @@ double largest_scale(const Overlay& overlay) {
   double largest = 0;
   for (const DeformedBody* body : {&overlay.fem, &overlay.springs})
     for (const Eigen::Vector3d& u : *body->displacement) largest = std::max(largest, u.norm());
-  Eigen::Vector3d low = overlay.fem.mesh->nodes.front(), high = low;
-  for (const Eigen::Vector3d& x : overlay.fem.mesh->nodes) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return largest > 0 ? std::clamp(std::round(0.5 * (high - low).maxCoeff() / largest), 2.0, 10.0) : 2.0;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : overlay.fem.mesh->nodes) box.extend(x);
+  return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 10.0) : 2.0;
 }
 
 } // namespace

@@ -18,6 +18,14 @@ constexpr std::array<Element, 3> elements{Element::q1, Element::q1_bbar, Element
 constexpr double tight = 1e-9;
 constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
 
+/// Unknowns of a displacement element on a box, held ones included.
+long n_unknowns(const std::array<int, 3>& cells, Element element) {
+  const int degree = element == Element::q2 || element == Element::q2_p1 ? 2 : 1;
+  long n = 3;
+  for (const int c : cells) n *= degree * c + 1;
+  return n;
+}
+
 /// Unknowns above which a solve takes so long that three cubes would not be swept in ten minutes on two
 /// cores.
 struct Limits {
@@ -45,6 +53,10 @@ Variant finite_elements(Formulation formulation, Element element, const std::arr
   return {Program::finite_elements, {}, formulation, element, cells, tolerance};
 }
 
+void leave_out(Plan& plan, const std::string& what, long size, long limit) {
+  plan.left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
+}
+
 void add_springs(Plan& plan, Extent extent) {
   for (const cases::Design design : msm::methods())
     for (const auto& cells : plan.levels)
@@ -66,7 +78,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
         cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
     const long limit = is_linear ? limits.small : limits.finite;
     if (size > limit) {
-      plan.left_out.push_back({name, fmt::format("{} unknowns, above the limit of {}", size, limit)});
+      leave_out(plan, name, size, limit);
       continue;
     }
     for (const double tolerance : tolerances) {
@@ -76,8 +88,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
       plan.variants.push_back(finite_elements(formulation, element, cells, tolerance));
     }
     if (!is_linear && extent == Extent::full && size > limits.loose)
-      plan.left_out.push_back({name + " at looser tolerances",
-                               fmt::format("{} unknowns, above the limit of {}", size, limits.loose)});
+      leave_out(plan, name + " at looser tolerances", size, limits.loose);
   }
 }
 
@@ -89,8 +100,7 @@ void add_calculix(Plan& plan) {
       if (size <= limits.calculix)
         plan.variants.push_back(variant);
       else
-        plan.left_out.push_back({method_name(variant) + " " + cells_name(cells),
-                                 fmt::format("{} unknowns, above the limit of {}", size, limits.calculix)});
+        leave_out(plan, method_name(variant) + " " + cells_name(cells), size, limits.calculix);
     }
 }
 
@@ -138,13 +148,6 @@ cases::Case with_variant(const cases::Case& definition, const Variant& variant) 
     result.fem.element = variant.element;
   }
   return result;
-}
-
-long n_unknowns(const std::array<int, 3>& cells, Element element) {
-  const int degree = element == Element::q2 || element == Element::q2_p1 ? 2 : 1;
-  long n = 3;
-  for (const int c : cells) n *= degree * c + 1;
-  return n;
 }
 
 Plan plan_sweep(const cases::Case& definition, Extent extent) {

@@ -59,7 +59,4 @@ struct Plan {
 /// @throws InputError for a body that is no box or a material without small strain
 Plan plan_sweep(const cases::Case& definition, Extent extent);
 
-/// Unknowns of a displacement element on a box, held ones included.
-long n_unknowns(const std::array<int, 3>& cells, cases::Element element);
-
 } // namespace springproof::compare

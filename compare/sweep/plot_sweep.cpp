@@ -51,23 +51,24 @@ std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
   std::vector<Series> all;
   int n_designs = 0;
   for (const std::string& method : methods_of(sweep)) {
-    Series series{method, {}, std::nullopt, {}, {}};
+    std::vector<const SweepRow*> rows;
     double tightest = 1;
-    for (const SweepRow& row : sweep.rows)
-      if (method_name(row.variant) == method) tightest = std::min(tightest, row.variant.tolerance);
     for (const SweepRow& row : sweep.rows) {
       if (method_name(row.variant) != method) continue;
-      if (series.appearance.linetype == 0) {
-        series.appearance = appearance(row.variant, n_designs);
-        if (row.variant.program == Program::springs) {
-          ++n_designs;
-          series.floor = errors_by_level(sweep, method, picture.error).back();
-        }
-      }
-      const auto seconds = median_seconds(row, picture.clock), error = error_of(row, picture.error);
+      rows.push_back(&row);
+      tightest = std::min(tightest, row.variant.tolerance);
+    }
+    const Variant& first = rows.front()->variant;
+    Series series{method, appearance(first, n_designs), std::nullopt, {}, {}};
+    if (first.program == Program::springs) {
+      ++n_designs;
+      series.floor = errors_by_level(sweep, method, picture.error).back();
+    }
+    for (const SweepRow* row : rows) {
+      const auto seconds = median_seconds(*row, picture.clock), error = error_of(*row, picture.error);
       if (!seconds || !error || !(*error > 0)) continue; // zero has no place on a logarithmic axis
-      (row.variant.tolerance == tightest ? series.tight : series.loose)
-          .push_back({full_name(row.variant), family_of(row.variant), *seconds, *error});
+      (row->variant.tolerance == tightest ? series.tight : series.loose)
+          .push_back({full_name(row->variant), family_of(row->variant), *seconds, *error});
     }
     if (!series.tight.empty() || !series.loose.empty()) all.push_back(series);
   }
