@@ -93,7 +93,7 @@ std::string changed_lines(const std::string& path, const std::string& before, co
 
 } // namespace
 
-std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
+std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged) {
   std::vector<BlessedInterval> blessed;
   for (const Gate& gate : judged.gates) {
     const cases::Expectation& expected = gate.expectation;
@@ -104,13 +104,14 @@ std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged) {
   return blessed;
 }
 
-std::string bless(const GatedCase& judged) {
+std::string bless(const Comparison& judged) {
   const std::vector<BlessedInterval> blessed = intervals_to_bless(judged);
   if (blessed.empty()) return "";
-  const std::string before = read_file(judged.file);
+  const std::string before = read_file(judged.scene.definition.file);
   const std::string after = with_intervals(before, blessed);
-  write_file(std::filesystem::canonical(judged.file), [&](std::ostream& out) { out << after; });
-  return changed_lines(judged.file, before, after);
+  write_file(std::filesystem::canonical(judged.scene.definition.file),
+             [&](std::ostream& out) { out << after; });
+  return changed_lines(judged.scene.definition.file, before, after);
 }
 
 bool has_regression(const cases::Case& definition) {

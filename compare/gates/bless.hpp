@@ -16,13 +16,13 @@ struct BlessedInterval {
 /// The regression intervals of a case that its values lie outside of, each as wide as it was and around the
 /// value now. No other kind is ever moved: what is exact, published or another's does not change because we
 /// do. A gate without a value is left as it is.
-std::vector<BlessedInterval> intervals_to_bless(const GatedCase& judged);
+std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged);
 
 /// Rewrites the intervals in the file of a judged case and nothing else, whole or not at all.
 /// @return the difference as a unified diff without context; empty when there was nothing to bless, and then
 /// the file is not touched
 /// @throws InputError if no interval stands where it should, for the file has changed meanwhile
-std::string bless(const GatedCase& judged);
+std::string bless(const Comparison& judged);
 
 /// Whether a case has an interval that may be blessed.
 bool has_regression(const cases::Case& definition);

@@ -23,24 +23,22 @@ Comparison compare_case(const cases::Case& definition, const Request& request) {
   return comparison_of(std::move(scene), std::move(answers));
 }
 
-bool GatedCase::met() const {
-  return failures.empty() &&
+std::vector<std::string> Comparison::failures() const {
+  std::vector<std::string> found;
+  if (gates.empty()) found.emplace_back("it expects nothing: there is no [[expect]]");
+  for (const auto& [side, answer] : {std::pair("fem", &answers.fem), std::pair("msm", &answers.msm)})
+    if (answer->solution.status == cases::Status::failed)
+      found.push_back(describe_failure(side, answer->solution));
+  return found;
+}
+
+bool Comparison::met() const {
+  return failures().empty() &&
          std::all_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.met(); });
 }
 
-GatedCase judge_gates(const Comparison& comparison) {
-  const cases::Case& definition = comparison.scene.definition;
-  GatedCase judged{definition.name, definition.file, comparison.gates, {}};
-  if (judged.gates.empty()) judged.failures.push_back("it expects nothing: there is no [[expect]]");
-  for (const auto& [side, answer] :
-       {std::pair("fem", &comparison.answers.fem), std::pair("msm", &comparison.answers.msm)})
-    if (answer->solution.status == cases::Status::failed)
-      judged.failures.push_back(describe_failure(side, answer->solution));
-  return judged;
-}
-
-bool all_met(const std::vector<GatedCase>& cases) {
-  return std::all_of(cases.begin(), cases.end(), [](const GatedCase& c) { return c.met(); });
+bool all_met(const std::vector<Comparison>& cases) {
+  return std::all_of(cases.begin(), cases.end(), [](const Comparison& c) { return c.met(); });
 }
 
 bool asks_for_mesh_study(const cases::Case& definition) {

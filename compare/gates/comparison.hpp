@@ -12,6 +12,12 @@ struct Comparison {
   std::vector<MeasuredValue> measures;
   std::vector<Gate> gates;             ///< one per expectation
   std::optional<MeshStudy> mesh_study; ///< when asked for
+
+  /// What failed of the case as a whole: it expects nothing, a solve failed.
+  std::vector<std::string> failures() const;
+  /// All gates are met and nothing failed. Never met are: an expectation of a measure that is not there, or
+  /// has no finite value; a case that expects nothing; a case of which a solve has failed.
+  bool met() const;
 };
 
 /// Measures the answers to a case, and judges its expectations by that.
@@ -20,19 +26,7 @@ Comparison comparison_of(cases::Scene scene, Answers answers);
 /// Solves a case in this process and compares. Collective over MPI_COMM_WORLD.  @throws InputError
 Comparison compare_case(const cases::Case& definition, const Request& request = {});
 
-/// A case with all its gates: what a continuous-integration server is told.
-struct GatedCase {
-  std::string name, file;
-  std::vector<Gate> gates;
-  std::vector<std::string> failures; ///< of the case as a whole: it expects nothing, a solve failed
-  bool met() const;
-};
-
-/// The gates of a case, and what failed as a whole. Never met are: an expectation of a measure that is not
-/// there, or has no finite value; a case that expects nothing; a case of which a solve has failed.
-GatedCase judge_gates(const Comparison& comparison);
-
-bool all_met(const std::vector<GatedCase>& cases);
+bool all_met(const std::vector<Comparison>& cases);
 
 /// Whether a case asks for the reference's error bar by itself: an expectation against a converged reference
 /// does.

@@ -22,11 +22,11 @@ struct GateCount {
 };
 
 /// Of the kinds that occur, in the order of their table.
-std::vector<GateCount> count_by_kind(const std::vector<GatedCase>& cases) {
+std::vector<GateCount> count_by_kind(const std::vector<Comparison>& cases) {
   std::vector<GateCount> counts;
   for (const auto& [kind, name] : cases::names<cases::ReferenceKind>()) {
     GateCount count{kind};
-    for (const GatedCase& judged : cases)
+    for (const Comparison& judged : cases)
       for (const Gate& gate : judged.gates) {
         if (gate.expectation.reference != kind) continue;
         ++count.all;
@@ -72,14 +72,14 @@ struct TestSuite {
     if (!output.empty()) tests += fmt::format("      <system-out>{}</system-out>\n", in_xml(output));
     tests += "    </testcase>\n";
   }
-  void add(const GatedCase& judged, const Gate& gate) {
+  void add(const Comparison& judged, const Gate& gate) {
     const cases::Expectation& expected = gate.expectation;
     std::string output =
         fmt::format("{}{}\ninterval: {}\n", describe(gate), describe_uncertainty(gate), expected.reason);
     if (!gate.warning.empty()) output += "warning: " + gate.warning + "\n";
     add(fmt::format("{} {} in [{}, {}]", expected.measure, cases::name_of(expected.quantity),
                     expected.interval[0], expected.interval[1]),
-        judged.name,
+        judged.scene.definition.name,
         gate.met()   ? ""
         : gate.value ? "failure"
                      : "error",
@@ -91,16 +91,18 @@ struct TestSuite {
 };
 
 /// Suites are named after kinds, a suite for what failed as a whole first; empty ones are left out.
-std::vector<TestSuite> make_suites(const std::vector<GatedCase>& cases) {
+std::vector<TestSuite> make_suites(const std::vector<Comparison>& cases) {
   std::vector<TestSuite> suites{{"springproof.cases"}};
-  for (const GatedCase& judged : cases)
-    for (std::size_t f = 0; f < judged.failures.size(); ++f)
-      suites.front().add("solved and judged" + (f == 0 ? "" : fmt::format(" ({})", f + 1)), judged.name,
-                         "error", judged.failures[f], "");
+  for (const Comparison& judged : cases) {
+    int n = 0; // of the case's failures
+    for (const std::string& failure : judged.failures())
+      suites.front().add("solved and judged" + (n++ == 0 ? "" : fmt::format(" ({})", n)),
+                         judged.scene.definition.name, "error", failure, "");
+  }
   if (suites.front().n == 0) suites.clear();
   for (const GateCount& count : count_by_kind(cases)) {
     suites.push_back({"springproof." + cases::name_of(count.kind)});
-    for (const GatedCase& judged : cases)
+    for (const Comparison& judged : cases)
       for (const Gate& gate : judged.gates)
         if (gate.expectation.reference == count.kind) suites.back().add(judged, gate);
   }
@@ -122,10 +124,10 @@ void annotate(std::ostream& out, const char* level, const std::string& file, int
              in_annotation(title, in_property), in_annotation(message, in_message));
 }
 
-Json gate_to_json(const GatedCase& judged, const Gate& gate) {
+Json gate_to_json(const Comparison& judged, const Gate& gate) {
   const cases::Expectation& expected = gate.expectation;
-  return {{"case", judged.name},
-          {"file", judged.file},
+  return {{"case", judged.scene.definition.name},
+          {"file", judged.scene.definition.file},
           {"line", expected.where.line},
           {"reference", cases::name_of(expected.reference)},
           {"measure", expected.measure},
@@ -154,11 +156,12 @@ std::string describe(const Gate& gate) {
                             expected.interval[0], expected.interval[1]);
 }
 
-void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases) {
-  for (const GatedCase& judged : cases) {
-    for (const std::string& failure : judged.failures) write_line(out, false, "case", judged.name, failure);
+void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases) {
+  for (const Comparison& judged : cases) {
+    for (const std::string& failure : judged.failures())
+      write_line(out, false, "case", judged.scene.definition.name, failure);
     for (const Gate& gate : judged.gates) {
-      write_line(out, gate.met(), cases::name_of(gate.expectation.reference), judged.name,
+      write_line(out, gate.met(), cases::name_of(gate.expectation.reference), judged.scene.definition.name,
                  describe(gate) + describe_uncertainty(gate));
       if (!gate.warning.empty()) fmt::print(out, "       warning: {}\n", gate.warning);
     }
@@ -170,7 +173,7 @@ void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases) {
   fmt::print(out, "{}: {}\n", all_met(cases) ? "all gates met" : "GATES FAILED", fmt::join(counts, ", "));
 }
 
-void write_gates_junit(std::ostream& out, const std::vector<GatedCase>& cases) {
+void write_gates_junit(std::ostream& out, const std::vector<Comparison>& cases) {
   const std::vector<TestSuite> suites = make_suites(cases);
   TestSuite all;
   for (const TestSuite& suite : suites) {
@@ -186,15 +189,17 @@ void write_gates_junit(std::ostream& out, const std::vector<GatedCase>& cases) {
              all.counts(), all.tests);
 }
 
-Json gates_to_json(const std::vector<GatedCase>& cases) {
+Json gates_to_json(const std::vector<Comparison>& cases) {
   Json document = provenance();
   document["gates"] = Json::array();
   document["failures"] = Json::array();
   document["kinds"] = Json::object();
-  for (const GatedCase& judged : cases) {
+  for (const Comparison& judged : cases) {
     for (const Gate& gate : judged.gates) document["gates"].push_back(gate_to_json(judged, gate));
-    for (const std::string& failure : judged.failures)
-      document["failures"].push_back({{"case", judged.name}, {"file", judged.file}, {"reason", failure}});
+    for (const std::string& failure : judged.failures())
+      document["failures"].push_back({{"case", judged.scene.definition.name},
+                                      {"file", judged.scene.definition.file},
+                                      {"reason", failure}});
   }
   for (const auto& [kind, met, all] : count_by_kind(cases))
     document["kinds"][cases::name_of(kind)] = {{"met", met}, {"all", all}};
@@ -202,18 +207,20 @@ Json gates_to_json(const std::vector<GatedCase>& cases) {
   return document;
 }
 
-void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& cases) {
-  for (const GatedCase& judged : cases) {
-    for (const std::string& failure : judged.failures)
-      annotate(out, "error", judged.file, 1, judged.name, failure);
+void write_gates_annotations(std::ostream& out, const std::vector<Comparison>& cases) {
+  for (const Comparison& judged : cases) {
+    for (const std::string& failure : judged.failures())
+      annotate(out, "error", judged.scene.definition.file, 1, judged.scene.definition.name, failure);
     for (const Gate& gate : judged.gates) {
       const cases::Expectation& expected = gate.expectation;
       // An expectation of the command line stands nowhere; the case's first line is as near as can be.
       const int line = std::max(1, expected.where.line);
-      const std::string title = fmt::format("{} ({})", judged.name, cases::name_of(expected.reference));
-      if (!gate.met()) annotate(out, "error", judged.file, line, title, describe(gate));
+      const std::string title =
+          fmt::format("{} ({})", judged.scene.definition.name, cases::name_of(expected.reference));
+      if (!gate.met()) annotate(out, "error", judged.scene.definition.file, line, title, describe(gate));
       if (!gate.warning.empty())
-        annotate(out, "warning", judged.file, line, title, expected.measure + ": " + gate.warning);
+        annotate(out, "warning", judged.scene.definition.file, line, title,
+                 expected.measure + ": " + gate.warning);
     }
   }
 }

@@ -15,19 +15,19 @@ std::string reason_of(const Gate& gate);
 std::string describe(const Gate& gate);
 
 /// One line per gate (and per failure of a case as a whole), warnings under their gates, and counts per kind.
-void write_gates_text(std::ostream& out, const std::vector<GatedCase>& cases);
+void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases);
 
 /// JUnit's XML as continuous-integration servers read it: a test suite per kind of reference, named
 /// springproof.KIND, a test case per gate; a gate without a value is an error, one outside its interval a
 /// failure. What failed as a whole stands in the suite springproof.cases. Without times, so that the same
 /// results make the same file.
-void write_gates_junit(std::ostream& out, const std::vector<GatedCase>& cases);
+void write_gates_junit(std::ostream& out, const std::vector<Comparison>& cases);
 
 /// {"schema", "program", "machine", "gates": [...], "failures": [...], "kinds": {...}, "met"}
-nlohmann::ordered_json gates_to_json(const std::vector<GatedCase>& cases);
+nlohmann::ordered_json gates_to_json(const std::vector<Comparison>& cases);
 
 /// GitHub's workflow commands: "::error file=...,line=...,title=...::message" for what is not met,
 /// "::warning" for warnings.
-void write_gates_annotations(std::ostream& out, const std::vector<GatedCase>& cases);
+void write_gates_annotations(std::ostream& out, const std::vector<Comparison>& cases);
 
 } // namespace springproof::compare

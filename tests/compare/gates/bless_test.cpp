@@ -64,7 +64,7 @@ std::string inline_text() {
 }
 
 /// The case with values that all three gates miss.
-compare::GatedCase judge_file(const std::string& path, double fem, std::optional<double> msm) {
+compare::Comparison judge_file(const std::string& path, double fem, std::optional<double> msm) {
   compare::Comparison comparison = judged::comparison({});
   comparison.scene.definition = cases::read_case(path);
   comparison.measures = {{"L", "mm", fem, msm, std::nullopt}};

@@ -15,8 +15,8 @@ using judged::expectation;
 TEST_CASE("a case that expects nothing does not pass its gates") {
   const auto result = judged::judge(comparison({}));
   CHECK_FALSE(result.met());
-  REQUIRE(result.failures.size() == 1);
-  CHECK_THAT(result.failures[0], Catch::Contains("expects nothing"));
+  REQUIRE(result.failures().size() == 1);
+  CHECK_THAT(result.failures()[0], Catch::Contains("expects nothing"));
   CHECK_FALSE(compare::all_met({judged::judge(comparison({expectation(Quantity::fem, {9, 11})})), result}));
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a solve that failed fails its case, even when nothing was expected of
   CHECK(result.gates[0].met());
   CHECK_FALSE(result.gates[1].met());
   CHECK(reason_of(result.gates[1]) == "fem failed at 0.25 of the load: limit point");
-  CHECK(result.failures == std::vector<std::string>{"fem failed at 0.25 of the load: limit point"});
+  CHECK(result.failures() == std::vector<std::string>{"fem failed at 0.25 of the load: limit point"});
   CHECK_FALSE(result.met());
 }
 

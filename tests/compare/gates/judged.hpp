@@ -38,10 +38,10 @@ inline compare::Comparison studied(compare::Comparison result, double percent) {
 }
 
 /// The gates of a comparison that was made by hand.
-inline compare::GatedCase judge(compare::Comparison comparison) {
+inline compare::Comparison judge(compare::Comparison comparison) {
   comparison.gates = compare::judge(comparison.scene, comparison.answers, comparison.measures,
                                     comparison.mesh_study ? &*comparison.mesh_study : nullptr);
-  return compare::judge_gates(comparison);
+  return comparison;
 }
 
 } // namespace judged

@@ -13,13 +13,13 @@ using namespace springproof;
 
 using cases::Quantity;
 using cases::ReferenceKind;
-using compare::GatedCase;
+using compare::Comparison;
 using judged::expectation;
 
 namespace {
 
 /// One gate met, one outside, one without a value; a case without gates whose solve failed in strange words.
-std::vector<GatedCase> mixed() {
+std::vector<Comparison> mixed() {
   auto missing = expectation(Quantity::fem, {0, 1}, ReferenceKind::exact);
   missing.measure = "M";
   auto first = judged::studied(
@@ -34,7 +34,7 @@ std::vector<GatedCase> mixed() {
 }
 
 template<class Write>
-std::string written(const Write& write, const std::vector<GatedCase>& cases) {
+std::string written(const Write& write, const std::vector<Comparison>& cases) {
   std::ostringstream out;
   write(out, cases);
   return out.str();
@@ -103,6 +103,6 @@ TEST_CASE("gates as annotations: file and line of the expectation, line breaks a
              Catch::Contains("::warning file=cube.toml,line=12,title=cube (published)::L: the interval"));
   CHECK_THAT(text, Catch::Contains("%0A50 %25\n"));
   auto odd = mixed();
-  odd[0].file = "a,b:c.toml";
+  odd[0].scene.definition.file = "a,b:c.toml";
   CHECK_THAT(written(compare::write_gates_annotations, odd), Catch::Contains("file=a%2Cb%3Ac.toml,"));
 }
