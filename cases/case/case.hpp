@@ -173,7 +173,7 @@ struct Expectation {
   ReferenceKind reference;
   std::string reason;
   Where where;
-  Where interval_where = {}; ///< of the interval's opening bracket
+  std::array<Where, 2> ends_where = {}; ///< of the interval's ends
 };
 
 /// The two models that are compared.

@@ -130,7 +130,8 @@ Expectation read_expectation(Table& table, const std::vector<std::string>& measu
     if (!((*interval)[0] <= (*interval)[1]))
       table.entry(key).refuse("an interval [lower, upper] with lower <= upper");
     expectation.quantity = quantity;
-    expectation.interval_where = table.entry(key).where;
+    const std::vector<Entry> ends = table.entry(key).elements("");
+    expectation.ends_where = {ends[0].where, ends[1].where};
     expectation.interval = {(*interval)[0], (*interval)[1]};
   }
   if (n_quantities == 0)

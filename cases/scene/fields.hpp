@@ -49,7 +49,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, poissons_ratio, spli
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
                    centre, where)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
-                   interval_where)
+                   ends_where)
 SPRINGPROOF_FIELDS(springproof::cases::ExpectedOutcome, model, side, design, outcome, load_reached,
                    inverted_cells)
 SPRINGPROOF_FIELDS(springproof::cases::Stiffer, axis, beyond, factor)

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <sstream>
 
 namespace springproof::compare {
@@ -21,64 +23,34 @@ std::string written(double end, double width) {
   return fmt::format("{:.{}f}", end, decimals);
 }
 
-[[noreturn]] void refuse_place(const cases::Where& where) {
-  throw cases::InputError(where, "no interval stands here any more, so that it cannot be blessed");
-}
-
 /// Where a place of the case reader stands in the text: lines count from 1, and columns count characters, of
 /// which UTF-8 writes some as several bytes.
 std::size_t offset_of(const std::string& text, const cases::Where& where) {
   std::size_t at = 0;
-  for (int line = 1; line < where.line && at != std::string::npos; ++line) {
-    at = text.find('\n', at);
-    if (at != std::string::npos) ++at;
-  }
+  for (int line = 1; line < where.line && at < text.size(); ++line)
+    at = std::min(text.find('\n', at), text.size()) + 1;
   const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
   for (int column = 1; column < where.column && at < text.size(); ++column) do
       ++at;
     while (at < text.size() && is_continuation(text[at]));
-  if (!(at < text.size()) || text[at] != '[') refuse_place(where);
-  return at;
-}
-
-/// A part of a text, and what it is replaced by.
-struct Piece {
-  std::size_t begin, end;
-  std::string replacement;
-};
-
-/// Where the numbers behind an opening bracket stand, up to the closing one. An array may go over several
-/// lines, and hold comments, which may hold anything.
-std::vector<Piece> numbers_in(const std::string& text, std::size_t bracket) {
-  const std::string between = " \t\r\n,";
-  std::vector<Piece> numbers;
-  for (std::size_t at = bracket + 1; at < text.size() && text[at] != ']';) {
-    if (text[at] == '#') {
-      at = std::min(text.find('\n', at), text.size());
-    } else if (between.find(text[at]) != std::string::npos) {
-      ++at;
-    } else {
-      const std::size_t end = std::min(text.find_first_of(between + "]#", at), text.size());
-      numbers.push_back({at, end, ""});
-      at = end;
-    }
-  }
-  return numbers;
+  return std::min(at, text.size());
 }
 
 /// The text of a case file with some intervals replaced.
 std::string with_intervals(const std::string& text, const std::vector<BlessedInterval>& blessed) {
-  std::vector<Piece> pieces;
-  for (const BlessedInterval& next : blessed) {
-    std::vector<Piece> ends = numbers_in(text, offset_of(text, next.where));
-    if (ends.size() != 2) refuse_place(next.where);
-    for (std::size_t e = 0; e < 2; ++e)
-      ends[e].replacement = written(next.interval[e], next.interval[1] - next.interval[0]);
-    pieces.insert(pieces.end(), ends.begin(), ends.end());
-  }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.begin > b.begin; });
+  std::map<std::size_t, std::string, std::greater<>> ends; // by their places, the last one first
+  for (const auto& [old, interval] : blessed)
+    for (std::size_t e = 0; e < 2; ++e) {
+      const std::size_t at = offset_of(text, old.ends_where[e]);
+      std::string number = text.substr(at, text.find_first_of(" \t\r\n,]#", at) - at);
+      number.erase(std::remove(number.begin(), number.end(), '_'), number.end()); // TOML's, in long numbers
+      if (number.empty() || std::strtod(number.c_str(), nullptr) != old.interval[e])
+        throw cases::InputError(old.ends_where[e],
+                                "no interval stands here any more, so that it cannot be blessed");
+      ends[at] = written(interval[e], interval[1] - interval[0]);
+    }
   std::string result = text;
-  for (const Piece& piece : pieces) result.replace(piece.begin, piece.end - piece.begin, piece.replacement);
+  for (const auto& [at, number] : ends) result.replace(at, text.find_first_of(" \t\r\n,]#", at) - at, number);
   return result;
 }
 
@@ -99,7 +71,7 @@ std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged) {
     const cases::Expectation& expected = gate.expectation;
     if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.value) continue;
     const double half = (expected.interval[1] - expected.interval[0]) / 2;
-    blessed.push_back({expected.interval_where, {*gate.value - half, *gate.value + half}});
+    blessed.push_back({expected, {*gate.value - half, *gate.value + half}});
   }
   return blessed;
 }

@@ -9,7 +9,7 @@ namespace springproof::compare {
 
 /// An interval of a case file that is moved to where the value is now.
 struct BlessedInterval {
-  cases::Where where; ///< of the opening bracket
+  cases::Expectation old;
   std::array<double, 2> interval;
 };
 
