@@ -86,10 +86,8 @@ int gate(const GateOptions& options) {
   std::vector<Question> questions = read_all(options);
   check_blessing(options, questions);
   const auto external = read_external(questions, options.displacements);
-  SolveOptions solving;
-  solving.n_workers = options.workers;
-  std::vector<Answers> answers = answer_all(questions, FinishedCases(options.out, questions), solve_fem,
-                                            solving, [](std::size_t, const Answers&) {});
+  std::vector<Answers> answers =
+      answer_all(questions, FinishedCases(options.out, questions), solve_fem, {options.workers});
   if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {

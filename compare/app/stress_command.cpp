@@ -81,10 +81,7 @@ std::vector<Answer> answers_to(const cases::Case& hard_case, const FinishedCases
     for (Answer& answer : answers) answer.solution = failed_solution(error);
     return answers;
   }
-  SolveOptions solving;
-  solving.n_workers = 1;
-  const std::vector<Answers> solved =
-      answer_all(jobs, finished, solve_fem, solving, [](std::size_t, const Answers&) {});
+  const std::vector<Answers> solved = answer_all(jobs, finished, solve_fem, {1});
   for (std::size_t j = 0; j < jobs.size(); ++j)
     answers[j] = jobs[j].request.only == cases::Side::fem ? solved[j].fem : solved[j].msm;
   return answers;

@@ -28,9 +28,10 @@ struct SolveOptions {
 /// distributed (collective).
 /// @param solve_fem    as for solve(); workers have their own
 /// @param on_answered  called with the index of a question that was solved
-std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
-                                SolveFem solve_fem, const SolveOptions& options,
-                                const std::function<void(std::size_t question, const Answers&)>& on_answered);
+std::vector<Answers> answer_all(
+    const std::vector<Question>& questions, const FinishedCases& finished, SolveFem solve_fem,
+    const SolveOptions& options,
+    const std::function<void(std::size_t question, const Answers&)>& on_answered = [](auto, auto&) {});
 
 /// What a worker does with a question's bytes.  @return the answers' bytes
 /// @throws cereal's exception for bytes that are no question
