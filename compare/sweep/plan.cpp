@@ -34,7 +34,7 @@ struct Limits {
   long small;    ///< small strain
   long calculix; ///< which factorises with SPOOLES
 };
-constexpr Limits limits{3000, 20000, 60000, 10000};
+constexpr Limits size_limits{3000, 20000, 60000, 10000};
 
 std::vector<std::array<int, 3>> levels_of(const cases::Box& box, int n_levels) {
   std::array<int, 3> cells = box.cells;
@@ -73,22 +73,22 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
         std::any_of(plan.reference.begin(), plan.reference.end(), [&](const Variant& v) {
           return v.formulation == formulation && v.element == element && v.cells == cells;
         });
-    if (is_planned && size > limits.loose) continue;
+    if (is_planned && size > size_limits.loose) continue;
     const std::string name =
         cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
-    const long limit = is_linear ? limits.small : limits.finite;
+    const long limit = is_linear ? size_limits.small : size_limits.finite;
     if (size > limit) {
       leave_out(plan, name, size, limit);
       continue;
     }
     for (const double tolerance : tolerances) {
       const bool is_loose = tolerance != tight;
-      if (is_loose && (is_linear || extent == Extent::quick || size > limits.loose)) continue;
+      if (is_loose && (is_linear || extent == Extent::quick || size > size_limits.loose)) continue;
       if (!is_loose && is_planned) continue;
       plan.variants.push_back(finite_elements(formulation, element, cells, tolerance));
     }
-    if (!is_linear && extent == Extent::full && size > limits.loose)
-      leave_out(plan, name + " at looser tolerances", size, limits.loose);
+    if (!is_linear && extent == Extent::full && size > size_limits.loose)
+      leave_out(plan, name + " at looser tolerances", size, size_limits.loose);
   }
 }
 
@@ -97,10 +97,10 @@ void add_calculix(Plan& plan) {
     for (const auto& cells : plan.levels) {
       const Variant variant{Program::calculix, {}, formulation, Element::q1, cells, tight};
       const long size = n_unknowns(cells, Element::q1);
-      if (size <= limits.calculix)
+      if (size <= size_limits.calculix)
         plan.variants.push_back(variant);
       else
-        leave_out(plan, method_name(variant) + " " + cells_name(cells), size, limits.calculix);
+        leave_out(plan, method_name(variant) + " " + cells_name(cells), size, size_limits.calculix);
     }
 }
 
