@@ -6,7 +6,6 @@
 namespace springproof::msm {
 
 using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j + 4k
-using CellGradient = std::array<Eigen::Vector3d, 8>;
 
 /// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
 ///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
@@ -16,9 +15,9 @@ using CellGradient = std::array<Eigen::Vector3d, 8>;
 double trilinear_volume(const CellPositions& x);
 
 /// dV/dx_a, mm².
-CellGradient trilinear_volume_gradient(const CellPositions& x);
+std::array<Eigen::Vector3d, 8> trilinear_volume_gradient(const CellPositions& x);
 
-/// d²V/(dx_a dx_b) as a 3x3 block, mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
-Eigen::Matrix3d trilinear_volume_second_derivative(const CellPositions& x, int a, int b);
+/// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
+std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x);
 
 } // namespace springproof::msm

@@ -1,7 +1,6 @@
 #include "msm/lattice.hpp"
 
 #include "cases/case/index.hpp"
-#include "msm/cell_volume.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -12,9 +11,9 @@ namespace {
 
 using cases::index;
 
-template<std::size_t N>
-void add_links(const std::array<int, 8>& cell, const std::array<std::array<int, 2>, N>& pairs,
-               double stiffness, std::vector<Link>& links) {
+template<class Pairs>
+void add_links(const std::array<int, 8>& cell, const Pairs& pairs, double stiffness,
+               std::vector<Link>& links) {
   if (stiffness == 0) return;
   for (const auto& pair : pairs) {
     const auto [i, j] = std::minmax(cell[index(pair[0])], cell[index(pair[1])]);
@@ -84,7 +83,7 @@ Points internal_force(const Lattice& lattice, const Points& positions) {
   for (const VolumeCell& cell : lattice.volume_cells) {
     const CellPositions x = cell_positions(cell, positions);
     const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
-    const CellGradient gradient = trilinear_volume_gradient(x);
+    const auto gradient = trilinear_volume_gradient(x);
     for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
   }
   return force;

@@ -4,10 +4,6 @@
 #include "msm/cell_volume.hpp"
 #include "msm/spring.hpp"
 
-#include <Eigen/Core>
-#include <array>
-#include <vector>
-
 namespace springproof::msm {
 
 using Points = std::vector<Eigen::Vector3d>;

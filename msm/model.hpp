@@ -1,12 +1,7 @@
 #pragma once
 
-#include "cases/case/solution.hpp"
-#include "cases/scene/scene.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
-#include "msm/lattice.hpp"
-
-#include <memory>
-#include <vector>
+#include "msm/grid/grid_system.hpp"
 
 namespace springproof::msm {
 
@@ -29,20 +24,20 @@ class Model {
   /// @throws cases::InputError when the multigrid path is asked for and cannot be taken
   Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
         const ModelOptions& options = {});
-  ~Model();
-  Model(Model&&) noexcept;
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
 
   /// Static equilibrium under the scene's loads.
   /// @param start  displacement (mm) to start from, one per node; empty: rest
   /// @throws cases::SolveError with the load reached and the outcome when the load cannot be carried
-  cases::Solution solve(const mechanics::EquilibriumSettings& settings = {}, const Points& start = {});
-
-  /// The path in use: never automatic.
-  Path path() const;
+  cases::Solution solve(mechanics::EquilibriumSettings settings = {}, const Points& start = {});
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  cases::Solver solver_;
+  int n_threads_;
+  Problem problem_;
+  std::optional<grid::GridProblem> grid_; ///< on the multigrid path
+  std::unique_ptr<SpringSystem> system_;
 };
 
 } // namespace springproof::msm

@@ -1,5 +1,7 @@
 #include "msm/problem.hpp"
 
+#include <algorithm>
+
 namespace springproof::msm {
 
 namespace {
@@ -12,8 +14,8 @@ std::function<Points(double)> moving_supports(const cases::Scene& scene) {
       for (const int n : selection.nodes) {
         const auto node = static_cast<std::size_t>(n);
         const Eigen::Vector3d by = cases::moved_by(motion, rest[node], load_factor);
-        for (std::size_t a = 0; a < 3; ++a)
-          if (motion.components[a]) displacement[node][static_cast<int>(a)] = by[static_cast<int>(a)];
+        for (int a = 0; a < 3; ++a)
+          if (motion.components[static_cast<std::size_t>(a)]) displacement[node][a] = by[a];
       }
     return displacement;
   };
@@ -25,12 +27,23 @@ Problem make_problem(const cases::Scene& scene) {
   return {scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene), moving_supports(scene)};
 }
 
-void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto vertices = cases::cell_vertices(mesh, c, solution.displacement);
-    solution.cell_volume.push_back(cases::cell_volume(vertices));
-    if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++solution.inverted_cells;
-  }
+int n_inverted(const cases::HexMesh& mesh, const Points& displacement) {
+  int n = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(mesh, c, displacement)) > 0)) ++n;
+  return n;
+}
+
+cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
+                            Points displacement) {
+  cases::Solution solution = mechanics::to_solution(equilibrium);
+  solution.unknowns = static_cast<std::size_t>(
+      std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false));
+  for (std::size_t c = 0; c < problem.mesh.cells.size(); ++c)
+    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(problem.mesh, c, displacement)));
+  solution.inverted_cells = n_inverted(problem.mesh, displacement);
+  solution.displacement = std::move(displacement);
+  return solution;
 }
 
 } // namespace springproof::msm

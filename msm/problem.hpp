@@ -2,10 +2,8 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/lattice.hpp"
-
-#include <functional>
-#include <vector>
 
 namespace springproof::msm {
 
@@ -22,8 +20,11 @@ struct Problem {
 /// A scene as springs see it, but for its lattice.
 Problem make_problem(const cases::Scene& scene);
 
-/// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
-/// inverted.
-void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
+/// The cells of a mesh with a corner Jacobian <= 0.  @param displacement  mm, one per node
+int n_inverted(const cases::HexMesh& mesh, const Points& displacement);
+
+/// What an equilibrium and its displacement (mm, one per point) say of a problem.
+cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
+                            Points displacement);
 
 } // namespace springproof::msm

@@ -1,60 +1,36 @@
 #include "msm/tangent.hpp"
 
-#include "cases/case/index.hpp"
-
 #include <algorithm>
 #include <cassert>
 
 namespace springproof::msm {
 
-namespace {
-
-using cases::index;
-
-/// Calls action(row, column, block row, block column) for the nine entries of a block; row = -1: not in the
-/// lower triangle of the free degrees of freedom.
-template<class Action>
-void for_each_entry(const std::vector<int>& free_number, int row_point, int column_point,
-                    const Action& action) {
-  for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) {
-      const int row = free_number[index(3 * row_point + r)],
-                column = free_number[index(3 * column_point + c)];
-      const bool stored = row >= 0 && column >= 0 && row >= column;
-      action(stored ? row : -1, column, r, c);
-    }
-}
-
-int find_slot(const Tangent::Matrix& matrix, int row, int column) {
-  const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column];
-  const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
-  return static_cast<int>(std::lower_bound(begin, end, row) - matrix.innerIndexPtr());
-}
-
-} // namespace
-
 Tangent::Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained) : lattice_(lattice) {
   assert(is_constrained.size() == 3 * lattice.rest.size());
-  free_number_.resize(is_constrained.size());
-  for (std::size_t d = 0; d < is_constrained.size(); ++d)
-    free_number_[d] = is_constrained[d] ? -1 : n_free_++;
+  for (const bool constrained : is_constrained) free_number_.push_back(constrained ? -1 : n_free_++);
 
+  // Calls action(row, column, whether the lower triangle has it) for the nine entries of every block.
+  const auto visit = [&](const auto& action) {
+    const auto free = [&](int point, int c) { return free_number_[cases::index(3 * point + c)]; };
+    visit_tangent_blocks(lattice_, lattice_.rest, TransverseTerm::clamped,
+                         [&](int row_point, int column_point, const Eigen::Matrix3d&) {
+                           for (int c = 0; c < 3; ++c)
+                             for (int r = 0; r < 3; ++r) {
+                               const int row = free(row_point, r), column = free(column_point, c);
+                               action(row, column, column >= 0 && row >= column);
+                             }
+                         });
+  };
   std::vector<Eigen::Triplet<double>> pattern;
   for (int d = 0; d < n_free_; ++d)
     pattern.emplace_back(d, d, 0.0); // a point without springs shows as a zero pivot
-  const auto visit = [&](const auto& action) {
-    visit_tangent_blocks(lattice_, lattice_.rest, TransverseTerm::clamped,
-                         [&](int row_point, int column_point, const Eigen::Matrix3d&) {
-                           for_each_entry(free_number_, row_point, column_point, action);
-                         });
-  };
-  visit([&](int row, int column, int, int) {
-    if (row >= 0) pattern.emplace_back(row, column, 0.0);
+  visit([&](int row, int column, bool is_stored) {
+    if (is_stored) pattern.emplace_back(row, column, 0.0);
   });
   matrix_.resize(n_free_, n_free_);
   matrix_.setFromTriplets(pattern.begin(), pattern.end());
-  visit([&](int row, int column, int, int) {
-    slots_.push_back(row < 0 ? -1 : find_slot(matrix_, row, column));
+  visit([&](int row, int column, bool is_stored) {
+    slots_.push_back(is_stored ? static_cast<int>(&matrix_.coeffRef(row, column) - matrix_.valuePtr()) : -1);
   });
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "cases/case/index.hpp"
 #include "msm/lattice.hpp"
 
 #include <Eigen/SparseCore>
-#include <vector>
 
 namespace springproof::msm {
 
@@ -14,25 +14,24 @@ namespace springproof::msm {
 template<class Sink>
 void visit_tangent_blocks(const Lattice& lattice, const Points& positions, TransverseTerm term,
                           const Sink& sink) {
-  const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (const Link& link : lattice.links) {
-    const Eigen::Matrix3d block =
-        spring_stiffness(positions[at(link.j)] - positions[at(link.i)], link.spring, term);
+    const Eigen::Matrix3d block = spring_stiffness(
+        positions[cases::index(link.j)] - positions[cases::index(link.i)], link.spring, term);
     sink(link.i, link.i, block);
     sink(link.j, link.j, block);
     sink(link.j, link.i, -block);
   }
   for (const VolumeCell& cell : lattice.volume_cells) {
     const CellPositions x = cell_positions(cell, positions);
-    const CellGradient gradient = trilinear_volume_gradient(x);
+    const auto gradient = trilinear_volume_gradient(x);
+    const auto second = trilinear_volume_second_derivative(x);
     const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
-    for (int a = 0; a < 8; ++a)
-      for (int b = 0; b < 8; ++b) {
-        if (cell.nodes[at(a)] < cell.nodes[at(b)]) continue;
-        Eigen::Matrix3d block =
-            (cell.stiffness / cell.rest_volume) * gradient[at(a)] * gradient[at(b)].transpose();
-        if (term == TransverseTerm::exact) block += pressure * trilinear_volume_second_derivative(x, a, b);
-        sink(cell.nodes[at(a)], cell.nodes[at(b)], block);
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < 8; ++b) {
+        if (cell.nodes[a] < cell.nodes[b]) continue;
+        Eigen::Matrix3d block = (cell.stiffness / cell.rest_volume) * gradient[a] * gradient[b].transpose();
+        if (term == TransverseTerm::exact) block += pressure * second[a][b];
+        sink(cell.nodes[a], cell.nodes[b], block);
       }
   }
 }
@@ -59,8 +58,7 @@ class Tangent {
   std::vector<int> free_number_;
   int n_free_ = 0;
   Matrix matrix_;
-  std::vector<int>
-      slots_; ///< place among the matrix's values, 9 per block in the order of visiting; -1: none
+  std::vector<int> slots_; ///< places among the matrix's values, 9 per block as visited; -1: none
 };
 
 } // namespace springproof::msm

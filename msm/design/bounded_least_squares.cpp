@@ -4,34 +4,9 @@
 
 #include <Eigen/QR>
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 namespace springproof::msm {
-
-namespace {
-
-/// matrix x - target with its constant Jacobian.
-class LinearCost : public ceres::CostFunction {
- public:
-  LinearCost(Eigen::MatrixXd matrix, Eigen::VectorXd target)
-      : matrix_(std::move(matrix)), target_(std::move(target)) {
-    set_num_residuals(static_cast<int>(target_.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(matrix_.cols()));
-  }
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> unknowns(x[0], matrix_.cols());
-    Eigen::Map<Eigen::VectorXd>(residuals, target_.size()) = matrix_ * unknowns - target_;
-    if (jacobians != nullptr && jacobians[0] != nullptr)
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], matrix_.rows(), matrix_.cols()) = matrix_;
-    return true;
-  }
-
- private:
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd target_;
-};
-
-} // namespace
 
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target,
                                       double unit) {
@@ -47,7 +22,8 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
   Eigen::VectorXd scaled = (unbounded / unit).cwiseMax(0.1);
   const double size = reduced.norm();
   ceres::Problem problem;
-  problem.AddResidualBlock(new LinearCost(triangle * unit / size, reduced / size), nullptr, scaled.data());
+  problem.AddResidualBlock(new ceres::NormalPrior(triangle * unit / size, unbounded / unit), nullptr,
+                           scaled.data());
   for (int c = 0; c < n; ++c) problem.SetParameterLowerBound(scaled.data(), c, 0);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;

@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace springproof::msm {
 
@@ -31,46 +32,57 @@ constexpr double largest_linear_strain = 0.1;
 /// Logarithmic strains (simple shear: amounts) of the multi-load fit when the case does not say. Hookean
 /// springs stiffen less than soft tissue: a wider range buys accuracy at large strains with a lattice too
 /// stiff at small ones; with this one both errors on the thesis's cube are alike.
-constexpr std::array<double, 2> ogden_strain_range = {-0.15, 0.15};
-constexpr std::array<double, 2> linear_strain_range = {-0.05, 0.05};
+constexpr std::array<double, 2> ogden_range = {-0.15, 0.15};
+constexpr std::array<double, 2> linear_range = {-0.05, 0.05};
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
 /// method still converges in few steps.
 constexpr double incompressible_lambda_over_mu = 200;
 
-DesignResult from_linear_method(const DesignRequest& request) {
-  const cases::LinearElastic material = designed_material(request, 0);
-  const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
-  return {fit.stiffness, fit.residual, {}, {}};
+[[noreturn]] void refuse(const DesignRequest& request, const std::string& problem) {
+  throw cases::InputError(request.options.where, problem);
+}
+
+template<class Value>
+Value by_material(const DesignRequest& request, const Value& ogden, const Value& linear_elastic) {
+  return std::holds_alternative<cases::Ogden>(request.material) ? ogden : linear_elastic;
+}
+
+/// The small-strain material that the design is made for: options.poissons_ratio replaces the material's own,
+/// E stays.
+/// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
+cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio) {
+  cases::LinearElastic material = small_strain_material(request.material);
+  const cases::Msm& options = request.options;
+  if (options.poissons_ratio) material.poissons_ratio = *options.poissons_ratio;
+  if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
+    refuse(request, "Young's modulus " + std::to_string(material.youngs_modulus) +
+                        " MPa: must be positive and finite");
+  if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
+    refuse(request, "Poisson's ratio " + std::to_string(material.poissons_ratio) + ": design = \"" +
+                        cases::name_of(options.design) + "\" takes " + std::to_string(lowest_poissons_ratio) +
+                        " <= nu < 0.5; msm.poissons_ratio designs from another one");
+  return material;
 }
 
 /// Edge of the request's cell.  @throws InputError when it is not a cube
 double required_cube_edge(const DesignRequest& request) {
   const double edge = cube_edge(request.cell);
   if (edge > 0) return edge;
-  throw cases::InputError(request.options.where, "design = \"" + cases::name_of(request.options.design) +
-                                                     "\" is for cubical cells aligned with the axes");
+  refuse(request, "design = \"" + cases::name_of(request.options.design) +
+                      "\" is for cubical cells aligned with the axes");
 }
 
 double split(const DesignRequest& request) {
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
-  const double t = request.options.split.value_or(is_ogden ? large_strain_split : small_strain_split);
+  const double t =
+      request.options.split.value_or(by_material(request, large_strain_split, small_strain_split));
   if (t >= 0 && t <= 1) return t;
-  throw cases::InputError(request.options.where, "split = " + std::to_string(t) + ": must lie in [0, 1]");
+  refuse(request, "split = " + std::to_string(t) + ": must lie in [0, 1]");
 }
 
 bool is_incompressible(const DesignRequest& request) {
   const auto* ogden = std::get_if<cases::Ogden>(&request.material);
   return ogden != nullptr && !ogden->bulk_modulus && !request.options.poissons_ratio;
-}
-
-DesignResult from_moduli_method(const DesignRequest& request) {
-  // E = 3 mu, G = mu is the finite limit of incompressibility, which an Ogden material without bulk modulus
-  // means.
-  const cases::LinearElastic material =
-      is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
-  const double mu = mechanics::elastic_moduli(material).mu;
-  return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), std::nullopt, {}, {}};
 }
 
 mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
@@ -79,130 +91,78 @@ mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
   return {incompressible_lambda_over_mu * mu, mu, (incompressible_lambda_over_mu + 2. / 3) * mu};
 }
 
-DesignResult from_hybrid_method(const DesignRequest& request) {
+/// A method's stiffnesses, and its objective at its minimum.
+using Designed = std::pair<CellStiffness, std::optional<double>>;
+
+Designed from_linear_method(const DesignRequest& request) {
+  const cases::LinearElastic material = designed_material(request, 0);
+  const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
+  return {fit.stiffness, fit.residual};
+}
+
+Designed from_moduli_method(const DesignRequest& request) {
+  // E = 3 mu, G = mu is the finite limit of incompressibility, which an Ogden material without bulk modulus
+  // means.
+  const cases::LinearElastic material =
+      is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
+  const double mu = mechanics::elastic_moduli(material).mu;
+  return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), {}};
+}
+
+Designed from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0.25); // below, k_v would be negative
   const auto [lambda, mu, kappa] = elastic_moduli(request);
-  return {hybrid_method(lambda, mu, split(request), request.cell), std::nullopt, {}, {}};
+  return {hybrid_method(lambda, mu, split(request), request.cell), {}};
 }
 
-DesignResult from_nonlinear_method(const DesignRequest& request) {
+Designed from_nonlinear_method(const DesignRequest& request) {
   const NonlinearFit fit = nonlinear_method(uniaxial_reference(request), required_cube_edge(request));
-  return {fit.stiffness, fit.objective, {}, {}};
+  return {fit.stiffness, fit.objective};
 }
 
-MultiLoadSettings multi_load_settings(const DesignRequest& request) {
+Designed from_multi_load(const DesignRequest& request) {
   const cases::Msm& options = request.options;
+  cases::Material material = request.material;
+  if (std::holds_alternative<cases::LinearElastic>(material) || options.poissons_ratio)
+    material = designed_material(request, -1);
+  const double edge = required_cube_edge(request);
   MultiLoadSettings settings;
   settings.paths = options.paths;
   if (settings.paths.empty())
     for (const auto& [path, name] : cases::names<cases::LoadPath>()) settings.paths.push_back(path);
   settings.weights = options.weights;
   if (settings.weights.empty()) settings.weights.assign(settings.paths.size(), 1);
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
-  const auto [lowest, highest] =
-      options.strain_range.value_or(is_ogden ? ogden_strain_range : linear_strain_range);
-  settings.lowest_strain = lowest;
-  settings.highest_strain = highest;
+  const auto range = options.strain_range.value_or(by_material(request, ogden_range, linear_range));
+  settings.lowest_strain = range[0];
+  settings.highest_strain = range[1];
   settings.has_volume_term = options.has_volume_term;
   settings.incompressible_lambda = elastic_moduli(request).lambda;
   settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
                                    // states hardly tell them apart
-  return settings;
+  const MultiLoadFit fit = multi_load_method(material, edge, settings);
+  return {fit.stiffness, fit.objective};
 }
 
-DesignResult from_multi_load(const DesignRequest& request) {
-  cases::Material material = request.material;
-  if (std::holds_alternative<cases::LinearElastic>(material) || request.options.poissons_ratio)
-    material = designed_material(request, -1);
-  const MultiLoadFit fit =
-      multi_load_method(material, required_cube_edge(request), multi_load_settings(request));
-  return {fit.stiffness, fit.objective, {}, {}};
-}
-
-DesignResult from_given(const DesignRequest& request) {
+Designed from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
-  if (!options.stiffness)
-    throw cases::InputError(options.where, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
+  if (!options.stiffness) refuse(request, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
   const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
   return {{newton_per_metre * edge, newton_per_metre * face_diagonal, newton_per_metre * internal_diagonal,
            options.volume_stiffness},
-          std::nullopt,
-          {},
           {}};
 }
 
-struct Method {
-  cases::Design id;
-  DesignResult (*run)(const DesignRequest&); ///< fills stiffness and residual; null: not available yet
-};
-
-constexpr std::array<Method, 6> known_methods = {{
+const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods = {
     {cases::Design::linear_method, from_linear_method},
     {cases::Design::nonlinear_method, from_nonlinear_method},
     {cases::Design::moduli, from_moduli_method},
     {cases::Design::hybrid, from_hybrid_method},
     {cases::Design::multi_load, from_multi_load},
     {cases::Design::given, from_given},
-}};
+};
 
-const Method& find(cases::Design id) {
-  for (const Method& method : known_methods)
-    if (method.id == id) return method;
-  throw cases::InputError("unknown design method");
-}
-
-} // namespace
-
-std::vector<cases::Design> methods() {
-  std::vector<cases::Design> all;
-  for (const Method& method : known_methods)
-    if (method.id != cases::Design::given) all.push_back(method.id);
-  return all;
-}
-
-cases::LinearElastic small_strain_material(const cases::Material& material) {
-  if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
-  const auto& ogden = std::get<cases::Ogden>(material);
-  const double mu = mechanics::shear_modulus(ogden);
-  if (!ogden.bulk_modulus) return {3 * mu, 0.5};
-  return mechanics::linear_elastic(mu, *ogden.bulk_modulus);
-}
-
-cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio) {
-  cases::LinearElastic material = small_strain_material(request.material);
-  const cases::Msm& options = request.options;
-  if (options.poissons_ratio) material.poissons_ratio = *options.poissons_ratio;
-  if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
-    throw cases::InputError(options.where, "Young's modulus " + std::to_string(material.youngs_modulus) +
-                                               " MPa: must be positive and finite");
-  if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
-    throw cases::InputError(options.where, "Poisson's ratio " + std::to_string(material.poissons_ratio) +
-                                               ": design = \"" + cases::name_of(options.design) +
-                                               "\" takes " + std::to_string(lowest_poissons_ratio) +
-                                               " <= nu < 0.5; msm.poissons_ratio designs from another one");
-  return material;
-}
-
-UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<double> largest_strain) {
-  if (request.uniaxial_reference) return *request.uniaxial_reference;
-  const double nu =
-      request.options.poissons_ratio.value_or(small_strain_material(request.material).poissons_ratio);
-  if (!(nu > 0 && nu <= 0.5))
-    throw cases::InputError(request.options.where, "Poisson's ratio " + std::to_string(nu) +
-                                                       ": the nonlinear method takes 0 < nu <= 0.5");
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
-  StrainRange range = {0, is_ogden ? largest_ogden_strain : largest_linear_strain};
-  if (request.options.strain_range)
-    range = {(*request.options.strain_range)[0], (*request.options.strain_range)[1]};
-  if (largest_strain) range.highest = *largest_strain;
-  if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
-    return sample(ogden_law(*ogden), nu, range);
-  const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
-  if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
-    throw cases::InputError(request.options.where, "Young's modulus: must be positive and finite");
-  return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu, range);
-}
-
+/// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
+/// indefinite tangent at rest.
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {
   std::vector<std::string> warnings;
   const std::array<std::pair<const char*, double>, 4> named = {
@@ -230,15 +190,44 @@ std::vector<std::string> examine(const CellStiffness& stiffness, const CellVerti
   return warnings;
 }
 
+} // namespace
+
+std::vector<cases::Design> methods() {
+  std::vector<cases::Design> all;
+  for (const auto& [method, run] : known_methods)
+    if (method != cases::Design::given) all.push_back(method);
+  return all;
+}
+
+cases::LinearElastic small_strain_material(const cases::Material& material) {
+  if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
+  const auto& ogden = std::get<cases::Ogden>(material);
+  const double mu = mechanics::shear_modulus(ogden);
+  if (!ogden.bulk_modulus) return {3 * mu, 0.5};
+  return mechanics::linear_elastic(mu, *ogden.bulk_modulus);
+}
+
+UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<double> largest_strain) {
+  if (request.uniaxial_reference) return *request.uniaxial_reference;
+  const double nu =
+      request.options.poissons_ratio.value_or(small_strain_material(request.material).poissons_ratio);
+  if (!(nu > 0 && nu <= 0.5))
+    refuse(request, "Poisson's ratio " + std::to_string(nu) + ": the nonlinear method takes 0 < nu <= 0.5");
+  StrainRange range = {0, by_material(request, largest_ogden_strain, largest_linear_strain)};
+  if (request.options.strain_range)
+    range = {(*request.options.strain_range)[0], (*request.options.strain_range)[1]};
+  if (largest_strain) range.highest = *largest_strain;
+  if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
+    return sample(ogden_law(*ogden), nu, range);
+  const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
+  if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
+    refuse(request, "Young's modulus: must be positive and finite");
+  return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu, range);
+}
+
 DesignResult design(const DesignRequest& request) {
-  const Method& method = find(request.options.design);
-  if (method.run == nullptr)
-    throw cases::InputError(request.options.where,
-                            "not available yet: design = \"" + cases::name_of(method.id) + "\"");
-  DesignResult result = method.run(request);
-  result.moduli = lattice_moduli(result.stiffness, request.cell);
-  result.warnings = examine(result.stiffness, request.cell);
-  return result;
+  const auto [stiffness, residual] = known_methods.at(request.options.design)(request);
+  return {stiffness, residual, lattice_moduli(stiffness, request.cell), examine(stiffness, request.cell)};
 }
 
 } // namespace springproof::msm

@@ -1,15 +1,9 @@
 #pragma once
 
-#include "cases/case/case.hpp"
-#include "msm/design/lattice_moduli.hpp"
 #include "msm/design/linear_method.hpp"
 #include "msm/design/uniaxial.hpp"
-#include "msm/lattice.hpp"
 
-#include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 /// Design: from a material to the stiffnesses of one cell. A method is one function and one line in the table
 /// of design.cpp.
@@ -44,20 +38,11 @@ std::vector<cases::Design> methods();
 /// a bulk modulus.
 cases::LinearElastic small_strain_material(const cases::Material& material);
 
-/// The small-strain material that the design is made for: options.poissons_ratio replaces the material's own,
-/// E stays.
-/// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
-cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio);
-
 /// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to a strain
 /// of 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.
 /// @throws InputError unless 0 < nu <= 0.5
 /// @param largest_strain  instead of those ends
 UniaxialCurve uniaxial_reference(const DesignRequest& request,
                                  std::optional<double> largest_strain = std::nullopt);
-
-/// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
-/// indefinite tangent at rest.  @param vertices  mm
-std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices);
 
 } // namespace springproof::msm

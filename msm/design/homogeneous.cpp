@@ -1,6 +1,7 @@
 #include "msm/design/homogeneous.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/lattice_moduli.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -16,28 +17,22 @@ namespace springproof::msm {
 
 namespace {
 
-/// One of the 13 springs that a node of the lattice owns: its rest vector in edges, and its assembled
-/// stiffness.
+/// One of the 13 springs that a node of the lattice owns: its rest vector in edges, and the spring that it is
+/// in the assembled lattice.
 struct NodeSpring {
   Eigen::Vector3d d;
-  double stiffness;
+  Spring spring;
 };
 
-std::array<NodeSpring, 13> node_springs(const CellStiffness& k) {
-  const double e = 4 * k.edge, f = 2 * k.face_diagonal, d = k.internal_diagonal;
-  return {{{{1, 0, 0}, e},
-           {{0, 1, 0}, e},
-           {{0, 0, 1}, e},
-           {{1, 1, 0}, f},
-           {{1, -1, 0}, f},
-           {{1, 0, 1}, f},
-           {{1, 0, -1}, f},
-           {{0, 1, 1}, f},
-           {{0, 1, -1}, f},
-           {{1, 1, 1}, d},
-           {{1, 1, -1}, d},
-           {{1, -1, 1}, d},
-           {{1, -1, -1}, d}}};
+std::vector<NodeSpring> node_springs(const CellStiffness& k, double edge) {
+  std::vector<NodeSpring> springs;
+  const auto add = [&](double stiffness, std::initializer_list<Eigen::Vector3d> directions) {
+    for (const Eigen::Vector3d& d : directions) springs.push_back({d, {stiffness, edge * d.norm()}});
+  };
+  add(4 * k.edge, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  add(2 * k.face_diagonal, {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
+  add(k.internal_diagonal, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
+  return springs;
 }
 
 Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
@@ -46,10 +41,6 @@ Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
   c.col(1) = f.col(2).cross(f.col(0));
   c.col(2) = f.col(0).cross(f.col(1));
   return c;
-}
-
-Eigen::Vector3d vertex(int v) {
-  return {static_cast<double>(v & 1), static_cast<double>((v >> 1) & 1), static_cast<double>((v >> 2) & 1)};
 }
 
 /// D(q) as a sum over the 27 neighbours of a node, itself included: D(q) = sum_n B_n exp(i q d_n).
@@ -70,65 +61,54 @@ struct DynamicalMatrix {
   }
 };
 
-/// Every node is vertex a of one cell and vertex b of another: the second derivatives of one cell's energy,
-/// gathered by X_b - X_a.
-void add_volume_terms(DynamicalMatrix& matrix, double stiffness, double edge, const Eigen::Matrix3d& f) {
-  CellPositions x;
-  for (int v = 0; v < 8; ++v) x[static_cast<std::size_t>(v)] = edge * f * vertex(v);
-  const double rest_volume = edge * edge * edge;
-  const CellGradient gradient = trilinear_volume_gradient(x);
-  const double pressure = stiffness * (trilinear_volume(x) / rest_volume - 1);
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b)
-      matrix.block(vertex(b) - vertex(a)) += stiffness / rest_volume * gradient[static_cast<std::size_t>(a)] *
-                                                 gradient[static_cast<std::size_t>(b)].transpose() +
-                                             pressure * trilinear_volume_second_derivative(x, a, b);
-}
-
 DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   DynamicalMatrix matrix;
-  for (int n = 0; n < 27; ++n) {
-    matrix.neighbours[static_cast<std::size_t>(n)] = Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-    matrix.blocks[static_cast<std::size_t>(n)].setZero();
+  for (std::size_t n = 0; n < 27; ++n) {
+    const int i = static_cast<int>(n);
+    matrix.neighbours[n] = Eigen::Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    matrix.blocks[n].setZero();
   }
-  for (const NodeSpring& spring : node_springs(stiffness)) {
-    const Eigen::Matrix3d block = spring_stiffness(
-        edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}, TransverseTerm::exact);
+  for (const auto& [d, spring] : node_springs(stiffness, edge)) {
+    const Eigen::Matrix3d block = spring_stiffness(edge * f * d, spring, TransverseTerm::exact);
     matrix.block(Eigen::Vector3d::Zero()) += 2 * block;
-    matrix.block(spring.d) -= block;
-    matrix.block(-spring.d) -= block;
+    matrix.block(d) -= block;
+    matrix.block(-d) -= block;
   }
-  if (stiffness.volume != 0) add_volume_terms(matrix, stiffness.volume, edge, f);
+  if (stiffness.volume == 0) return matrix;
+  // Every node is vertex a of one cell and vertex b of another: the second derivatives of one cell's energy,
+  // gathered by X_b - X_a.
+  const CellPositions vertices = cube(1);
+  CellPositions x;
+  for (std::size_t v = 0; v < 8; ++v) x[v] = edge * f * vertices[v];
+  const double rest_volume = edge * edge * edge;
+  const auto gradient = trilinear_volume_gradient(x);
+  const auto second = trilinear_volume_second_derivative(x);
+  const double pressure = stiffness.volume * (trilinear_volume(x) / rest_volume - 1);
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = 0; b < 8; ++b)
+      matrix.block(vertices[b] - vertices[a]) +=
+          stiffness.volume / rest_volume * gradient[a] * gradient[b].transpose() + pressure * second[a][b];
   return matrix;
 }
 
 /// Wave vectors: half of the zone (D(-q) is the conjugate of D(q)) on a grid of pi/4, and long waves along
 /// the same directions, which tell whether the continuum loses ellipticity.
-const std::vector<Eigen::Vector3d>& wave_vectors() {
-  static const std::vector<Eigen::Vector3d> all = [] {
-    std::vector<Eigen::Vector3d> list;
-    constexpr int n = 4;
-    for (int i = 0; i <= n; ++i)
-      for (int j = -n; j <= n; ++j)
-        for (int k = -n; k <= n; ++k) {
-          const Eigen::Vector3d q(i, j, k);
-          if (q.squaredNorm() == 0) continue;
-          list.push_back(q * M_PI / n);
-          list.push_back(q.normalized() * 0.01);
-        }
-    return list;
-  }();
+std::vector<Eigen::Vector3d> wave_vectors() {
+  std::vector<Eigen::Vector3d> all;
+  constexpr int n = 4;
+  for (int i = 0; i <= n; ++i)
+    for (int j = -n; j <= n; ++j)
+      for (int k = -n; k <= n; ++k) {
+        const Eigen::Vector3d q(i, j, k);
+        if (q.squaredNorm() == 0) continue;
+        all.push_back(q * M_PI / n);
+        all.push_back(q.normalized() * 0.01);
+      }
   return all;
 }
 
 Eigen::Matrix3d uniaxial(double lateral, double axial) {
   return Eigen::Vector3d(lateral, lateral, axial).asDiagonal();
-}
-
-Eigen::Matrix3d simple_shear(double amount) {
-  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-  f(0, 2) = amount;
-  return f;
 }
 
 /// Last stable parameter on the way from start to end.
@@ -154,24 +134,29 @@ double last_stable(double start, double end, const std::function<bool(double)>& 
 
 double lattice_energy_density(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   double energy = 0;
-  for (const NodeSpring& spring : node_springs(stiffness))
-    energy += spring_energy(edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()});
+  for (const auto& [d, spring] : node_springs(stiffness, edge)) energy += spring_energy(edge * f * d, spring);
   const double dilatation = f.determinant() - 1;
   return energy / (edge * edge * edge) + 0.5 * stiffness.volume * dilatation * dilatation;
 }
 
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   Eigen::Matrix3d stress = stiffness.volume * (f.determinant() - 1) * cofactor(f);
-  for (const NodeSpring& spring : node_springs(stiffness))
-    stress += spring_force(edge * f * spring.d, {spring.stiffness, edge * spring.d.norm()}) *
-              spring.d.transpose() / (edge * edge);
+  for (const auto& [d, spring] : node_springs(stiffness, edge))
+    stress += spring_force(edge * f * d, spring) * d.transpose() / (edge * edge);
   return stress;
+}
+
+Eigen::Matrix3d simple_shear(double amount) {
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  f(0, 2) = amount;
+  return f;
 }
 
 double smallest_wave_stiffness(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   const DynamicalMatrix matrix = dynamical_matrix(stiffness, edge, f);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& phase : wave_vectors()) smallest = std::min(smallest, matrix.smallest(phase));
+  static const std::vector<Eigen::Vector3d> all = wave_vectors();
+  for (const Eigen::Vector3d& phase : all) smallest = std::min(smallest, matrix.smallest(phase));
   return smallest;
 }
 

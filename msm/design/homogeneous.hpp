@@ -2,8 +2,6 @@
 
 #include "msm/lattice.hpp"
 
-#include <Eigen/Core>
-
 /// The infinite cubical lattice under a homogeneous deformation gradient F: thirteen springs per node and the
 /// volume term. Every node is a centre of symmetry, so that an affine deformation is in equilibrium and the
 /// energy is a closed form.
@@ -16,6 +14,9 @@ double lattice_energy_density(const CellStiffness& stiffness, double edge, const
 
 /// First Piola-Kirchhoff stress dW/dF, MPa.
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
+
+/// Simple shear of xz by an amount.
+Eigen::Matrix3d simple_shear(double amount);
 
 /// Over wave vectors q of the first Brillouin zone, the smallest eigenvalue of the dynamical matrix D(q)
 /// divided by |q h|², N/mm. Positive: no small displacement of the infinite lattice, of any wavelength,

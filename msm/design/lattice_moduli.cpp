@@ -8,9 +8,8 @@ namespace {
 
 // The displacement u = e x at the vertices, e symmetric with unit engineering strain in one Voigt component.
 Eigen::Matrix<double, 24, 1> affine_displacement(const CellVertices& vertices, int component) {
-  static constexpr std::array<std::array<int, 2>, 6> axes = {
-      {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
-  const auto [i, j] = axes[static_cast<std::size_t>(component)];
+  static constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  const auto& [i, j] = axes[component];
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
   strain(i, j) += 0.5;
   strain(j, i) += 0.5;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "msm/cell_volume.hpp"
 #include "msm/lattice.hpp"
-
-#include <Eigen/Core>
 
 namespace springproof::msm {
 
@@ -30,8 +27,8 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
 /// @param vertices  mm
 LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices);
 
-using Elasticity =
-    Eigen::Matrix<double, 6, 6>; ///< MPa; engineering strains in the order xx, yy, zz, yz, xz, xy
+/// MPa; engineering strains in the order xx, yy, zz, yz, xz, xy.
+using Elasticity = Eigen::Matrix<double, 6, 6>;
 
 /// Energy of a cell under affine displacements as an elasticity matrix: twice the energy per rest volume is
 /// e^T C e.

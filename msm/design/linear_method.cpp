@@ -6,9 +6,8 @@ namespace springproof::msm {
 
 namespace {
 
-template<std::size_t n>
-void add_springs(CellMatrix& matrix, const CellVertices& vertices,
-                 const std::array<std::array<int, 2>, n>& springs, double stiffness) {
+template<class Pairs>
+void add_springs(CellMatrix& matrix, const CellVertices& vertices, const Pairs& springs, double stiffness) {
   for (const auto& [i, j] : springs) {
     const Eigen::Vector3d d = vertices[static_cast<std::size_t>(j)] - vertices[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d block = stiffness / d.squaredNorm() * d * d.transpose();
@@ -20,7 +19,7 @@ void add_springs(CellMatrix& matrix, const CellVertices& vertices,
 }
 
 void add_volume_term(CellMatrix& matrix, const CellVertices& vertices, double stiffness) {
-  const CellGradient by_vertex = trilinear_volume_gradient(vertices);
+  const auto by_vertex = trilinear_volume_gradient(vertices);
   Eigen::Matrix<double, 24, 1> gradient;
   for (int v = 0; v < 8; ++v) gradient.segment<3>(3 * v) = by_vertex[static_cast<std::size_t>(v)];
   matrix += stiffness / trilinear_volume(vertices) * gradient * gradient.transpose();

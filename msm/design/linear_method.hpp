@@ -1,14 +1,11 @@
 #pragma once
 
 #include "msm/design/lattice_moduli.hpp"
-#include "msm/lattice.hpp"
-
-#include <Eigen/Core>
 
 namespace springproof::msm {
 
-using CellMatrix =
-    Eigen::Matrix<double, 24, 24>; ///< degree of freedom 3*vertex + component, vertex v = i + 2j + 4k
+/// Degree of freedom 3*vertex + component, vertex v = i + 2j + 4k.
+using CellMatrix = Eigen::Matrix<double, 24, 24>;
 
 /// Stiffness matrix of one cell's springs, linearised at rest (N/mm):
 ///   K_ii = sum_j k_ij n n^T,  K_ij = -k_ij n n^T,  n the unit vector along the spring,
@@ -17,9 +14,8 @@ using CellMatrix =
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness);
 
 struct LinearFit {
-  CellStiffness
-      stiffness;   ///< without a volume term; components may come out negative, the fit is unconstrained
-  double residual; ///< || K_FEM - K_MSM ||_F, N/mm
+  CellStiffness stiffness; ///< without a volume term
+  double residual;         ///< || K_FEM - K_MSM ||_F, N/mm
 };
 
 /// The linear method: the k_e, k_f, k_d >= 0 that minimise the distance of K_MSM from a reference matrix in

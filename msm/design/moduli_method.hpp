@@ -1,7 +1,6 @@
 #pragma once
 
 #include "msm/design/lattice_moduli.hpp"
-#include "msm/lattice.hpp"
 
 namespace springproof::msm {
 

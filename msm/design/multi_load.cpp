@@ -20,22 +20,14 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr int n_states = 20; ///< per path, as in the thesis's uniaxial fit
 
-/// Stretches along the axes of every path but simple shear. An incompressible material has nu = 1/2.
-Eigen::Matrix3d stretches(LoadPath path, double strain, double nu) {
+Eigen::Matrix3d deformation(LoadPath path, double strain, double nu) {
+  if (path == LoadPath::simple_shear) return simple_shear(strain);
   const double free_of_two =
       -nu / (1 - nu); // strain of the one free direction for a unit sum of the other two
-  const Eigen::Vector3d e = path == LoadPath::uniaxial ? Eigen::Vector3d(-nu * strain, -nu * strain, strain)
-                            : path == LoadPath::equibiaxial
-                                ? Eigen::Vector3d(strain, strain, 2 * free_of_two * strain)
-                                : Eigen::Vector3d(strain, 0, free_of_two * strain);
+  Eigen::Vector3d e(strain, 0, free_of_two * strain); // pure shear
+  if (path == LoadPath::uniaxial) e = {-nu * strain, -nu * strain, strain};
+  if (path == LoadPath::equibiaxial) e = {strain, strain, 2 * free_of_two * strain};
   return e.array().exp().matrix().asDiagonal();
-}
-
-Eigen::Matrix3d deformation(LoadPath path, double strain, double nu) {
-  if (path != LoadPath::simple_shear) return stretches(path, strain, nu);
-  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-  f(0, 2) = strain;
-  return f;
 }
 
 /// The direction in which the path leaves the material free.
@@ -54,19 +46,16 @@ Eigen::Matrix3d log_strain_stress(const cases::LinearElastic& material, const Ei
          law.pressure(f.determinant()).value * Eigen::Matrix3d::Identity();
 }
 
+enum class Part { all, deviator };
+
 /// Components weighted so that the squared norm is that of the tensor.
-Vector6 components(const Eigen::Matrix3d& s) {
+Vector6 part_of(const Eigen::Matrix3d& stress, Part part) {
+  Eigen::Matrix3d s = stress;
+  if (part == Part::deviator) s -= stress.trace() / 3 * Eigen::Matrix3d::Identity();
   const double root = std::sqrt(2.0);
   Vector6 v;
   v << s(0, 0), s(1, 1), s(2, 2), root * s(0, 1), root * s(1, 2), root * s(0, 2);
   return v;
-}
-
-enum class Part { all, deviator };
-
-Vector6 part_of(const Eigen::Matrix3d& stress, Part part) {
-  if (part == Part::all) return components(stress);
-  return components(stress - stress.trace() / 3 * Eigen::Matrix3d::Identity());
 }
 
 Eigen::Matrix3d cauchy_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
@@ -105,14 +94,12 @@ LinearProblem path_problem(const cases::Material& material, double edge, LoadPat
 /// Columns k = T x of the stiffnesses in terms of the unknowns. With a split t these are k_e, the shear
 /// stiffness m = K_f + 4 K_d/3 of the lattice [and k_v edge]; without, the stiffnesses themselves.
 Eigen::MatrixXd unknowns_to_stiffness(const std::optional<double>& split, bool fits_volume) {
-  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(4, fits_volume ? 4 : 3);
-  if (!split) return all;
-  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(4, fits_volume ? 3 : 2);
-  shared(0, 0) = 1;
-  shared(1, 1) = (1 - *split) / 2;
-  shared(2, 1) = 0.75 * *split;
-  if (fits_volume) shared(3, 2) = 1;
-  return shared;
+  Eigen::Matrix4d columns = Eigen::Matrix4d::Identity();
+  if (split) {
+    columns.col(1) << 0, (1 - *split) / 2, 0.75 * *split, 0;
+    columns.col(2) = Eigen::Vector4d::UnitW();
+  }
+  return columns.leftCols((split ? 2 : 3) + (fits_volume ? 1 : 0));
 }
 
 void check(const MultiLoadSettings& settings) {
@@ -126,18 +113,6 @@ void check(const MultiLoadSettings& settings) {
         "multi-load design: the strain range must have its upper end above its lower one");
   if (settings.split && !(*settings.split >= 0 && *settings.split <= 1))
     throw cases::InputError("multi-load design: split must lie in [0, 1]");
-}
-
-/// All paths below each other, each with the square root of its weight.
-LinearProblem stack(const std::vector<LinearProblem>& problems, const std::vector<double>& weights) {
-  const Eigen::Index rows = problems.front().target.size(), n = static_cast<Eigen::Index>(problems.size());
-  LinearProblem all{Eigen::MatrixXd(n * rows, problems.front().matrix.cols()), Eigen::VectorXd(n * rows)};
-  for (Eigen::Index p = 0; p < n; ++p) {
-    const double factor = std::sqrt(weights[static_cast<std::size_t>(p)]);
-    all.matrix.middleRows(p * rows, rows) = factor * problems[static_cast<std::size_t>(p)].matrix;
-    all.target.segment(p * rows, rows) = factor * problems[static_cast<std::size_t>(p)].target;
-  }
-  return all;
 }
 
 } // namespace
@@ -160,18 +135,24 @@ MultiLoadFit multi_load_method(const cases::Material& material, double edge,
   const bool is_incompressible = std::holds_alternative<cases::Ogden>(material);
   const bool fits_volume = settings.has_volume_term && !is_incompressible;
   const Part part = settings.has_volume_term && is_incompressible ? Part::deviator : Part::all;
+  // All paths below each other, each with the square root of its weight.
+  const auto rows = static_cast<Eigen::Index>(6 * n_states * settings.paths.size());
+  LinearProblem all{Eigen::MatrixXd(rows, 4), Eigen::VectorXd(rows)};
   std::vector<LinearProblem> problems;
-  for (const LoadPath path : settings.paths)
+  for (const LoadPath path : settings.paths) {
+    const auto first = static_cast<Eigen::Index>(6 * n_states * problems.size());
+    const double factor = std::sqrt(settings.weights[problems.size()]);
     problems.push_back(path_problem(material, edge, path, part, settings));
+    all.matrix.middleRows<6 * n_states>(first) = factor * problems.back().matrix;
+    all.target.segment<6 * n_states>(first) = factor * problems.back().target;
+  }
   const double unit = small_strain_material(material).youngs_modulus * edge;
-  const LinearProblem all = stack(problems, settings.weights);
   const Eigen::MatrixXd to_stiffness = unknowns_to_stiffness(settings.split, fits_volume);
   const Eigen::VectorXd k = to_stiffness * bounded_least_squares(all.matrix * to_stiffness, all.target, unit);
   MultiLoadFit fit{{k(0), k(1), k(2), k(3) / edge}, 0, {}};
   for (std::size_t p = 0; p < problems.size(); ++p) {
-    const double error = (problems[p].matrix * k - problems[p].target).norm();
-    fit.objective += settings.weights[p] * error * error;
-    fit.paths.push_back({settings.paths[p], settings.weights[p], error});
+    fit.errors.push_back((problems[p].matrix * k - problems[p].target).norm());
+    fit.objective += settings.weights[p] * fit.errors[p] * fit.errors[p];
   }
   // Lambda of the lattice is C12 = C44 + k_v.
   if (part == Part::deviator)

@@ -3,9 +3,7 @@
 #include "cases/case/case.hpp"
 #include "msm/lattice.hpp"
 
-#include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 /// The multi-load method: springs, and a volume term if wanted, fitted to a material's stresses along several
 /// homogeneous deformations at once. The lattice's stress is linear in its stiffnesses at a given
@@ -24,13 +22,6 @@ struct MaterialState {
 /// @throws InputError for E <= 0 or nu outside (-1, 0.5)
 MaterialState material_state(const cases::Material& material, cases::LoadPath path, double strain);
 
-struct PathFit {
-  cases::LoadPath path;
-  double weight;
-  double error; ///< |s_lattice - s_material| / |s_material| over the path's states; with a volume term and an
-                ///< incompressible material, of the deviators, for the pressure is then the volume term's
-};
-
 struct MultiLoadSettings {
   std::vector<cases::LoadPath> paths; ///< at least one
   std::vector<double> weights;        ///< one per path, >= 0, not all 0
@@ -44,7 +35,9 @@ struct MultiLoadSettings {
 struct MultiLoadFit {
   CellStiffness stiffness;
   double objective; ///< sum of weight * error² over the paths
-  std::vector<PathFit> paths;
+  /// |s_lattice - s_material| / |s_material| over each path's states; with a volume term and an
+  /// incompressible material, of the deviators, for the pressure is then the volume term's.
+  std::vector<double> errors;
 };
 
 /// Minimises sum of weight * error² over stiffnesses >= 0 with Ceres.

@@ -38,13 +38,14 @@ struct StrainResidual {
   }
 
  private:
-  static double value(double number) { return number; }
-  template<class Jet>
-  static double value(const Jet& number) {
-    return number.a;
-  }
   template<class Number>
   double width(const Number* k) const {
+    const auto value = [](const Number& number) {
+      if constexpr (std::is_same_v<Number, double>)
+        return number;
+      else
+        return number.a;
+    };
     try {
       return lateral_stretch({value(k[0]), value(k[1]), value(k[2]), 0}, std::exp(strain));
     } catch (const cases::SolveError&) {
@@ -62,13 +63,8 @@ double stiffness_unit(const UniaxialCurve& reference, double edge) {
 }
 
 StrainResidual residual_at(const UniaxialCurve& reference, std::size_t i, double edge, double unit) {
-  return {reference.axial_strain[i],
-          reference.stress[i],
-          reference.lateral_strain[i],
-          norm(reference.stress),
-          norm(reference.lateral_strain),
-          edge,
-          unit};
+  const auto& [strain, stress, lateral] = reference;
+  return {strain[i], stress[i], lateral[i], norm(stress), norm(lateral), edge, unit};
 }
 
 void check(const UniaxialCurve& reference) {
@@ -111,10 +107,6 @@ Minimum minimise(const UniaxialCurve& reference, double edge, double unit, std::
 constexpr std::array<std::array<double, 3>, 6> starts = {
     {{0.2, 0.2, 0.2}, {1, 0.05, 0.05}, {0.05, 1, 0.05}, {0.05, 0.05, 1}, {1, 1, 0.05}, {2, 2, 2}}};
 
-CellStiffness in_newton_per_mm(const std::array<double, 3>& scaled, double unit) {
-  return {unit * scaled[0], unit * scaled[1], unit * scaled[2], 0};
-}
-
 } // namespace
 
 Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
@@ -147,17 +139,17 @@ double uniaxial_objective(const CellStiffness& stiffness, double edge, const Uni
 NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge) {
   check(reference);
   const double unit = stiffness_unit(reference, edge);
-  NonlinearFit fit{{}, std::numeric_limits<double>::infinity(), {}, {}};
+  NonlinearFit fit{{}, std::numeric_limits<double>::infinity(), {}};
   for (const auto& start : starts) {
     const Minimum minimum = minimise(reference, edge, unit, start);
     if (!minimum.converged) continue;
-    fit.from_starts.push_back(minimum.objective);
-    fit.minimisers.push_back(in_newton_per_mm(minimum.scaled, unit));
+    const auto& [edges, face_diagonals, internal_diagonals] = minimum.scaled;
+    fit.minimisers.push_back({unit * edges, unit * face_diagonals, unit * internal_diagonals, 0});
     if (!(minimum.objective < fit.objective)) continue;
     fit.objective = minimum.objective;
     fit.stiffness = fit.minimisers.back();
   }
-  if (fit.from_starts.empty())
+  if (fit.minimisers.empty())
     throw cases::SolveError("nonlinear method: the minimisation converged from no start", 0, 0);
   return fit;
 }

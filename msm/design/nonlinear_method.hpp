@@ -2,9 +2,6 @@
 
 #include "msm/design/uniaxial.hpp"
 
-#include <Eigen/Core>
-#include <vector>
-
 namespace springproof::msm {
 
 /// Objective of the nonlinear method, dimensionless:
@@ -19,9 +16,8 @@ Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
 
 struct NonlinearFit {
   CellStiffness stiffness;
-  double objective;                ///< phi at the minimum
-  std::vector<double> from_starts; ///< the minima found from every start; equal when the minimiser is unique
-  std::vector<CellStiffness> minimisers; ///< of every start
+  double objective;                      ///< phi at the minimum
+  std::vector<CellStiffness> minimisers; ///< of every start; equal when the minimiser is unique
 };
 
 /// The nonlinear method: the k >= 0 that minimise phi, by Ceres's trust region from several starts.

@@ -4,8 +4,6 @@
 #include "msm/lattice.hpp"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace springproof::msm {
 

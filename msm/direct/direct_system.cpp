@@ -70,7 +70,17 @@ class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower>
   }
 };
 
-using mechanics::Convexity;
+/// Calls action(point, component, place in a vector): free degrees of freedom, and then, if supports move,
+/// constrained ones.
+template<class Action>
+void for_each_entry(const Problem& problem, const Action& action) {
+  Eigen::Index next = 0;
+  for (const bool constrained : {false, true}) {
+    if (constrained && !problem.supports) return;
+    for (std::size_t d = 0; d < problem.is_constrained.size(); ++d)
+      if (problem.is_constrained[d] == constrained) action(d / 3, static_cast<int>(d % 3), next++);
+  }
+}
 
 class DirectSystem : public SpringSystem {
  public:
@@ -90,18 +100,6 @@ class DirectSystem : public SpringSystem {
 
   double energy(const Vector& displacement, double load_factor) override {
     return msm::energy(problem_.lattice, positions(displacement)) - load_factor * load_.dot(displacement);
-  }
-
-  std::optional<Vector> direction(const Vector& displacement, const Vector& residual, double, double,
-                                  Convexity convexity) override {
-    const TransverseTerm term =
-        convexity == Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
-    const double shift =
-        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement)->eigenvalue) : 0;
-    if (!factorise(displacement, term, shift)) return std::nullopt;
-    const Vector step = with_supports(factorisation_.solution(residual.head(tangent_.n_free())));
-    if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
-    return step;
   }
 
   std::optional<bool> is_stable(const Vector& displacement) override {
@@ -131,27 +129,15 @@ class DirectSystem : public SpringSystem {
   }
 
   int n_inverted(const Vector& displacement) override {
-    const Points moved = to_points(problem_, displacement);
-    int n = 0;
-    for (std::size_t c = 0; c < problem_.mesh.cells.size(); ++c)
-      if (!(cases::smallest_corner_jacobian(cases::cell_vertices(problem_.mesh, c, moved)) > 0)) ++n;
-    return n;
+    return msm::n_inverted(problem_.mesh, to_points(problem_, displacement));
   }
 
   bool moves_supports() const override { return bool(problem_.supports); }
 
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
-    const Vector there = to_vector(problem_, problem_.supports(load_factor));
-    displacement.tail(there.size() - tangent_.n_free()) = there.tail(there.size() - tangent_.n_free());
-  }
-
-  double reaction(const Vector& displacement) override {
-    const Points force = internal_force(problem_.lattice, positions(displacement));
-    double squared = 0;
-    for (std::size_t d = 0; d < problem_.is_constrained.size(); ++d)
-      if (problem_.is_constrained[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
-    return std::sqrt(squared);
+    const Eigen::Index n = displacement.size() - tangent_.n_free();
+    displacement.tail(n) = to_vector(problem_, problem_.supports(load_factor)).tail(n);
   }
 
  private:
@@ -165,6 +151,22 @@ class DirectSystem : public SpringSystem {
   TransverseTerm factorised_term_{};
   double factorised_shift_ = 0;
   bool is_definite_ = false;
+
+  double reaction(const Vector& displacement) override {
+    const Points force = internal_force(problem_.lattice, positions(displacement));
+    double squared = 0;
+    for (std::size_t d = 0; d < problem_.is_constrained.size(); ++d)
+      if (problem_.is_constrained[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
+    return std::sqrt(squared);
+  }
+
+  std::optional<Vector> solve(const Vector& displacement, const Vector& residual, double /*forcing*/,
+                              TransverseTerm term, double shift) override {
+    if (!factorise(displacement, term, shift)) return std::nullopt;
+    const Vector step = with_supports(factorisation_.solution(residual.head(tangent_.n_free())));
+    if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
+    return step;
+  }
 
   /// A vector of forces: 0 on supports.
   Vector on_free(Vector all) const {
@@ -207,35 +209,16 @@ std::unique_ptr<SpringSystem> make_direct_system(const Problem& problem) {
   return std::make_unique<DirectSystem>(problem);
 }
 
-namespace {
-
-/// Calls action(degree of freedom 3*point + component, its place in a vector).
-template<class Action>
-void for_each_entry(const Problem& problem, const Action& action) {
-  Eigen::Index next = 0;
-  for (const bool constrained : {false, true}) {
-    if (constrained && !problem.supports) return;
-    for (std::size_t d = 0; d < problem.is_constrained.size(); ++d)
-      if (problem.is_constrained[d] == constrained) action(d, next++);
-  }
-}
-
-} // namespace
-
 Points to_points(const Problem& problem, const Vector& vector) {
   Points points(problem.is_constrained.size() / 3, Eigen::Vector3d::Zero());
-  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
-    points[d / 3][static_cast<int>(d % 3)] = vector[place];
-  });
+  for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) { points[p][c] = vector[place]; });
   return points;
 }
 
 Vector to_vector(const Problem& problem, const Points& points) {
   const auto n_free = std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false);
   Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_constrained.size()) : n_free);
-  for_each_entry(problem, [&](std::size_t d, Eigen::Index place) {
-    vector[place] = points[d / 3][static_cast<int>(d % 3)];
-  });
+  for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) { vector[place] = points[p][c]; });
   return vector;
 }
 

@@ -7,18 +7,11 @@
 
 namespace springproof::msm::grid {
 
-namespace {
-
 using cases::index;
 
-bool is_empty(const CellSprings& s) {
-  const auto is_zero = [](double k) { return k == 0; };
-  return std::all_of(s.edge.begin(), s.edge.end(), is_zero) &&
-         std::all_of(s.face_diagonal.begin(), s.face_diagonal.end(), is_zero) && s.internal_diagonal == 0 &&
-         s.volume == 0;
+bool CellSprings::is_empty() const {
+  return edge == std::array<double, 3>{} && face_diagonal == edge && internal_diagonal == 0 && volume == 0;
 }
-
-} // namespace
 
 const CellSprings& Body::cell(int i, int j, int k) const {
   static const CellSprings none;
@@ -37,62 +30,60 @@ Layout make_layout(const std::array<int, 3>& cells) {
   return layout;
 }
 
+void set_layout(Body& body, const std::function<bool(int, int, int, int)>& is_constrained) {
+  body.layout = make_layout(body.cells);
+  body.constrained.clear();
+  for (int c = 0; c < 3; ++c)
+    for_each_place(body.layout.nodes, [&](int i, int j, int k) {
+      if (is_constrained(i, j, k, c) || !has_cell(body, i, j, k))
+        body.constrained.push_back(body.layout.at(i, j, k, c));
+    });
+}
+
 bool has_cell(const Body& body, int i, int j, int k) {
   if (body.is_uniform()) return true;
   for (int v = 0; v < 8; ++v)
-    if (!is_empty(body.cell(i - (v & 1), j - ((v >> 1) & 1), k - (v >> 2)))) return true;
+    if (!body.cell(i - (v & 1), j - ((v >> 1) & 1), k - (v >> 2)).is_empty()) return true;
   return false;
 }
 
-std::array<bool, 3> axes_to_coarsen(const Body& body) {
+std::optional<Body> coarsen(const Body& fine) {
   double smallest = INFINITY;
-  for (int a = 0; a < 3; ++a)
-    if (body.cells[index(a)] > 2) smallest = std::min(smallest, body.spacing[a]);
-  std::array<bool, 3> axes{};
-  for (int a = 0; a < 3; ++a) axes[index(a)] = body.cells[index(a)] > 2 && body.spacing[a] < 1.5 * smallest;
-  return axes;
-}
-
-Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (fine.cells[a] > 2) smallest = std::min(smallest, fine.spacing[static_cast<int>(a)]);
+  if (std::isinf(smallest)) return std::nullopt;
   Body coarse;
   std::array<int, 3> factor;
   bool divides = true;
   for (std::size_t a = 0; a < 3; ++a) {
-    factor[a] = axes[a] ? 2 : 1;
+    double& spacing = coarse.spacing[static_cast<int>(a)] = fine.spacing[static_cast<int>(a)];
+    factor[a] = fine.cells[a] > 2 && spacing < 1.5 * smallest ? 2 : 1;
+    spacing *= factor[a];
     coarse.cells[a] = (fine.cells[a] + factor[a] - 1) / factor[a];
     divides = divides && fine.cells[a] % factor[a] == 0;
-    coarse.spacing[static_cast<int>(a)] = factor[a] * fine.spacing[static_cast<int>(a)];
   }
   const Eigen::Vector3d h = fine.spacing.cwiseAbs2(), H = coarse.spacing.cwiseAbs2();
   const double volume_ratio = fine.spacing.prod() / coarse.spacing.prod();
-  const auto add = [&](CellSprings& sum, const CellSprings& part) {
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      sum.edge[index(a)] += part.edge[index(a)] * h[a] / H[a];
-      sum.face_diagonal[index(a)] += part.face_diagonal[index(a)] * (h[b] + h[c]) / (H[b] + H[c]);
-    }
-    sum.internal_diagonal += part.internal_diagonal * h.sum() / H.sum();
-    sum.volume += part.volume * volume_ratio;
-  };
   const auto gathered = [&](int i, int j, int k) {
     CellSprings sum;
-    for (int c = 0; c < factor[2]; ++c)
-      for (int b = 0; b < factor[1]; ++b)
-        for (int a = 0; a < factor[0]; ++a)
-          add(sum, fine.cell(factor[0] * i + a, factor[1] * j + b, factor[2] * k + c));
+    for_each_place(factor, [&](int x, int y, int z) {
+      const CellSprings& part = fine.cell(factor[0] * i + x, factor[1] * j + y, factor[2] * k + z);
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        sum.edge[index(a)] += part.edge[index(a)] * h[a] / H[a];
+        sum.face_diagonal[index(a)] += part.face_diagonal[index(a)] * (h[b] + h[c]) / (H[b] + H[c]);
+      }
+      sum.internal_diagonal += part.internal_diagonal * h.sum() / H.sum();
+      sum.volume += part.volume * volume_ratio;
+    });
     return sum;
   };
-  if (fine.is_uniform() && divides)
-    coarse.springs = {gathered(0, 0, 0)};
-  else
-    for (int k = 0; k < coarse.cells[2]; ++k)
-      for (int j = 0; j < coarse.cells[1]; ++j)
-        for (int i = 0; i < coarse.cells[0]; ++i) coarse.springs.push_back(gathered(i, j, k));
+  for_each_place(fine.is_uniform() && divides ? std::array<int, 3>{1, 1, 1} : coarse.cells,
+                 [&](int i, int j, int k) { coarse.springs.push_back(gathered(i, j, k)); });
   set_layout(coarse, [&](int i, int j, int k, int c) {
     const std::ptrdiff_t entry =
-        c * fine.layout.size + fine.layout.at(std::min(factor[0] * i, fine.cells[0]),
-                                              std::min(factor[1] * j, fine.cells[1]),
-                                              std::min(factor[2] * k, fine.cells[2]));
+        fine.layout.at(std::min(factor[0] * i, fine.cells[0]), std::min(factor[1] * j, fine.cells[1]),
+                       std::min(factor[2] * k, fine.cells[2]), c);
     return std::binary_search(fine.constrained.begin(), fine.constrained.end(), entry);
   });
   return coarse;

@@ -1,21 +1,18 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/index.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/grid/conjugate_gradients.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <cmath>
-#include <random>
 #include <utility>
 
 namespace springproof::msm::grid {
 
 namespace {
 
-using FieldD = Field<double>;
+using cases::index;
 
 CellSprings cell_springs(const CellStiffness& k) {
   return {{k.edge, k.edge, k.edge},
@@ -24,26 +21,22 @@ CellSprings cell_springs(const CellStiffness& k) {
           k.volume};
 }
 
-/// Calls action(number of the mesh's node, i, j, k) for the nodes of a grid, in the order of make_grid_mesh.
+/// Calls action(number of the mesh's node, component, entry of a field).
 template<class Action>
-void for_each_node(const Problem& problem, const Action& action) {
+void for_each_entry(const Problem& problem, const Layout& layout, const Action& action) {
   const cases::Grid& grid = *problem.mesh.grid;
   for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n) {
     const Eigen::Vector3d at = (problem.mesh.nodes[n] - grid.origin).cwiseQuotient(grid.spacing);
-    action(n, static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
-           static_cast<int>(std::lround(at.z())));
+    const auto place = [&](int axis) { return static_cast<int>(std::lround(at[axis])); };
+    for (int c = 0; c < 3; ++c) action(n, c, layout.at(place(0), place(1), place(2), c));
   }
 }
-
-using mechanics::Convexity;
 
 class GridSystem : public SpringSystem {
  public:
   GridSystem(const GridProblem& problem, int n_threads)
       : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
-        bodies_(coarsenings(problem.body)) {
-    multigrid_.emplace(bodies_, n_threads);
-  }
+        bodies_(coarsenings(problem.body)), multigrid_(std::in_place, bodies_, n_threads) {}
 
   const Vector& load() const override { return problem_.load; }
 
@@ -59,14 +52,6 @@ class GridSystem : public SpringSystem {
     return springs_.energy(displacement) - load_factor * grid::dot(problem_.load, displacement, n_threads_);
   }
 
-  std::optional<Vector> direction(const Vector& displacement, const Vector& residual, double, double forcing,
-                                  Convexity convexity) override {
-    const Clamp clamp = convexity == Convexity::clamped ? Clamp::yes : Clamp::no;
-    const double shift =
-        convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(displacement)->eigenvalue) : 0;
-    return solve(displacement, residual, forcing, clamp, shift);
-  }
-
   std::optional<bool> is_stable(const Vector& displacement) override {
     if (displacement.isZero(0)) return true; // a sum of squares
     return lowest_mode(displacement)->eigenvalue > 0;
@@ -78,12 +63,12 @@ class GridSystem : public SpringSystem {
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     const Vector rest = Vector::Zero(problem_.load.size());
-    const auto motion = solve(rest, probe(), 1e-6, Clamp::no);
+    const auto motion = solve(rest, probe(), 1e-6, TransverseTerm::exact, 0);
     if (!motion) return RestState::mechanism;
     Vector image = rest;
     springs_.product(Clamp::no, rest, probe(), image);
-    const double typical = probe().dot(image) / probe().squaredNorm();
-    const double lowest = motion->dot(probe()) / motion->squaredNorm();
+    const double typical = probe_.dot(image) / probe_.squaredNorm();
+    const double lowest = motion->dot(probe_) / motion->squaredNorm();
     // Rounding leaves 1e-16, the softest lattice seen 1e-8.
     return lowest > 1e-12 * typical ? RestState::sound : RestState::mechanism;
   }
@@ -92,14 +77,14 @@ class GridSystem : public SpringSystem {
   /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     if (mode_at_.size() > 0 && mode_at_ == displacement) return mode_;
-    linearise(displacement);
+    multigrid_->linearise(displacement);
     const Eigen::Index size = problem_.load.size();
     using Columns = std::array<Vector, 3>; // the vector, its preconditioned residual, the last step
     Columns basis, image;
     for (std::size_t c = 0; c < 3; ++c) basis[c] = image[c] = Vector::Zero(size);
     const auto examine = [&](std::size_t c, const Vector& right_side) {
       multigrid_->apply(right_side, basis[c]);
-      scale(basis[c], 1 / norm(basis[c]));
+      scale(basis[c], 1 / norm(basis[c], n_threads_));
       springs_.product(Clamp::no, displacement, basis[c], image[c]);
     };
     examine(0, probe()); // rich in low modes
@@ -133,7 +118,7 @@ class GridSystem : public SpringSystem {
         scale(now, weights[0]);
         add(now, 1.0, step, n_threads_);
       }
-      const double to_unit = 1 / norm(basis[0]), step_to_unit = 1 / norm(basis[2]);
+      const double to_unit = 1 / norm(basis[0], n_threads_), step_to_unit = 1 / norm(basis[2], n_threads_);
       for (Columns* columns : {&basis, &image}) {
         scale((*columns)[0], to_unit);
         scale((*columns)[2], step_to_unit);
@@ -152,15 +137,13 @@ class GridSystem : public SpringSystem {
     for (int k = 0; k < body.cells[2]; ++k)
       for (int j = 0; j < body.cells[1]; ++j)
         for (int i = 0; i < body.cells[0]; ++i) {
-          if (!body.is_uniform() && !has_springs(body.cell(i, j, k))) continue;
-          std::array<Eigen::Vector3d, 8> vertices;
+          if (!body.is_uniform() && body.cell(i, j, k).is_empty()) continue;
+          CellPositions vertices;
           for (int v = 0; v < 8; ++v) {
-            const int x = i + (v & 1), y = j + ((v >> 1) & 1), z = k + (v >> 2);
-            const std::ptrdiff_t at = body.layout.at(x, y, z);
-            vertices[static_cast<std::size_t>(v)] =
-                Eigen::Vector3d(x, y, z).cwiseProduct(body.spacing) +
-                Eigen::Vector3d(displacement[at], displacement[at + body.layout.size],
-                                displacement[at + 2 * body.layout.size]);
+            const int node[3] = {i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2)};
+            for (int a = 0; a < 3; ++a)
+              vertices[index(v)][a] =
+                  node[a] * body.spacing[a] + displacement[body.layout.at(node[0], node[1], node[2], a)];
           }
           if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++n;
         }
@@ -178,13 +161,8 @@ class GridSystem : public SpringSystem {
   }
 
   double reaction(const Vector& displacement) override {
-    if (!loose_springs_) {
-      loose_body_ = problem_.body;
-      loose_body_.constrained.clear();
-      loose_springs_.emplace(loose_body_, n_threads_);
-    }
     Vector force = Vector::Zero(displacement.size());
-    loose_springs_->force(displacement, force);
+    springs_.reactions(displacement, force);
     double squared = 0;
     for (const std::ptrdiff_t entry : problem_.body.constrained) squared += force[entry] * force[entry];
     return std::sqrt(squared);
@@ -199,33 +177,26 @@ class GridSystem : public SpringSystem {
   SpringField<double> springs_;
   std::deque<Body> bodies_;
   std::optional<Multigrid> multigrid_;
-  Body loose_body_; ///< the body with nothing held, for the forces on its supports
-  std::optional<SpringField<double>> loose_springs_;
-  Vector linearised_at_, probe_, mode_at_;
+  Vector probe_, mode_at_;
   Mode mode_{};
 
-  double norm(const Vector& v) const {
-    return std::sqrt(grid::dot(v, v, n_threads_));
+  /// A fixed right side with a part in every motion.
+  const Vector& probe() {
+    if (probe_.size() == 0)
+      probe_ = random_field<double>(problem_.body, 3, std::normal_distribution<double>());
+    return probe_;
   }
+
   void scale(Vector& v, double factor) const {
     for_each_piece(v.size(), n_threads_,
                    [&](std::ptrdiff_t first, std::ptrdiff_t n) { v.segment(first, n) *= factor; });
   }
 
-  static bool has_springs(const CellSprings& cell) {
-    return cell.edge[0] != 0 || cell.face_diagonal[0] != 0 || cell.internal_diagonal != 0 || cell.volume != 0;
-  }
-
-  void linearise(const Vector& displacement) {
-    if (linearised_at_.size() > 0 && linearised_at_ == displacement) return;
-    multigrid_->linearise(displacement);
-    linearised_at_ = displacement;
-  }
-
   /// (tangent + shift) x = right side, or nothing when some direction meets no or negative curvature.
   std::optional<Vector> solve(const Vector& displacement, const Vector& right_side, double forcing,
-                              Clamp clamp, double shift = 0) {
-    linearise(displacement);
+                              TransverseTerm term, double shift) override {
+    multigrid_->linearise(displacement);
+    const Clamp clamp = term == TransverseTerm::clamped ? Clamp::yes : Clamp::no;
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, displacement, v, out);
       if (shift != 0) add(out, shift, v, n_threads_);
@@ -240,26 +211,9 @@ class GridSystem : public SpringSystem {
       if (found.converged) return found.solution;
       if (found.met_negative_curvature || !may_be_misled) break;
       multigrid_.emplace(bodies_, n_threads_);
-      linearised_at_.resize(0);
-      linearise(displacement);
+      multigrid_->linearise(displacement);
     }
     return std::nullopt;
-  }
-
-  /// A fixed right side with a part in every motion.
-  const Vector& probe() {
-    if (probe_.size() > 0) return probe_;
-    probe_ = Vector::Zero(problem_.load.size());
-    std::mt19937 generator(3);
-    std::normal_distribution<double> normal;
-    const Layout& layout = problem_.body.layout;
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < layout.nodes[2]; ++k)
-        for (int j = 0; j < layout.nodes[1]; ++j)
-          for (int i = 0; i < layout.nodes[0]; ++i)
-            probe_[c * layout.size + layout.at(i, j, k)] = normal(generator);
-    clear_constrained(problem_.body, probe_);
-    return probe_;
   }
 };
 
@@ -277,35 +231,24 @@ std::optional<GridProblem> make_grid_problem(const Problem& problem,
     body.springs = {cell_springs(stiffness.front())};
   } else {
     std::size_t next = 0;
-    for (int k = 0; k < grid.cells[2]; ++k)
-      for (int j = 0; j < grid.cells[1]; ++j)
-        for (int i = 0; i < grid.cells[0]; ++i) {
-          body.springs.emplace_back();
-          if (!grid.has(i, j, k)) continue;
-          body.springs.back() = cell_springs(stiffness[stiffness.size() == 1 ? 0 : next]);
-          ++next;
-        }
+    for_each_place(grid.cells, [&](int i, int j, int k) {
+      body.springs.emplace_back();
+      if (!grid.has(i, j, k)) return;
+      body.springs.back() = cell_springs(stiffness[stiffness.size() == 1 ? 0 : next++]);
+    });
   }
-  body.layout = make_layout(body.cells);
-  std::vector<bool> is_constrained(static_cast<std::size_t>(3 * body.layout.size));
-  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (problem.is_constrained[3 * n + c])
-        is_constrained[c * static_cast<std::size_t>(body.layout.size) +
-                       static_cast<std::size_t>(body.layout.at(i, j, k))] = true;
+  const Layout layout = make_layout(body.cells);
+  std::vector<bool> is_constrained(index(3 * layout.size));
+  for_each_entry(problem, layout, [&](std::size_t n, int c, std::ptrdiff_t entry) {
+    is_constrained[index(entry)] = problem.is_constrained[3 * n + index(c)];
   });
-  set_layout(body, [&](int i, int j, int k, int c) {
-    return is_constrained[static_cast<std::size_t>(c * body.layout.size + body.layout.at(i, j, k))];
-  });
-  result.load = to_field(problem, body, problem.force);
+  set_layout(body, [&](int i, int j, int k, int c) { return is_constrained[index(layout.at(i, j, k, c))]; });
+  result.load = to_field(problem, layout, problem.force);
   clear_constrained(body, result.load);
-  if (problem.supports) {
-    result.supports = [&problem, layout = body.layout](double load_factor) {
-      Body shape; // to_field() wants the layout alone
-      shape.layout = layout;
-      return to_field(problem, shape, problem.supports(load_factor));
+  if (problem.supports)
+    result.supports = [&problem, layout](double load_factor) {
+      return to_field(problem, layout, problem.supports(load_factor));
     };
-  }
   return result;
 }
 
@@ -314,12 +257,12 @@ std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n
 }
 
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
-  const std::array<bool, 3> axes = axes_to_coarsen(problem.body);
-  if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
-  GridProblem coarse{coarsen(problem.body, axes), {}, {}};
+  const std::optional<Body> body = coarsen(problem.body);
+  if (!body) return std::nullopt;
+  GridProblem coarse{*body, {}, {}};
   const Layout& layout = coarse.body.layout;
   if (layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
-  const Transfer<double> transfer(problem.body, coarse.body, axes, n_threads);
+  const Transfer<double> transfer(problem.body, coarse.body, n_threads);
   coarse.load.setZero(3 * layout.size);
   transfer.restrict(problem.load, coarse.load);
   const auto system = make_grid_system(coarse, n_threads);
@@ -339,20 +282,17 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   }
 }
 
-Points to_points(const Problem& problem, const Body& body, const Field<double>& field) {
+Points to_points(const Problem& problem, const Layout& layout, const Field<double>& field) {
   Points points(problem.mesh.nodes.size());
-  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
-    const std::ptrdiff_t at = body.layout.at(i, j, k);
-    points[n] = {field[at], field[at + body.layout.size], field[at + 2 * body.layout.size]};
-  });
+  for_each_entry(problem, layout,
+                 [&](std::size_t n, int c, std::ptrdiff_t entry) { points[n][c] = field[entry]; });
   return points;
 }
 
-Field<double> to_field(const Problem& problem, const Body& body, const Points& points) {
-  Field<double> field = Field<double>::Zero(3 * body.layout.size);
-  for_each_node(problem, [&](std::size_t n, int i, int j, int k) {
-    for (int c = 0; c < 3; ++c) field[c * body.layout.size + body.layout.at(i, j, k)] = points[n][c];
-  });
+Field<double> to_field(const Problem& problem, const Layout& layout, const Points& points) {
+  Field<double> field = Field<double>::Zero(3 * layout.size);
+  for_each_entry(problem, layout,
+                 [&](std::size_t n, int c, std::ptrdiff_t entry) { field[entry] = points[n][c]; });
   return field;
 }
 

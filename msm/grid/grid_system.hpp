@@ -4,9 +4,7 @@
 #include "msm/problem.hpp"
 #include "msm/spring_system.hpp"
 
-#include <functional>
 #include <memory>
-#include <optional>
 
 namespace springproof::msm::grid {
 
@@ -33,7 +31,7 @@ std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
 
 /// Between fields and one vector (mm or N) per node of the problem's mesh.
-Points to_points(const Problem& problem, const Body& body, const Field<double>& field);
-Field<double> to_field(const Problem& problem, const Body& body, const Points& points);
+Points to_points(const Problem& problem, const Layout& layout, const Field<double>& field);
+Field<double> to_field(const Problem& problem, const Layout& layout, const Points& points);
 
 } // namespace springproof::msm::grid

@@ -7,24 +7,26 @@
 /// one runs is decided when the program starts.
 namespace springproof::msm::grid {
 
-/// Half of a node's 26 neighbours: springs 3g + (dx + 1) of group g lead to the neighbours with dx = -1, 0, 1
-/// in one neighbouring row, and spring 12 to the next node of the same row.
+/// Half of a node's 26 neighbours, as steps (dx, dy, dz) in the grid: groups of three springs lead to dx =
+/// -1, 0, 1 in one neighbouring row, and the last one to the next node of the same row.
 constexpr int n_springs = 13;
-constexpr int n_groups = 4;
-constexpr int group_dy[n_groups] = {-1, 0, 1, 1};
-constexpr int group_dz[n_groups] = {1, 1, 1, 0};
+constexpr int spring_steps[n_springs][3] = {{-1, -1, 1}, {0, -1, 1}, {1, -1, 1}, {-1, 0, 1}, {0, 0, 1},
+                                            {1, 0, 1},   {-1, 1, 1}, {0, 1, 1},  {1, 1, 1},  {-1, 1, 0},
+                                            {0, 1, 0},   {1, 1, 0},  {1, 0, 0}};
 
-/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k). One ghost node lies between
-/// two rows, so that the kernels run through the rows of a plane as through one; ghosts enough for a
-/// neighbouring row and a pack of numbers more lie before and after every plane. Ghosts never move and carry
-/// no spring. A field of vectors is three such arrays, x, y and z, one after the other.
+/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k, c) in array c. One ghost node
+/// lies between two rows, so that the kernels run through the rows of a plane as through one; ghosts enough
+/// for a neighbouring row and a pack of numbers more lie before and after every plane. Ghosts never move and
+/// carry no spring. A field of vectors is three such arrays, x, y and z, one after the other.
 struct Layout {
   int nodes[3] = {0, 0, 0};
   std::ptrdiff_t row = 0;   ///< from one row to the next: nodes[0] + 1
   std::ptrdiff_t lead = 0;  ///< ghosts before the first node of a plane
   std::ptrdiff_t plane = 0; ///< from one plane to the next
   std::ptrdiff_t size = 0;  ///< entries of one array, ghosts and all
-  std::ptrdiff_t at(int i, int j, int k) const { return lead + i + row * j + plane * (k + 1); }
+  std::ptrdiff_t at(int i, int j, int k, int c = 0) const {
+    return c * size + lead + i + row * j + plane * (k + 1);
+  }
 };
 
 /// A lattice on a grid. Lengths in mm, stiffnesses in N/mm; Real is float inside the preconditioner.
@@ -78,16 +80,17 @@ struct Kernels {
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
 };
 
+struct InstructionSet {
+  const char* name;
+  Kernels<double> in_double;
+  Kernels<float> in_float;
+};
+extern const InstructionSet baseline, avx2, avx512;
+
 /// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
 /// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
+const InstructionSet& instruction_set();
 template<class Real>
 const Kernels<Real>& kernels();
-template<>
-const Kernels<double>& kernels();
-template<>
-const Kernels<float>& kernels();
-
-/// Name of that instruction set: "avx512", "avx2" or "baseline".
-const char* instruction_set();
 
 } // namespace springproof::msm::grid

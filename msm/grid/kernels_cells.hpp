@@ -5,18 +5,6 @@
 /// first-level cache.
 constexpr std::ptrdiff_t block = 64;
 
-/// First node of plane k of the result: in the field, or in the spill.
-template<class Real>
-SPRINGPROOF_INLINE Rows<Real> result_plane(const Layout& layout, const Slab<Real>& slab, Real* field, int k) {
-  if (k < slab.last) return rows(field, layout.size, layout.at(0, 0, k));
-  return rows(slab.spill, layout.plane, layout.at(0, 0, -1));
-}
-
-template<class Real>
-SPRINGPROOF_INLINE Rows<Real> shifted(const Rows<Real>& from, std::ptrdiff_t offset) {
-  return {from.x + offset, from.y + offset, from.z + offset};
-}
-
 /// Neighbours of vertex a of a cell around the three faces at it, each seen from outside anticlockwise:
 /// a, b, c, d.
 constexpr int faces_at[8][3][3] = {{{4, 6, 2}, {1, 5, 4}, {2, 3, 1}}, {{3, 7, 5}, {5, 4, 0}, {0, 2, 3}},
@@ -27,20 +15,23 @@ constexpr int faces_at[8][3][3] = {{{4, 6, 2}, {1, 5, 4}, {2, 3, 1}}, {{3, 7, 5}
 /// dV/dx_a of the trilinear hexahedron: the volume under a bilinear face a, b, c, d, as seen from the origin,
 /// is the mean of what its two triangulations give; of its derivative with respect to a, the faces at a add
 /// (b x c + c x d + b x d) / 12.
-template<class Real, int a>
-SPRINGPROOF_INLINE Vec<Real> volume_gradient(const Vec<Real> (&x)[8]) {
-  Vec<Real> sum{0, 0, 0};
+template<class Real>
+SPRINGPROOF_INLINE void volume_gradients(const Vec<Real> (&x)[8], Vec<Real> (&g)[8]) {
+#pragma GCC unroll 8
+  for (int a = 0; a < 8; ++a) {
+    Vec<Real> sum{0, 0, 0};
 #pragma GCC unroll 3
-  for (int f = 0; f < 3; ++f) {
-    const Vec<Real>&b = x[faces_at[a][f][0]], &c = x[faces_at[a][f][1]], &d = x[faces_at[a][f][2]];
-    sum = sum + cross(c, d - b) + cross(b, d);
+    for (int f = 0; f < 3; ++f) {
+      const Vec<Real>&b = x[faces_at[a][f][0]], &c = x[faces_at[a][f][1]], &d = x[faces_at[a][f][2]];
+      sum = sum + cross(c, d - b) + cross(b, d);
+    }
+    g[a] = Real(1.0 / 12) * sum;
   }
-  return Real(1.0 / 12) * sum;
 }
 
 /// The change of that along y: the form is bilinear.
-template<class Real, int a>
-SPRINGPROOF_INLINE Vec<Real> volume_gradient_change(const Vec<Real> (&x)[8], const Vec<Real> (&y)[8]) {
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> volume_gradient_change(const Vec<Real> (&x)[8], const Vec<Real> (&y)[8], int a) {
   Vec<Real> sum{0, 0, 0};
 #pragma GCC unroll 3
   for (int f = 0; f < 3; ++f) {
@@ -50,51 +41,39 @@ SPRINGPROOF_INLINE Vec<Real> volume_gradient_change(const Vec<Real> (&x)[8], con
   return Real(1.0 / 12) * sum;
 }
 
+/// The cells of a plane from some node on: their rows of nodes (j, k), (j+1, k), (j, k+1), (j+1, k+1), their
+/// k_v/V0, and their edges at rest.
 template<class Real>
-struct CellRows {
-  Rows<const Real> row[4]; ///< (j, k), (j+1, k), (j, k+1), (j+1, k+1)
+struct Cells {
+  Rows<Real> row[4];
+  const Real* stiffness;
+  Vec<Real> edges;
+  /// Values at the vertices less the first one's.
   SPRINGPROOF_INLINE void read(std::ptrdiff_t i, Vec<Real> (&x)[8]) const {
     const Vec<Real> origin = row[0].at(i);
     x[0] = {0, 0, 0};
-    x[1] = row[0].at(i + 1) - origin;
-    x[2] = row[1].at(i) - origin;
-    x[3] = row[1].at(i + 1) - origin;
-    x[4] = row[2].at(i) - origin;
-    x[5] = row[2].at(i + 1) - origin;
-    x[6] = row[3].at(i) - origin;
-    x[7] = row[3].at(i + 1) - origin;
+#pragma GCC unroll 8
+    for (int v = 1; v < 8; ++v) x[v] = row[v >> 1].at(i + (v & 1)) - origin;
+  }
+  /// Positions of the vertices from the displaced first one.
+  SPRINGPROOF_INLINE void positions(std::ptrdiff_t i, Vec<Real> (&x)[8]) const {
+    read(i, x);
+#pragma GCC unroll 8
+    for (int v = 1; v < 8; ++v)
+      x[v] = x[v] + Vec<Real>{(v & 1) ? edges.x : 0, (v & 2) ? edges.y : 0, (v & 4) ? edges.z : 0};
   }
 };
 
 /// Of the cells of plane k from node number `first` of the plane.
 template<class Real>
-SPRINGPROOF_INLINE CellRows<Real> cell_rows(const Layout& layout, const Real* field, std::ptrdiff_t first,
-                                            int k) {
+SPRINGPROOF_INLINE Cells<Real> cells_from(const Springs<Real>& s, const Real* field, std::ptrdiff_t first,
+                                          int k) {
+  const Layout& layout = s.layout;
   const std::ptrdiff_t here = layout.at(0, 0, k) + first, above = here + layout.plane;
   return {{rows(field, layout.size, here), rows(field, layout.size, here + layout.row),
-           rows(field, layout.size, above), rows(field, layout.size, above + layout.row)}};
-}
-
-/// Positions of a cell's vertices from the displaced first one.
-template<class Real>
-SPRINGPROOF_INLINE void cell_positions(const CellRows<Real>& u, std::ptrdiff_t i, const Vec<Real>& h,
-                                       Vec<Real> (&x)[8]) {
-  u.read(i, x);
-#pragma GCC unroll 8
-  for (int v = 1; v < 8; ++v)
-    x[v] = x[v] + Vec<Real>{(v & 1) ? h.x : 0, (v & 2) ? h.y : 0, (v & 4) ? h.z : 0};
-}
-
-template<class Real>
-SPRINGPROOF_INLINE void volume_gradients(const Vec<Real> (&x)[8], Vec<Real> (&g)[8]) {
-  g[0] = volume_gradient<Real, 0>(x);
-  g[1] = volume_gradient<Real, 1>(x);
-  g[2] = volume_gradient<Real, 2>(x);
-  g[3] = volume_gradient<Real, 3>(x);
-  g[4] = volume_gradient<Real, 4>(x);
-  g[5] = volume_gradient<Real, 5>(x);
-  g[6] = volume_gradient<Real, 6>(x);
-  g[7] = volume_gradient<Real, 7>(x);
+           rows(field, layout.size, above), rows(field, layout.size, above + layout.row)},
+          s.volume_stiffness + here,
+          rest_edges(s)};
 }
 
 /// A third of the sum of x . dV/dx: the volume is a cubic form.
@@ -104,12 +83,6 @@ SPRINGPROOF_INLINE Real volume(const Vec<Real> (&x)[8], const Vec<Real> (&g)[8])
 #pragma GCC unroll 8
   for (int v = 1; v < 8; ++v) sum += dot(x[v], g[v]);
   return sum * Real(1.0 / 3);
-}
-
-/// Edges of a cell at rest: springs 12 (x), 3*3+1 (y) and 3*1+1 (z).
-template<class Real>
-SPRINGPROOF_INLINE Vec<Real> cell_edges(const Springs<Real>& s) {
-  return {s.rest[12][0], s.rest[10][1], s.rest[4][2]};
 }
 
 /// Nodes of the plane's rows that have cells above them, in whole packs: the last row has none.
@@ -128,18 +101,14 @@ SPRINGPROOF_INLINE void sweep_cells(const Springs<Real>& s, const Slab<Real>& sl
     for (std::ptrdiff_t first = 0; first < n; first += block) {
       const std::ptrdiff_t length = first + block < n ? block : n - first;
       action(first, length, k, b);
-      for (int r = 0; r < 4; ++r) {
-        const Rows<Real> target =
-            shifted(result_plane(layout, slab, result, k + (r >> 1)), first + (r & 1) * layout.row);
-        Real* const component[3] = {target.x, target.y, target.z};
+      for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 3; ++c) {
-          Real* __restrict out = component[c];
-          const Real* __restrict lower = b + (6 * r + c) * block, * __restrict upper =
-                                                                      b + (6 * r + 3 + c) * block;
+          Real* __restrict out =
+              result_plane(layout, slab, result, k + (r >> 1), c) + first + (r & 1) * layout.row;
+          const Real* __restrict lower = b + (6 * r + c) * block, * __restrict upper = lower + 3 * block;
           for (std::ptrdiff_t i = 0; i < length; ++i) out[i] -= lower[i];
           for (std::ptrdiff_t i = 0; i < length; ++i) out[i + 1] -= upper[i];
         }
-      }
     }
 }
 
@@ -155,17 +124,15 @@ SPRINGPROOF_INLINE void store(Real* b, std::ptrdiff_t i, const Vec<Real> (&f)[8]
 
 template<class Real>
 void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* force) {
-  const Vec<Real> h = cell_edges(s);
   const Real rest_volume = s.rest_volume;
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
-    const CellRows<Real> u = cell_rows(s.layout, displacement, first, k);
-    const Real* stiffness = s.volume_stiffness + s.layout.at(0, 0, k) + first;
+    const Cells<Real> cells = cells_from(s, displacement, first, k);
 #pragma GCC ivdep
     for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8];
-      cell_positions(u, i, h, x);
+      cells.positions(i, x);
       volume_gradients(x, g);
-      const Real pressure = stiffness[i] * (volume(x, g) - rest_volume);
+      const Real pressure = cells.stiffness[i] * (volume(x, g) - rest_volume);
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
       store(b, i, g);
@@ -178,38 +145,26 @@ void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* di
 template<class Real, Clamp clamp>
 void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement,
                     const Real* direction, Real* product) {
-  const Vec<Real> h = cell_edges(s);
   const Real rest_volume = s.rest_volume;
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
-    const CellRows<Real> u = cell_rows(s.layout, displacement, first, k),
-                         w = cell_rows(s.layout, direction, first, k);
-    const Real* stiffness = s.volume_stiffness + s.layout.at(0, 0, k) + first;
+    const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
 #pragma GCC ivdep
     for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8], y[8], f[8];
-      cell_positions(u, i, h, x);
+      cells.positions(i, x);
       w.read(i, y);
       volume_gradients(x, g);
       Real change = 0; // the gradients of a cell sum to 0: y may be taken from the first vertex
 #pragma GCC unroll 8
       for (int v = 1; v < 8; ++v) change += dot(g[v], y[v]);
-      change *= -stiffness[i]; // sweep_cells subtracts
-      if constexpr (clamp == Clamp::no) {
-        const Real pressure = stiffness[i] * (rest_volume - volume(x, g));
-        f[0] = change * g[0] + pressure * volume_gradient_change<Real, 0>(x, y);
-        f[1] = change * g[1] + pressure * volume_gradient_change<Real, 1>(x, y);
-        f[2] = change * g[2] + pressure * volume_gradient_change<Real, 2>(x, y);
-        f[3] = change * g[3] + pressure * volume_gradient_change<Real, 3>(x, y);
-        f[4] = change * g[4] + pressure * volume_gradient_change<Real, 4>(x, y);
-        f[5] = change * g[5] + pressure * volume_gradient_change<Real, 5>(x, y);
-        f[6] = change * g[6] + pressure * volume_gradient_change<Real, 6>(x, y);
-        f[7] = change * g[7] + pressure * volume_gradient_change<Real, 7>(x, y);
-        store(b, i, f);
-      } else {
+      change *= -cells.stiffness[i]; // sweep_cells subtracts
+      const Real pressure = cells.stiffness[i] * (rest_volume - volume(x, g));
 #pragma GCC unroll 8
-        for (int v = 0; v < 8; ++v) g[v] = change * g[v];
-        store(b, i, g);
+      for (int v = 0; v < 8; ++v) {
+        f[v] = change * g[v];
+        if constexpr (clamp == Clamp::no) f[v] = f[v] + pressure * volume_gradient_change(x, y, v);
       }
+      store(b, i, f);
     }
   };
   sweep_cells(s, slab, action, product);

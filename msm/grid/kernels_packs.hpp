@@ -3,55 +3,50 @@
 
 // A pack is as many numbers as the instruction set computes at once.
 #if defined(__AVX512F__)
-#define SPRINGPROOF_PACK_BYTES 64
+constexpr std::size_t pack_bytes = 64;
 #elif defined(__AVX2__)
-#define SPRINGPROOF_PACK_BYTES 32
+constexpr std::size_t pack_bytes = 32;
 #else
-#define SPRINGPROOF_PACK_BYTES 16
+constexpr std::size_t pack_bytes = 16;
 #endif
 
 template<class Real>
-struct PackOf;
-template<>
-struct PackOf<double> {
-  typedef double type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
-  typedef double unaligned __attribute__((vector_size(SPRINGPROOF_PACK_BYTES), aligned(8), may_alias));
-};
-template<>
-struct PackOf<float> {
-  typedef float type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
-  typedef float unaligned __attribute__((vector_size(SPRINGPROOF_PACK_BYTES), aligned(4), may_alias));
-};
-/// Whole numbers that choose those of two packs.
-template<std::size_t bytes>
-struct MaskOf;
-template<>
-struct MaskOf<8> {
-  typedef long long type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
-};
-template<>
-struct MaskOf<4> {
-  typedef int type __attribute__((vector_size(SPRINGPROOF_PACK_BYTES)));
+struct PackOf {
+  typedef Real type __attribute__((vector_size(pack_bytes)));
+  typedef Real unaligned __attribute__((vector_size(pack_bytes), aligned(sizeof(Real)), may_alias));
 };
 template<class Real>
 using Pack = typename PackOf<Real>::type;
 using PackD = Pack<double>;
 using PackF = Pack<float>;
+template<class Real>
+constexpr std::ptrdiff_t pack_size = pack_bytes / sizeof(Real);
 
 template<class Real>
-constexpr std::ptrdiff_t pack_size = SPRINGPROOF_PACK_BYTES / sizeof(Real);
+SPRINGPROOF_INLINE Pack<Real> load(const Real* from) {
+  return *reinterpret_cast<const typename PackOf<Real>::unaligned*>(from);
+}
+template<class Real>
+SPRINGPROOF_INLINE void store(Real* to, const Pack<Real>& value) {
+  *reinterpret_cast<typename PackOf<Real>::unaligned*>(to) = value;
+}
 
-SPRINGPROOF_INLINE PackD load(const double* from) {
-  return *reinterpret_cast<const PackOf<double>::unaligned*>(from);
+/// The numbers from, from + 1, ... of a and then b.
+template<class P>
+SPRINGPROOF_INLINE P window(const P& a, const P& b, int from) {
+  decltype(a < b) places;
+  for (int i = 0; i < static_cast<int>(sizeof(P) / sizeof(a[0])); ++i) places[i] = from + i;
+  return __builtin_shuffle(a, b, places);
 }
-SPRINGPROOF_INLINE PackF load(const float* from) {
-  return *reinterpret_cast<const PackOf<float>::unaligned*>(from);
-}
-SPRINGPROOF_INLINE void store(double* to, const PackD& value) {
-  *reinterpret_cast<PackOf<double>::unaligned*>(to) = value;
-}
-SPRINGPROOF_INLINE void store(float* to, const PackF& value) {
-  *reinterpret_cast<PackOf<float>::unaligned*>(to) = value;
+/// The first n numbers of a and the others of b.
+template<class P>
+SPRINGPROOF_INLINE P first_of(std::ptrdiff_t n, const P& a, const P& b) {
+  decltype(a < b) place, end;
+  for (int i = 0; i < static_cast<int>(sizeof(P) / sizeof(a[0])); ++i) {
+    place[i] = i;
+    end[i] = static_cast<decltype(end[0] + 0)>(n);
+  }
+  return place < end ? a : b;
 }
 
 // 1/sqrt(x), x > 0, from the machine's estimate: of 1/sqrt(1 - e) with e = 1 - x y², as many terms of the
@@ -97,6 +92,7 @@ SPRINGPROOF_INLINE float inverse_root(float x) {
 template<class Real>
 struct Vec {
   Real x, y, z;
+  SPRINGPROOF_INLINE Real& operator[](int c) { return c == 0 ? x : c == 1 ? y : z; }
 };
 template<class Real>
 SPRINGPROOF_INLINE Vec<Real> operator+(const Vec<Real>& a, const Vec<Real>& b) {
@@ -119,28 +115,20 @@ SPRINGPROOF_INLINE Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-template<class T>
-struct Unqualified {
-  using type = T;
-};
-template<class T>
-struct Unqualified<const T> {
-  using type = T;
-};
-
 /// Three arrays of one row.
 template<class Real>
 struct Rows {
-  using Value = typename Unqualified<Real>::type;
-  Real *x, *y, *z;
-  SPRINGPROOF_INLINE Vec<Value> at(std::ptrdiff_t i) const { return {x[i], y[i], z[i]}; }
-  SPRINGPROOF_INLINE void set(std::ptrdiff_t i, const Vec<Value>& v) const {
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
-  }
+  const Real *x, *y, *z;
+  SPRINGPROOF_INLINE Vec<Real> at(std::ptrdiff_t i) const { return {x[i], y[i], z[i]}; }
 };
 template<class Real>
-SPRINGPROOF_INLINE Rows<Real> rows(Real* field, std::ptrdiff_t array, std::ptrdiff_t offset) {
+SPRINGPROOF_INLINE Rows<Real> rows(const Real* field, std::ptrdiff_t array, std::ptrdiff_t offset) {
   return {field + offset, field + array + offset, field + 2 * array + offset};
+}
+
+/// First node of plane k of a result's array c: in the field, or in the spill.
+template<class Real>
+SPRINGPROOF_INLINE Real* result_plane(const Layout& layout, const Slab<Real>& slab, Real* field, int k,
+                                      int c) {
+  return k < slab.last ? field + layout.at(0, 0, k, c) : slab.spill + c * layout.plane + layout.at(0, 0, -1);
 }

@@ -8,20 +8,18 @@ struct Share {
   Real scale;
 };
 
-/// That of a group's first spring; the others of the group follow at a distance of layout.plane.
 template<class Real>
 SPRINGPROOF_INLINE Share<Real> spring_share(const Springs<Real>& s, int spring, int k) {
   const std::ptrdiff_t plane = s.layout.plane;
   if (s.by_node) return {s.by_node + (n_springs * k + spring) * plane, s.stiffness[spring]};
-  const bool along_row = spring == n_springs - 1;
-  const int dx = along_row ? 1 : spring % 3 - 1, dy = along_row ? 0 : group_dy[spring / 3],
-            dz = along_row ? 0 : group_dz[spring / 3];
+  const auto& [dx, dy, dz] = spring_steps[spring];
   return {s.share + (3 * (dy + 1) + dx + 1) * plane, s.stiffness[spring] * s.share_z[3 * k + dz + 1]};
 }
 
+/// From a node to its neighbours along x, y and z at rest: springs 12, 10 and 4.
 template<class Real>
-SPRINGPROOF_INLINE Vec<Real> rest_of(const Springs<Real>& s, int spring) {
-  return {s.rest[spring][0], s.rest[spring][1], s.rest[spring][2]};
+SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
+  return {s.rest[12][0], s.rest[10][1], s.rest[4][2]};
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
@@ -109,17 +107,6 @@ struct Tile {
   bool is_last;            ///< nothing of the row follows
 };
 
-/// The first n numbers of a and the others of b.
-template<class P>
-SPRINGPROOF_INLINE P first_of(std::ptrdiff_t n, const P& a, const P& b) {
-  typename MaskOf<sizeof(a[0])>::type place, end;
-  for (int i = 0; i < static_cast<int>(sizeof(P) / sizeof(a[0])); ++i) {
-    place[i] = i;
-    end[i] = static_cast<decltype(end[0] + 0)>(n);
-  }
-  return place < end ? a : b;
-}
-
 template<class Real>
 void fill_stiffness(const Springs<Real>& s, const Tile& t, int k, int j, Real* to) {
   using P = Pack<Real>;
@@ -184,7 +171,7 @@ template<int group, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
                                     const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
                                     Real* plane, Vec<Pack<Real>>& own) {
-  constexpr int dy = group_dy[group], dz = group_dz[group];
+  constexpr int dy = spring_steps[3 * group][1], dz = spring_steps[3 * group][2];
   constexpr bool is_first = dy == 1 && dz == 1; // rows are swept upwards
   Vec<Pack<Real>> from = Vec<Pack<Real>>{} - u;
   if constexpr (dy == 1) from.y = edge.y - u.y;
@@ -203,7 +190,8 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
                                   Real* here, Real* above, std::ptrdiff_t n) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
-  const Vec<P> edge{P{} + s.rest[12][0], P{} + s.rest[10][1], P{} + s.rest[4][2]};
+  const Vec<Real> edges = rest_edges(s);
+  const Vec<P> edge{P{} + edges.x, P{} + edges.y, P{} + edges.z};
   for (std::ptrdiff_t p = 0; p < n; ++p) {
     const Vec<P> u = load_three(here + 3 * lanes);
     Vec<P> v{};
@@ -224,23 +212,6 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
   }
 }
 
-/// The last number of a and all but the last of b.
-template<class P>
-SPRINGPROOF_INLINE P shifted_right(const P& a, const P& b) {
-  constexpr int lanes = sizeof(P) / sizeof(a[0]);
-  typename MaskOf<sizeof(a[0])>::type mask;
-  for (int i = 0; i < lanes; ++i) mask[i] = lanes - 1 + i;
-  return __builtin_shuffle(a, b, mask);
-}
-/// All but the first number of a, and the first of b.
-template<class P>
-SPRINGPROOF_INLINE P shifted_left(const P& a, const P& b) {
-  constexpr int lanes = sizeof(P) / sizeof(a[0]);
-  typename MaskOf<sizeof(a[0])>::type mask;
-  for (int i = 0; i < lanes; ++i) mask[i] = 1 + i;
-  return __builtin_shuffle(a, b, mask);
-}
-
 /// The results of a tile's part of a row from its sums. What goes to the node after the tile is left there
 /// for the next tile, which finds it; what goes to the node before it is added there.
 /// @param result  of the tile's first node
@@ -254,32 +225,24 @@ SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std:
   if (t.first > 0)
     for (int c = 0; c < 3; ++c) {
       Real* const at = result + c * distance;
-      P& to = c == 0 ? before.x : c == 1 ? before.y : before.z;
-      to[lanes - 1] = at[0];
+      before[c][lanes - 1] = at[0];
       at[-1] += sums[c * lanes];
     }
   for (std::ptrdiff_t p = 0; p < t.n; ++p, sums += node_packs<Action> * lanes) {
-    const Vec<P> left = load_three(sums), right = load_three(sums + 6 * lanes);
-    const Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
-    const Vec<P> from_before{shifted_right(before.x, right.x), shifted_right(before.y, right.y),
-                             shifted_right(before.z, right.z)};
-    const Vec<P> from_after{shifted_left(left.x, next.x), shifted_left(left.y, next.y),
-                            shifted_left(left.z, next.z)};
-    const Vec<P> total = load_three(sums + 3 * lanes) + from_before + from_after;
-    before = right;
+    Vec<P> left = load_three(sums), own = load_three(sums + 3 * lanes), right = load_three(sums + 6 * lanes);
+    Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
     for (int c = 0; c < 3; ++c) {
       Real* const to = result + p * lanes + c * distance;
-      const P& value = c == 0 ? total.x : c == 1 ? total.y : total.z;
+      const P total = own[c] + window(before[c], right[c], lanes - 1) + window(left[c], next[c], 1);
       if ((p + 1) * lanes <= n_nodes)
-        store(to, value);
+        store(to, total);
       else // what follows the row's end stays as it is
-        store(to, first_of(n_nodes - p * lanes, value, load(to)));
+        store(to, first_of(n_nodes - p * lanes, total, load(to)));
     }
+    before = right;
   }
   if (t.is_last) return;
-  result[t.n * lanes] = before.x[lanes - 1];
-  result[t.n * lanes + distance] = before.y[lanes - 1];
-  result[t.n * lanes + 2 * distance] = before.z[lanes - 1];
+  for (int c = 0; c < 3; ++c) result[t.n * lanes + c * distance] = before[c][lanes - 1];
 }
 
 template<class Real, class Action>
@@ -302,8 +265,8 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       unpack<node_packs<Action>>(direction + at, layout.size, Real(0), t.n, to + direction_at * lanes);
   };
   const auto fold_row = [&](int k, int j) {
-    Real* const to = k < slab.last ? result + layout.at(0, j, k) : slab.spill + layout.at(0, j, -1);
-    fold<Action>(t, first_row(k) + j * row + sums_at<Action> * lanes, to + t.first * lanes,
+    Real* const to = result_plane(layout, slab, result, k, 0) + j * layout.row + t.first * lanes;
+    fold<Action>(t, first_row(k) + j * row + sums_at<Action> * lanes, to,
                  k < slab.last ? layout.size : layout.plane, n_nodes);
   };
   // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are

@@ -1,8 +1,5 @@
 #include "msm/grid/multigrid.hpp"
 
-#include <cmath>
-#include <random>
-
 namespace springproof::msm::grid {
 
 namespace {
@@ -12,58 +9,44 @@ constexpr int smoothing_degree = 3;
 constexpr double smoothed_part = 8;
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
-std::ptrdiff_t n_nodes(const Body& body) {
-  return std::ptrdiff_t{body.layout.nodes[0]} * body.layout.nodes[1] * body.layout.nodes[2];
-}
-
-bool any(const std::array<bool, 3>& axes) {
-  return axes[0] || axes[1] || axes[2];
-}
-
 } // namespace
-
-std::array<bool, 3> coarsened_axes(const Body& fine, const Body& coarse) {
-  std::array<bool, 3> axes{};
-  for (std::size_t a = 0; a < 3; ++a) axes[a] = coarse.cells[a] != fine.cells[a];
-  return axes;
-}
 
 std::deque<Body> coarsenings(const Body& finest) {
   std::deque<Body> bodies{finest};
-  while (n_nodes(bodies.back()) > n_coarsest_nodes && any(axes_to_coarsen(bodies.back())))
-    bodies.push_back(coarsen(bodies.back(), axes_to_coarsen(bodies.back())));
+  const auto is_large = [](const Layout& layout) {
+    return std::ptrdiff_t{layout.nodes[0]} * layout.nodes[1] * layout.nodes[2] > n_coarsest_nodes;
+  };
+  while (is_large(bodies.back().layout))
+    if (std::optional<Body> coarse = coarsen(bodies.back()))
+      bodies.push_back(std::move(*coarse));
+    else
+      break;
   return bodies;
 }
 
-Multigrid::Level::Level(const Body& body, int n_threads) : springs(body, n_threads) {
-  for (Field<float>* field : {&displacement, &solution, &residual, &correction, &product, &rough})
+Multigrid::Level::Level(const Body& body, int n_threads)
+    : springs(body, n_threads),
+      rough(random_field<float>(body, 1, std::uniform_real_distribution<float>(-1, 1))) {
+  for (Field<float>* field : {&displacement, &solution, &residual, &correction, &product})
     field->setZero(3 * body.layout.size);
-  std::mt19937 generator(1);
-  std::uniform_real_distribution<float> any_value(-1, 1);
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < body.layout.nodes[2]; ++k)
-      for (int j = 0; j < body.layout.nodes[1]; ++j)
-        for (int i = 0; i < body.layout.nodes[0]; ++i)
-          rough[c * body.layout.size + body.layout.at(i, j, k)] = any_value(generator);
-  clear_constrained(body, rough);
 }
 
 Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_(n_threads) {
   for (const Body& body : bodies) levels_.emplace_back(body, n_threads);
   for (std::size_t l = 0; l + 1 < bodies.size(); ++l)
-    transfers_.emplace_back(bodies[l], bodies[l + 1], coarsened_axes(bodies[l], bodies[l + 1]), n_threads);
+    transfers_.emplace_back(bodies[l], bodies[l + 1], n_threads);
   const Body& last = bodies.back();
   for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < last.layout.nodes[2]; ++k)
-      for (int j = 0; j < last.layout.nodes[1]; ++j)
-        for (int i = 0; i < last.layout.nodes[0]; ++i) {
-          const std::ptrdiff_t entry = c * last.layout.size + last.layout.at(i, j, k);
-          if (!std::binary_search(last.constrained.begin(), last.constrained.end(), entry))
-            coarsest_unknowns_.push_back(entry);
-        }
+    for_each_place(last.layout.nodes, [&](int i, int j, int k) {
+      const std::ptrdiff_t entry = last.layout.at(i, j, k, c);
+      if (!std::binary_search(last.constrained.begin(), last.constrained.end(), entry))
+        coarsest_unknowns_.push_back(entry);
+    });
 }
 
 void Multigrid::linearise(const Field<double>& displacement) {
+  if (linearised_at_.size() > 0 && linearised_at_ == displacement) return;
+  linearised_at_ = displacement;
   for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     levels_.front().displacement.segment(first, n) = displacement.segment(first, n).cast<float>();
   });
@@ -79,7 +62,7 @@ void Multigrid::linearise(const Field<double>& displacement) {
 /// out = keep * out + factor * (inverse diagonal blocks) in
 void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
                                        float keep, float factor) const {
-  const std::ptrdiff_t n = level.springs.body().layout.size;
+  const std::ptrdiff_t n = in.size() / 3;
   const float* d = level.inverse_diagonal.data();
   for_each_piece(n, n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
     const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
@@ -99,10 +82,10 @@ void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& i
 void Multigrid::estimate_largest_eigenvalue(Level& level) {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 12;
   for (int step = 0; step < n_steps; ++step) {
-    const double norm = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    const double length = norm(level.rough, n_threads_);
     level.springs.product(Clamp::yes, level.displacement, level.rough, level.product);
-    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / norm));
-    level.largest_eigenvalue = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / length));
+    level.largest_eigenvalue = norm(level.rough, n_threads_);
   }
 }
 
@@ -112,12 +95,11 @@ void Multigrid::factorise_coarsest() {
   Eigen::MatrixXd matrix(n, n);
   level.solution.setZero();
   for (Eigen::Index column = 0; column < n; ++column) {
-    level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]] = 1;
+    float& entry = level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]];
+    entry = 1;
     level.springs.product(Clamp::yes, level.displacement, level.solution, level.product);
-    level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]] = 0;
-    for (Eigen::Index row = 0; row < n; ++row)
-      matrix(row, column) =
-          static_cast<double>(level.product[coarsest_unknowns_[static_cast<std::size_t>(row)]]);
+    entry = 0;
+    matrix.col(column) = level.product(coarsest_unknowns_).cast<double>();
   }
   matrix = 0.5 * (matrix + matrix.transpose()).eval();
   // Single precision leaves the matrix uncertain by about 1e-7 of its diagonal; a preconditioner may be that
@@ -131,6 +113,14 @@ void Multigrid::factorise_coarsest() {
   }
 }
 
+/// Adds the correction to the solution, and takes it from the residual when that is wanted.
+void Multigrid::correct(Level& level, bool keeps_residual) {
+  add(level.solution, 1.0f, level.correction, n_threads_);
+  if (!keeps_residual) return;
+  level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
+  add(level.residual, -1.0f, level.product, n_threads_);
+}
+
 /// Chebyshev's iteration from the level's solution and residual, both of which it updates; the residual of
 /// the last step only when it is wanted.
 void Multigrid::smooth(Level& level, bool keeps_residual) {
@@ -141,10 +131,7 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
   double rho = 1 / sigma;
   apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
   for (int step = 1;; ++step) {
-    add(level.solution, 1.0f, level.correction, n_threads_);
-    if (step == smoothing_degree && !keeps_residual) return;
-    level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
-    add(level.residual, -1.0f, level.product, n_threads_);
+    correct(level, keeps_residual || step < smoothing_degree);
     if (step == smoothing_degree) return;
     const double next = 1 / (2 * sigma - rho);
     apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
@@ -157,14 +144,9 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
 void Multigrid::cycle(std::size_t l) {
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) {
-    const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
-    Eigen::VectorXd right(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      right[i] = static_cast<double>(level.residual[coarsest_unknowns_[static_cast<std::size_t>(i)]]);
-    const Eigen::VectorXd solution = coarsest_.solve(right);
+    const Eigen::VectorXd right = level.residual(coarsest_unknowns_).cast<double>();
     level.solution.setZero();
-    for (Eigen::Index i = 0; i < n; ++i)
-      level.solution[coarsest_unknowns_[static_cast<std::size_t>(i)]] = static_cast<float>(solution[i]);
+    level.solution(coarsest_unknowns_) = coarsest_.solve(right).cast<float>();
     return;
   }
   level.solution.setZero();
@@ -172,25 +154,23 @@ void Multigrid::cycle(std::size_t l) {
   transfers_[l].restrict(level.residual, levels_[l + 1].residual);
   cycle(l + 1);
   transfers_[l].prolong(levels_[l + 1].solution, level.correction);
-  add(level.solution, 1.0f, level.correction, n_threads_);
-  level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
-  add(level.residual, -1.0f, level.product, n_threads_);
+  correct(level, true);
   smooth(level, false);
 }
 
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const double norm = std::sqrt(dot(right_side, right_side, n_threads_)); // keeps single precision in range
-  if (!(norm > 0)) {
+  const double size = norm(right_side, n_threads_); // keeps single precision in range
+  if (!(size > 0)) {
     solution.setZero();
     return;
   }
   for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    level.residual.segment(first, n) = (right_side.segment(first, n) / norm).cast<float>();
+    level.residual.segment(first, n) = (right_side.segment(first, n) / size).cast<float>();
   });
   cycle(0);
   for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    solution.segment(first, n) = norm * level.solution.segment(first, n).cast<double>();
+    solution.segment(first, n) = size * level.solution.segment(first, n).cast<double>();
   });
 }
 

@@ -10,7 +10,6 @@ namespace springproof::msm::grid {
 
 /// A body and ever coarser ones: the last has few enough nodes for a dense factorisation.
 std::deque<Body> coarsenings(const Body& finest);
-std::array<bool, 3> coarsened_axes(const Body& fine, const Body& coarse);
 
 /// Approximate inverse of the clamped tangent: one V-cycle in single precision. Coarse lattices are
 /// rediscretised at the sampled displacement; the smoother is Chebyshev's iteration on the block Jacobi
@@ -37,6 +36,7 @@ class Multigrid {
   std::deque<Level> levels_;
   std::deque<Transfer<float>> transfers_; ///< between levels l and l + 1
   int n_threads_;
+  Field<double> linearised_at_;
   std::vector<std::ptrdiff_t> coarsest_unknowns_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
 
@@ -44,6 +44,7 @@ class Multigrid {
   void factorise_coarsest();
   void apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out, float keep,
                               float factor) const;
+  void correct(Level& level, bool keeps_residual);
   void smooth(Level& level, bool keeps_residual);
   void cycle(std::size_t l);
 };

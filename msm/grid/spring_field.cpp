@@ -10,29 +10,14 @@ namespace {
 
 using cases::index;
 
-/// Planes of nodes are dealt out in slabs of some sixteen: the same on any number of threads, so that sums
-/// are too, and an even number, so that two threads have the same to do.
-int slabs_of(int planes) {
-  return planes < 8 ? 1 : 2 * std::max(1, planes / 16);
-}
-
 /// First plane of slab s of n.
 int first_plane(int s, int n, int planes) {
   return static_cast<int>(std::ptrdiff_t{s} * planes / n);
 }
 
-struct Step {
-  int dx, dy, dz;
-};
-
-Step step_of(int spring) {
-  if (spring == 12) return {1, 0, 0};
-  return {spring % 3 - 1, group_dy[spring / 3], group_dz[spring / 3]};
-}
-
 /// Stiffness of the spring of one cell that leads along a step.
-double stiffness_along(const CellSprings& cell, const Step& step) {
-  const bool x = step.dx != 0, y = step.dy != 0, z = step.dz != 0;
+double stiffness_along(const CellSprings& cell, const int (&step)[3]) {
+  const bool x = step[0] != 0, y = step[1] != 0, z = step[2] != 0;
   if (x && y && z) return cell.internal_diagonal;
   if (y && z) return cell.face_diagonal[0];
   if (x && z) return cell.face_diagonal[1];
@@ -48,24 +33,21 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
   springs_.layout = body.layout;
   springs_.rest_volume = static_cast<Real>(body.spacing.prod());
   for (int s = 0; s < n_springs; ++s) {
-    const Step step = step_of(s);
-    const Eigen::Vector3d rest = Eigen::Vector3d(step.dx, step.dy, step.dz).cwiseProduct(body.spacing);
-    for (int a = 0; a < 3; ++a) springs_.rest[s][a] = static_cast<Real>(rest[a]);
+    const Eigen::Vector3d rest =
+        Eigen::Map<const Eigen::Vector3i>(spring_steps[s]).cast<double>().cwiseProduct(body.spacing);
+    Eigen::Map<Eigen::Matrix<Real, 3, 1>>(springs_.rest[s]) = rest.cast<Real>();
     springs_.rest_length[s] = static_cast<Real>(rest.norm());
   }
   if (body.is_uniform())
     set_shares();
   else
     set_by_node();
-  bool has_volume = false;
-  for (const CellSprings& cell : body.springs) has_volume = has_volume || cell.volume != 0;
-  if (has_volume) {
+  if (std::any_of(body.springs.begin(), body.springs.end(),
+                  [](const CellSprings& cell) { return cell.volume != 0; })) {
     Field<Real>& stiffness = arrays_.emplace_back(Field<Real>::Zero(body.layout.size));
-    for (int k = 0; k < body.cells[2]; ++k)
-      for (int j = 0; j < body.cells[1]; ++j)
-        for (int i = 0; i < body.cells[0]; ++i)
-          stiffness[body.layout.at(i, j, k)] =
-              static_cast<Real>(body.cell(i, j, k).volume / body.spacing.prod());
+    for_each_place(body.cells, [&](int i, int j, int k) {
+      stiffness[body.layout.at(i, j, k)] = static_cast<Real>(body.cell(i, j, k).volume / body.spacing.prod());
+    });
     springs_.volume_stiffness = stiffness.data();
   }
   spill_.assign(index(n_slabs()), Field<Real>::Zero(6 * body.layout.plane + body.layout.lead + 32));
@@ -75,7 +57,7 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
 template<class Real>
 void SpringField<Real>::set_shares() {
   for (int s = 0; s < n_springs; ++s)
-    springs_.stiffness[s] = static_cast<Real>(stiffness_along(body_.springs.front(), step_of(s)));
+    springs_.stiffness[s] = static_cast<Real>(stiffness_along(body_.springs.front(), spring_steps[s]));
   const Layout& layout = springs_.layout;
   const auto share_along = [&](int axis, int d, int i) {
     const int n = layout.nodes[axis];
@@ -105,25 +87,26 @@ void SpringField<Real>::set_by_node() {
   springs_.by_node = stiffness.data();
   for (int s = 0; s < n_springs; ++s) {
     springs_.stiffness[s] = 1;
-    const Step step = step_of(s);
+    const auto& step = spring_steps[s];
     const auto lowest = [](int d) { return d > 0 ? 0 : -1; }; // cells with both ends along an axis: these ...
     const auto highest = [](int d) { return d < 0 ? -1 : 0; }; // ... to these, counted from the node
-    for (int k = 0; k < layout.nodes[2]; ++k)
-      for (int j = 0; j < layout.nodes[1]; ++j)
-        for (int i = 0; i < layout.nodes[0]; ++i) {
-          double sum = 0;
-          for (int c = lowest(step.dz); c <= highest(step.dz); ++c)
-            for (int b = lowest(step.dy); b <= highest(step.dy); ++b)
-              for (int a = lowest(step.dx); a <= highest(step.dx); ++a)
-                sum += stiffness_along(body_.cell(i + a, j + b, k + c), step);
-          stiffness[(n_springs * k + s) * layout.plane + i + layout.row * j] = static_cast<Real>(sum);
-        }
+    for_each_place(layout.nodes, [&](int i, int j, int k) {
+      double sum = 0;
+      for (int c = lowest(step[2]); c <= highest(step[2]); ++c)
+        for (int b = lowest(step[1]); b <= highest(step[1]); ++b)
+          for (int a = lowest(step[0]); a <= highest(step[0]); ++a)
+            sum += stiffness_along(body_.cell(i + a, j + b, k + c), step);
+      stiffness[(n_springs * k + s) * layout.plane + i + layout.row * j] = static_cast<Real>(sum);
+    });
   }
 }
 
+/// Planes of nodes are dealt out in slabs of some sixteen: the same on any number of threads, so that sums
+/// are too, and an even number, so that two threads have the same to do.
 template<class Real>
 int SpringField<Real>::n_slabs() const {
-  return slabs_of(springs_.layout.nodes[2]);
+  const int planes = springs_.layout.nodes[2];
+  return planes < 8 ? 1 : 2 * std::max(1, planes / 16);
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
@@ -143,8 +126,8 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 #pragma omp for schedule(static)
     for (int s = 0; s < n - 1; ++s)
       for (int c = 0; c < components; ++c) {
-        Real* plane = result + c * layout.size + layout.at(0, 0, first_plane(s + 1, n, layout.nodes[2])) -
-                      layout.at(0, 0, -1);
+        Real* plane =
+            result + layout.at(0, 0, first_plane(s + 1, n, layout.nodes[2]), c) - layout.at(0, 0, -1);
         const Real* spill = spill_[index(s)].data() + c * layout.plane;
         for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
       }
@@ -153,10 +136,15 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 
 template<class Real>
 void SpringField<Real>::force(const Field<Real>& displacement, Field<Real>& force) const {
+  reactions(displacement, force);
+  clear_constrained(body_, force);
+}
+
+template<class Real>
+void SpringField<Real>::reactions(const Field<Real>& displacement, Field<Real>& force) const {
   for_each_slab(3, force.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().force(springs_, slab, displacement.data(), force.data());
   });
-  clear_constrained(body_, force);
 }
 
 template<class Real>
@@ -178,17 +166,16 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
   });
   std::vector<bool> is_constrained(index(3 * layout.size));
   for (const std::ptrdiff_t entry : body_.constrained) is_constrained[index(entry)] = true;
-#pragma omp parallel for num_threads(n_threads_) schedule(static) if (n_threads_ > 1 && layout.size > piece)
-  for (int k = 0; k < layout.nodes[2]; ++k)
+  static constexpr int places[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // among the six arrays
+  for_each_plane(layout, n_threads_, [&](int k) {
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i) {
-        Real* at = inverse.data() + layout.at(i, j, k);
-        const auto entry = [&](int c) -> Real& { return at[c * layout.size]; };
         Eigen::Matrix3d block;
-        block << entry(0), entry(5), entry(4), entry(5), entry(1), entry(3), entry(4), entry(3), entry(2);
+        for (int a = 0; a < 3; ++a)
+          for (int b = 0; b < 3; ++b) block(a, b) = inverse[layout.at(i, j, k, places[a][b])];
         bool constrained[3];
         for (int a = 0; a < 3; ++a) {
-          constrained[a] = is_constrained[index(a * layout.size + layout.at(i, j, k))] || !(block(a, a) > 0);
+          constrained[a] = is_constrained[index(layout.at(i, j, k, a))] || !(block(a, a) > 0);
           if (!constrained[a]) continue;
           block.row(a).setZero();
           block.col(a).setZero();
@@ -198,15 +185,13 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
         // A node that hangs on too few springs has a singular block: its diagonal must do.
         if (!(block.determinant() > 1e-9 * block.diagonal().prod()))
           inverted = block.diagonal().cwiseInverse().asDiagonal();
-        for (int a = 0; a < 3; ++a)
+        for (int a = 0; a < 3; ++a) {
           if (constrained[a]) inverted(a, a) = 0;
-        entry(0) = static_cast<Real>(inverted(0, 0));
-        entry(1) = static_cast<Real>(inverted(1, 1));
-        entry(2) = static_cast<Real>(inverted(2, 2));
-        entry(3) = static_cast<Real>(inverted(1, 2));
-        entry(4) = static_cast<Real>(inverted(0, 2));
-        entry(5) = static_cast<Real>(inverted(0, 1));
+          for (int b = a; b < 3; ++b)
+            inverse[layout.at(i, j, k, places[a][b])] = static_cast<Real>(inverted(a, b));
+        }
       }
+  });
 }
 
 template<class Real>

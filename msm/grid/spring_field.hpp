@@ -17,6 +17,8 @@ class SpringField {
 
   /// Internal force, N, at a displacement (mm); 0 on constrained entries.
   void force(const Field<Real>& displacement, Field<Real>& force) const;
+  /// The same with the forces on constrained entries.
+  void reactions(const Field<Real>& displacement, Field<Real>& force) const;
   /// Tangent (N/mm) at a displacement times a direction; 0 on constrained entries.
   void product(Clamp clamp, const Field<Real>& displacement, const Field<Real>& direction,
                Field<Real>& product) const;
@@ -24,8 +26,6 @@ class SpringField {
   /// yy, zz, yz, xz, xy.
   void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse) const;
   double energy(const Field<Real>& displacement) const;
-
-  const Body& body() const { return body_; }
 
  private:
   const Body& body_;

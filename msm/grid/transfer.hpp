@@ -4,12 +4,11 @@
 
 namespace springproof::msm::grid {
 
-/// Trilinear interpolation between a body and the one coarsened along some axes, and its transpose.
+/// Trilinear interpolation between a body and the coarsened one, and its transpose.
 template<class Real>
 class Transfer {
  public:
-  Transfer(const Body& fine, const Body& coarse, const std::array<bool, 3>& axes, int n_threads)
-      : fine_(fine), coarse_(coarse), axes_(axes), n_threads_(n_threads) {}
+  Transfer(const Body& fine, const Body& coarse, int n_threads);
 
   /// fine = interpolation of coarse; 0 on constrained entries.
   void prolong(const Field<Real>& coarse, Field<Real>& fine) const;
@@ -22,7 +21,7 @@ class Transfer {
  private:
   const Body& fine_;
   const Body& coarse_;
-  std::array<bool, 3> axes_;
+  bool is_coarsened_[3]; ///< along x, y, z
   int n_threads_;
 };
 

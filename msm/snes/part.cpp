@@ -61,24 +61,25 @@ petsc::Vector Part::make_vector() const {
 }
 
 petsc::Matrix Part::make_matrix() const {
-  Mat matrix = nullptr, sparsity = nullptr;
-  const auto create = [&](MatType type, Mat& made) {
+  const auto create = [&](MatType type) {
+    Mat made = nullptr;
     check(MatCreate(communicator_, &made));
+    petsc::Matrix owned(made);
     check(MatSetSizes(made, 3 * n_own_, 3 * n_own_, PETSC_DECIDE, PETSC_DECIDE));
     check(MatSetType(made, type));
     check(MatSetBlockSize(made, 3));
-    return petsc::Matrix(made);
+    return owned;
   };
-  petsc::Matrix owned = create(MATAIJ, matrix); // GAMG's coarsening wants it, with its block size
-  const petsc::Matrix owned_sparsity = create(MATPREALLOCATOR, sparsity);
-  check(MatSetUp(sparsity));
-  add_tangent(lattice_.rest, sparsity);
-  check(MatPreallocatorPreallocate(sparsity, PETSC_TRUE, matrix));
-  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatSetOption(matrix, MAT_SPD,
-                     PETSC_TRUE)); // where it is not, the pivots' signs or conjugate gradients tell
-  petsc::attach_rigid_motions(matrix, lattice_.rest);
-  return owned;
+  petsc::Matrix matrix = create(MATAIJ); // GAMG's coarsening wants it, with its block size
+  const petsc::Matrix sparsity = create(MATPREALLOCATOR);
+  check(MatSetUp(sparsity.get()));
+  add_tangent(lattice_.rest, sparsity.get());
+  check(MatPreallocatorPreallocate(sparsity.get(), PETSC_TRUE, matrix.get()));
+  check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  // Where it is not definite, the pivots' signs or conjugate gradients tell.
+  check(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE));
+  petsc::attach_rigid_motions(matrix.get(), lattice_.rest);
+  return matrix;
 }
 
 PetscInt Part::global(std::size_t local) const {
@@ -159,14 +160,11 @@ void Part::residual(Vec displacement, double load_factor, Vec out) const {
 }
 
 void Part::add_tangent(const Points& positions, Mat matrix) const {
-  const auto put_block = [&](int i, int j, const Eigen::Matrix3d& values) {
+  const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
     const PetscInt row = global(index(i)), column = global(index(j));
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_rows = values;
-    check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, by_rows.data(), ADD_VALUES));
-  };
-  const auto add = [&](int row, int column, const Eigen::Matrix3d& block) {
-    put_block(row, column, block);
-    if (row != column) put_block(column, row, block.transpose());
+    const Eigen::Matrix3d transposed = block.transpose(); // PETSc wants rows, Eigen stores columns
+    check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, transposed.data(), ADD_VALUES));
+    if (i != j) check(MatSetValuesBlocked(matrix, 1, &column, 1, &row, block.data(), ADD_VALUES));
   };
   visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));

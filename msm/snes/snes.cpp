@@ -4,7 +4,6 @@
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "msm/snes/part.hpp"
 
-#include <algorithm>
 #include <random>
 
 namespace springproof::msm {
@@ -33,17 +32,73 @@ petsc::Vector random_like(const petsc::Vector& vector) {
 class SnesProblem : public petsc::DistributedProblem {
  public:
   /// @param problem, settings  must outlive it
-  SnesProblem(const Problem& problem, const mechanics::EquilibriumSettings& settings, MPI_Comm communicator);
+  SnesProblem(const Problem& problem, const mechanics::EquilibriumSettings& settings, MPI_Comm communicator)
+      : DistributedProblem(communicator), settings_(settings), part_(problem, communicator),
+        at_(part_.make_vector()), residual_(part_.make_vector()), matrix_(part_.make_matrix()) {
+    make_solver();
+  }
 
-  Vector state(const Points& displacement) const;
-  Points displacement(const Vector& state) const;
+  Vector state(const Points& displacement) const {
+    const petsc::Vector all = part_.make_vector();
+    if (!displacement.empty()) part_.put(all.get(), displacement);
+    return part_.own(all.get());
+  }
+  Points displacement(const Vector& state) const {
+    const petsc::Vector all = part_.make_vector();
+    part_.put(all.get(), state);
+    return part_.gather(all.get());
+  }
 
-  std::optional<Solved> solve_at(Vector& at, double load_factor) override;
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override;
-  Size size(const Vector& residual, const Vector& at) override;
+  std::optional<Solved> solve_at(Vector& at, double load_factor) override {
+    load_factor_ = load_factor;
+    part_.put(at_.get(), at);
+    part_.move_supports(at_.get(), load_factor);
+    errors_.call([&] { return SNESSolve(snes_.get(), nullptr, at_.get()); });
+    SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+    PetscInt newton = 0, linear = 0;
+    PetscReal norm = 0;
+    check(SNESGetConvergedReason(snes_.get(), &reason));
+    check(SNESGetIterationNumber(snes_.get(), &newton));
+    check(SNESGetLinearSolveIterations(snes_.get(), &linear));
+    check(SNESGetFunctionNorm(snes_.get(), &norm));
+    work_.linear_iterations += linear;
+    at = part_.own(at_.get());
+    return Solved{reason > 0, static_cast<int>(newton), norm / part_.reference_force()};
+  }
+
+  Vector residual(const Vector& at, double load_factor, mechanics::Expect) override {
+    part_.put(at_.get(), at);
+    part_.residual(at_.get(), load_factor, residual_.get());
+    return -part_.own(residual_.get());
+  }
+  Size size(const Vector& residual, const Vector&) override {
+    return {std::sqrt(dot(residual, residual)) / part_.reference_force()};
+  }
+
   /// By the factorisation's pivots, or by conjugate gradients for a random right side, which has a part in
   /// every mode, meeting no negative curvature.
-  std::optional<bool> is_stable(const Vector& at) override;
+  std::optional<bool> is_stable(const Vector& at) override {
+    KSP linear = nullptr;
+    PC preconditioner = nullptr;
+    PetscBool is_direct = PETSC_FALSE;
+    check(SNESGetKSP(snes_.get(), &linear));
+    check(KSPGetPC(linear, &preconditioner));
+    check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCCHOLESKY, &is_direct));
+    part_.put(at_.get(), at);
+    part_.tangent(at_.get(), matrix_.get());
+    const petsc::Vector right = random_like(at_), solution = petsc::like(at_);
+    check(KSPSetOperators(linear, matrix_.get(), matrix_.get()));
+    if (!is_direct) check(KSPSetTolerances(linear, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
+    check(KSPSolve(linear, right.get(), solution.get()));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check(KSPGetConvergedReason(linear, &reason));
+    if (!is_direct || reason <= 0) return reason > 0;
+    Mat factor = nullptr;
+    PetscInt negative = 0;
+    check(PCFactorGetMatrix(preconditioner, &factor));
+    check(MatMumpsGetInfog(factor, 12, &negative));
+    return negative == 0;
+  }
   std::optional<Vector> direction(const Vector&, const Vector&, double, double,
                                   mechanics::Convexity) override {
     return std::nullopt; // solve_at() does it all
@@ -61,127 +116,55 @@ class SnesProblem : public petsc::DistributedProblem {
   double load_factor_ = 0;
   Work work_;
 
-  void make_solver();
-  static PetscErrorCode evaluate_residual(SNES snes, Vec x, Vec out, void* problem);
-  static PetscErrorCode evaluate_tangent(SNES snes, Vec x, Mat matrix, Mat, void* problem);
-};
-
-SnesProblem::SnesProblem(const Problem& problem, const mechanics::EquilibriumSettings& settings,
-                         MPI_Comm communicator)
-    : DistributedProblem(communicator), settings_(settings), part_(problem, communicator),
-      at_(part_.make_vector()), residual_(part_.make_vector()), matrix_(part_.make_matrix()) {
-  make_solver();
-}
-
-void SnesProblem::make_solver() {
-  SNES snes = nullptr;
-  SNESLineSearch line_search = nullptr;
-  KSP linear = nullptr;
-  PC preconditioner = nullptr;
-  check(SNESCreate(communicator_, &snes));
-  snes_.reset(snes);
-  check(SNESSetOptionsPrefix(snes, "msm_"));
-  check(SNESSetFunction(snes, residual_.get(), evaluate_residual, this));
-  check(SNESSetJacobian(snes, matrix_.get(), matrix_.get(), evaluate_tangent, this));
-  check(SNESSetType(snes, SNESNEWTONLS));
-  check(SNESGetLineSearch(snes, &line_search));
-  // On the residual: next to the solution the energy's change drowns in rounding, and PETSc's search with it.
-  check(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
-  check(SNESSetTolerances(snes, settings_.tolerance * part_.reference_force(), 0, 0,
-                          settings_.max_newton_per_step, PETSC_DEFAULT));
-  check(SNESGetKSP(snes, &linear));
-  check(KSPGetPC(linear, &preconditioner));
-  PetscInt n_unknowns = 0;
-  check(MatGetSize(matrix_.get(), &n_unknowns, nullptr));
-  if (n_unknowns <= direct_up_to) {
-    check(KSPSetType(linear, KSPPREONLY));
-    check(PCSetType(preconditioner, PCCHOLESKY));
-    check(PCFactorSetMatSolverType(preconditioner,
-                                   MATSOLVERMUMPS)); // PETSc's CHOLMOD ends all on indefinite ones
-  } else {
-    check(KSPSetType(linear, KSPCG));
-    check(PCSetType(preconditioner, PCGAMG));
-    check(KSPSetTolerances(linear, 1e-5, PETSC_DEFAULT, PETSC_DEFAULT, 500));
-    check(SNESKSPSetUseEW(snes, PETSC_TRUE));
+  void make_solver() {
+    SNES snes = nullptr;
+    SNESLineSearch line_search = nullptr;
+    KSP linear = nullptr;
+    PC preconditioner = nullptr;
+    check(SNESCreate(communicator_, &snes));
+    snes_.reset(snes);
+    check(SNESSetOptionsPrefix(snes, "msm_"));
+    check(SNESSetFunction(snes, residual_.get(), evaluate_residual, this));
+    check(SNESSetJacobian(snes, matrix_.get(), matrix_.get(), evaluate_tangent, this));
+    check(SNESSetType(snes, SNESNEWTONLS));
+    check(SNESGetLineSearch(snes, &line_search));
+    // On the residual: next to the solution the energy's change drowns in rounding, and PETSc's search with
+    // it.
+    check(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
+    check(SNESSetTolerances(snes, settings_.tolerance * part_.reference_force(), 0, 0,
+                            settings_.max_newton_per_step, PETSC_DEFAULT));
+    check(SNESGetKSP(snes, &linear));
+    check(KSPGetPC(linear, &preconditioner));
+    PetscInt n_unknowns = 0;
+    check(MatGetSize(matrix_.get(), &n_unknowns, nullptr));
+    if (n_unknowns <= direct_up_to) {
+      check(KSPSetType(linear, KSPPREONLY));
+      check(PCSetType(preconditioner, PCCHOLESKY));
+      check(PCFactorSetMatSolverType(preconditioner,
+                                     MATSOLVERMUMPS)); // PETSc's CHOLMOD ends all on indefinite ones
+    } else {
+      check(KSPSetType(linear, KSPCG));
+      check(PCSetType(preconditioner, PCGAMG));
+      check(KSPSetTolerances(linear, 1e-5, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+      check(SNESKSPSetUseEW(snes, PETSC_TRUE));
+    }
+    check(SNESSetFromOptions(snes));
   }
-  check(SNESSetFromOptions(snes));
-}
 
-PetscErrorCode SnesProblem::evaluate_residual(SNES, Vec x, Vec out, void* problem) {
-  auto& self = *static_cast<SnesProblem*>(problem);
-  return self.errors_.run([&] {
-    if (self.settings_.should_stop && self.any_rank(self.settings_.should_stop()))
-      throw mechanics::Newton::Stopped{"it was stopped"};
-    self.part_.residual(x, self.load_factor_, out);
-  });
-}
+  static PetscErrorCode evaluate_residual(SNES, Vec x, Vec out, void* problem) {
+    auto& self = *static_cast<SnesProblem*>(problem);
+    return self.errors_.run([&] {
+      if (self.settings_.should_stop && self.any_rank(self.settings_.should_stop()))
+        throw mechanics::Newton::Stopped{"it was stopped"};
+      self.part_.residual(x, self.load_factor_, out);
+    });
+  }
 
-PetscErrorCode SnesProblem::evaluate_tangent(SNES, Vec x, Mat matrix, Mat, void* problem) {
-  auto& self = *static_cast<SnesProblem*>(problem);
-  return self.errors_.run([&] { self.part_.tangent(x, matrix); });
-}
-
-Vector SnesProblem::state(const Points& displacement) const {
-  const petsc::Vector all = part_.make_vector();
-  if (!displacement.empty()) part_.put(all.get(), displacement);
-  return part_.own(all.get());
-}
-
-Points SnesProblem::displacement(const Vector& state) const {
-  const petsc::Vector all = part_.make_vector();
-  part_.put(all.get(), state);
-  return part_.gather(all.get());
-}
-
-std::optional<SnesProblem::Solved> SnesProblem::solve_at(Vector& at, double load_factor) {
-  load_factor_ = load_factor;
-  part_.put(at_.get(), at);
-  part_.move_supports(at_.get(), load_factor);
-  errors_.call([&] { return SNESSolve(snes_.get(), nullptr, at_.get()); });
-  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscInt newton = 0, linear = 0;
-  PetscReal norm = 0;
-  check(SNESGetConvergedReason(snes_.get(), &reason));
-  check(SNESGetIterationNumber(snes_.get(), &newton));
-  check(SNESGetLinearSolveIterations(snes_.get(), &linear));
-  check(SNESGetFunctionNorm(snes_.get(), &norm));
-  work_.linear_iterations += linear;
-  at = part_.own(at_.get());
-  return Solved{reason > 0, static_cast<int>(newton), norm / part_.reference_force()};
-}
-
-Vector SnesProblem::residual(const Vector& at, double load_factor, mechanics::Expect) {
-  part_.put(at_.get(), at);
-  part_.residual(at_.get(), load_factor, residual_.get());
-  return -part_.own(residual_.get());
-}
-
-SnesProblem::Size SnesProblem::size(const Vector& residual, const Vector&) {
-  return {std::sqrt(dot(residual, residual)) / part_.reference_force()};
-}
-
-std::optional<bool> SnesProblem::is_stable(const Vector& at) {
-  KSP linear = nullptr;
-  PC preconditioner = nullptr;
-  PetscBool is_direct = PETSC_FALSE;
-  check(SNESGetKSP(snes_.get(), &linear));
-  check(KSPGetPC(linear, &preconditioner));
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCCHOLESKY, &is_direct));
-  part_.put(at_.get(), at);
-  part_.tangent(at_.get(), matrix_.get());
-  const petsc::Vector right = random_like(at_), solution = petsc::like(at_);
-  check(KSPSetOperators(linear, matrix_.get(), matrix_.get()));
-  if (!is_direct) check(KSPSetTolerances(linear, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
-  check(KSPSolve(linear, right.get(), solution.get()));
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  check(KSPGetConvergedReason(linear, &reason));
-  if (!is_direct || reason <= 0) return reason > 0;
-  Mat factor = nullptr;
-  PetscInt negative = 0;
-  check(PCFactorGetMatrix(preconditioner, &factor));
-  check(MatMumpsGetInfog(factor, 12, &negative));
-  return negative == 0;
-}
+  static PetscErrorCode evaluate_tangent(SNES, Vec x, Mat matrix, Mat, void* problem) {
+    auto& self = *static_cast<SnesProblem*>(problem);
+    return self.errors_.run([&] { self.part_.tangent(x, matrix); });
+  }
+};
 
 } // namespace
 
@@ -193,12 +176,7 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES", settings);
-  cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.unknowns = static_cast<std::size_t>(
-      std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false));
-  solution.displacement = system.displacement(equilibrium.state);
-  measure_cells(scene.mesh, solution);
-  return solution;
+  return solution_of(problem, equilibrium, system.displacement(equilibrium.state));
 }
 
 } // namespace springproof::msm

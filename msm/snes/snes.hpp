@@ -1,9 +1,6 @@
 #pragma once
 
-#include "cases/case/solution.hpp"
-#include "cases/scene/scene.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
-#include "msm/lattice.hpp"
+#include "msm/problem.hpp"
 
 #include <mpi.h>
 

@@ -34,7 +34,6 @@ TEST_CASE("every start finds the same minimiser") {
   for (const msm::UniaxialCurve& reference :
        {ogden_reference(), linear_reference(0.5), linear_reference(0.35)}) {
     const msm::NonlinearFit fit = msm::nonlinear_method(reference, 1);
-    CHECK(fit.from_starts.size() == 6);
     REQUIRE(fit.minimisers.size() == 6);
     // 1e-10 on the objective's decrease leaves the square root of it, times the valley's condition, on the
     // stiffness.

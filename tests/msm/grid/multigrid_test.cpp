@@ -3,7 +3,6 @@
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
-#include <random>
 
 using namespace springproof;
 
@@ -22,16 +21,7 @@ Body clamped_body(const std::array<int, 3>& cells) {
 }
 
 Field<double> any_field(const Body& body, unsigned seed) {
-  Field<double> field = Field<double>::Zero(3 * body.layout.size);
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < body.layout.nodes[2]; ++k)
-      for (int j = 0; j < body.layout.nodes[1]; ++j)
-        for (int i = 0; i < body.layout.nodes[0]; ++i)
-          field[c * body.layout.size + body.layout.at(i, j, k)] = normal(generator);
-  clear_constrained(body, field);
-  return field;
+  return msm::grid::random_field<double>(body, seed, std::normal_distribution<double>());
 }
 
 /// Energy of the body strained uniformly.
@@ -51,7 +41,7 @@ double energy_in_uniform_strain(const Body& body, const Eigen::Matrix3d& gradien
 TEST_CASE("a coarsened body has the energy of the fine one in uniform strain") {
   Body fine = clamped_body({8, 4, 4});
   fine.springs.front().volume = 0.14;
-  const Body coarse = coarsen(fine, {true, true, true});
+  const Body coarse = coarsen(fine).value();
   REQUIRE(coarse.cells == std::array<int, 3>{4, 2, 2});
   Eigen::Matrix3d gradient;
   gradient << 0.2, 0.1, -0.05, 0, -0.1, 0.15, 0.3, 0, 0.05;
@@ -61,8 +51,8 @@ TEST_CASE("a coarsened body has the energy of the fine one in uniform strain") {
 
 TEST_CASE("restriction is the transpose of prolongation") {
   for (const std::array<int, 3>& cells : {std::array<int, 3>{8, 6, 4}, {7, 5, 9}}) {
-    const Body fine = clamped_body(cells), coarse = coarsen(fine, {true, true, true});
-    const msm::grid::Transfer<double> transfer(fine, coarse, {true, true, true}, 1);
+    const Body fine = clamped_body(cells), coarse = coarsen(fine).value();
+    const msm::grid::Transfer<double> transfer(fine, coarse, 1);
     const Field<double> on_fine = any_field(fine, 1), on_coarse = any_field(coarse, 2);
     Field<double> prolonged = Field<double>::Zero(on_fine.size()),
                   restricted = Field<double>::Zero(on_coarse.size());
@@ -73,8 +63,8 @@ TEST_CASE("restriction is the transpose of prolongation") {
 }
 
 TEST_CASE("sampling undoes prolongation") {
-  const Body fine = clamped_body({8, 6, 4}), coarse = coarsen(fine, {true, true, true});
-  const msm::grid::Transfer<double> transfer(fine, coarse, {true, true, true}, 1);
+  const Body fine = clamped_body({8, 6, 4}), coarse = coarsen(fine).value();
+  const msm::grid::Transfer<double> transfer(fine, coarse, 1);
   const Field<double> field = any_field(coarse, 1);
   Field<double> fine_field = Field<double>::Zero(3 * fine.layout.size), again = field;
   transfer.prolong(field, fine_field);
