@@ -8,8 +8,8 @@
 #include "msm/design/nonlinear_method.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace springproof::msm {
@@ -56,12 +56,12 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
   const cases::Msm& options = request.options;
   if (options.poissons_ratio) material.poissons_ratio = *options.poissons_ratio;
   if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
-    refuse(request, "Young's modulus " + std::to_string(material.youngs_modulus) +
-                        " MPa: must be positive and finite");
+    refuse(request,
+           fmt::format("Young's modulus {:f} MPa: must be positive and finite", material.youngs_modulus));
   if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
-    refuse(request, "Poisson's ratio " + std::to_string(material.poissons_ratio) + ": design = \"" +
-                        cases::name_of(options.design) + "\" takes " + std::to_string(lowest_poissons_ratio) +
-                        " <= nu < 0.5; msm.poissons_ratio designs from another one");
+    refuse(request, fmt::format("Poisson's ratio {:f}: design = \"{}\" takes {:f} <= nu < 0.5; "
+                                "msm.poissons_ratio designs from another one",
+                                material.poissons_ratio, name_of(options.design), lowest_poissons_ratio));
   return material;
 }
 
@@ -69,15 +69,15 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
 double required_cube_edge(const DesignRequest& request) {
   const double edge = cube_edge(request.cell);
   if (edge > 0) return edge;
-  refuse(request, "design = \"" + cases::name_of(request.options.design) +
-                      "\" is for cubical cells aligned with the axes");
+  refuse(request, fmt::format("design = \"{}\" is for cubical cells aligned with the axes",
+                              name_of(request.options.design)));
 }
 
 double split(const DesignRequest& request) {
   const double t =
       request.options.split.value_or(by_material(request, large_strain_split, small_strain_split));
   if (t >= 0 && t <= 1) return t;
-  refuse(request, "split = " + std::to_string(t) + ": must lie in [0, 1]");
+  refuse(request, fmt::format("split = {:f}: must lie in [0, 1]", t));
 }
 
 bool is_incompressible(const DesignRequest& request) {
@@ -165,28 +165,26 @@ const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods 
 /// indefinite tangent at rest.
 std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {
   std::vector<std::string> warnings;
-  const std::array<std::pair<const char*, double>, 4> named = {
-      {{"edge springs k_e", stiffness.edge},
-       {"face diagonals k_f", stiffness.face_diagonal},
-       {"internal diagonals k_d", stiffness.internal_diagonal},
-       {"volume term k_v", stiffness.volume}}};
-  for (const auto& [name, value] : named) {
-    if (!std::isfinite(value)) return {std::string(name) + ": the stiffness is not a finite number"};
-    if (value < 0) warnings.push_back(std::string(name) + ": the stiffness is negative");
+  for (const auto& [name, value] : {std::pair("edge springs k_e", stiffness.edge),
+                                    {"face diagonals k_f", stiffness.face_diagonal},
+                                    {"internal diagonals k_d", stiffness.internal_diagonal},
+                                    {"volume term k_v", stiffness.volume}}) {
+    if (!std::isfinite(value)) return {fmt::format("{}: the stiffness is not a finite number", name)};
+    if (value < 0) warnings.push_back(fmt::format("{}: the stiffness is negative", name));
   }
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<CellMatrix>(
-                                          cell_stiffness_matrix(vertices, stiffness), Eigen::EigenvaluesOnly)
-                                          .eigenvalues();
-  const double zero =
-      1e-9 * eigenvalues.cwiseAbs().maxCoeff(); // far above round-off, far below any spring's share
+  const CellMatrix matrix = cell_stiffness_matrix(vertices, stiffness);
+  const auto eigenvalues =
+      Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
+  // Far above round-off, far below any spring's share.
+  const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
   const auto n_negative = (eigenvalues.array() < -zero).count();
   const auto n_zero = (eigenvalues.array().abs() <= zero).count();
   if (n_negative > 0)
-    warnings.push_back("the cell's tangent at rest is indefinite: " + std::to_string(n_negative) +
-                       " negative eigenvalues");
+    warnings.push_back(
+        fmt::format("the cell's tangent at rest is indefinite: {} negative eigenvalues", n_negative));
   if (n_zero > 6)
-    warnings.push_back("the cell is a mechanism: " + std::to_string(n_zero - 6) +
-                       " zero-energy modes besides the rigid motions");
+    warnings.push_back(
+        fmt::format("the cell is a mechanism: {} zero-energy modes besides the rigid motions", n_zero - 6));
   return warnings;
 }
 
@@ -212,7 +210,7 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
   const double nu =
       request.options.poissons_ratio.value_or(small_strain_material(request.material).poissons_ratio);
   if (!(nu > 0 && nu <= 0.5))
-    refuse(request, "Poisson's ratio " + std::to_string(nu) + ": the nonlinear method takes 0 < nu <= 0.5");
+    refuse(request, fmt::format("Poisson's ratio {:f}: the nonlinear method takes 0 < nu <= 0.5", nu));
   StrainRange range = {0, by_material(request, largest_ogden_strain, largest_linear_strain)};
   if (request.options.strain_range)
     range = {(*request.options.strain_range)[0], (*request.options.strain_range)[1]};

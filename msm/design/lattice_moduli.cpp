@@ -4,22 +4,6 @@
 
 namespace springproof::msm {
 
-namespace {
-
-// The displacement u = e x at the vertices, e symmetric with unit engineering strain in one Voigt component.
-Eigen::Matrix<double, 24, 1> affine_displacement(const CellVertices& vertices, int component) {
-  static constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  const auto& [i, j] = axes[component];
-  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  strain(i, j) += 0.5;
-  strain(j, i) += 0.5;
-  Eigen::Matrix<double, 24, 1> displacement;
-  for (int v = 0; v < 8; ++v) displacement.segment<3>(3 * v) = strain * vertices[static_cast<std::size_t>(v)];
-  return displacement;
-}
-
-} // namespace
-
 LatticeModuli cubic_moduli(double c11, double c12, double c44) {
   return {c11, c12, c44, 2 * c44 / (c11 - c12), c11 - 2 * c12 * c12 / (c11 + c12), c12 / (c11 + c12), c44};
 }
@@ -34,8 +18,18 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge) {
 }
 
 Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
+  static constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  // Columns: the displacement u = e x at the vertices, e symmetric with unit engineering strain in one
+  // component.
   Eigen::Matrix<double, 24, 6> strains;
-  for (int c = 0; c < 6; ++c) strains.col(c) = affine_displacement(vertices, c);
+  for (int c = 0; c < 6; ++c) {
+    const auto& [i, j] = axes[c];
+    Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+    strain(i, j) += 0.5;
+    strain(j, i) += 0.5;
+    for (int v = 0; v < 8; ++v)
+      strains.block<3, 1>(3 * v, c) = strain * vertices[static_cast<std::size_t>(v)];
+  }
   return strains.transpose() * cell_stiffness_matrix(vertices, stiffness) * strains /
          cases::cell_volume(vertices);
 }

@@ -8,18 +8,6 @@ namespace springproof::msm {
 
 namespace {
 
-/// A cell's share of the assembled stiffnesses: an edge belongs to four cells, a face diagonal to two.
-CellStiffness cell_share(double edges, double face_diagonals, double internal_diagonals, double volume) {
-  return {edges / 4, face_diagonals / 2, internal_diagonals, volume};
-}
-
-/// C11 of the lattice with C12 = C44 = G whose Young's modulus along the axes is E.
-double axial_modulus(double youngs_modulus, double shear_modulus) {
-  const double difference = youngs_modulus - shear_modulus;
-  const double sum = youngs_modulus + shear_modulus;
-  return (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
-}
-
 /// Springs nearest to the cubic elasticity with C12 = C44.
 CellStiffness nearest_springs(double c11, double c44, double split, const CellVertices& vertices) {
   Elasticity target = Elasticity::Zero();
@@ -38,28 +26,15 @@ CellStiffness nearest_springs(double c11, double c44, double split, const CellVe
 
 CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
                             const CellVertices& vertices) {
-  return nearest_springs(axial_modulus(youngs_modulus, shear_modulus), shear_modulus, split, vertices);
+  const double difference = youngs_modulus - shear_modulus, sum = youngs_modulus + shear_modulus;
+  const double c11 = (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
+  return nearest_springs(c11, shear_modulus, split, vertices);
 }
 
 CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, const CellVertices& vertices) {
   CellStiffness stiffness = nearest_springs(3 * lame_mu, lame_mu, split, vertices);
   stiffness.volume = lame_lambda - lame_mu;
   return stiffness;
-}
-
-CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split, double edge) {
-  const double c11 = axial_modulus(youngs_modulus, shear_modulus);
-  const double internal_diagonals = 0.75 * split * shear_modulus * edge;
-  const double face_diagonals = (1 - split) * shear_modulus * edge;
-  return cell_share(c11 * edge - 2 * face_diagonals - 4 * internal_diagonals / 3, face_diagonals,
-                    internal_diagonals, 0);
-}
-
-CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, double edge) {
-  const double internal_diagonals = 0.75 * split * lame_mu * edge;
-  const double face_diagonals = (1 - split) * lame_mu * edge;
-  return cell_share(face_diagonals + 8 * internal_diagonals / 3, face_diagonals, internal_diagonals,
-                    lame_lambda - lame_mu);
 }
 
 } // namespace springproof::msm

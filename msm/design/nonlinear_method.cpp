@@ -74,22 +74,17 @@ void check(const UniaxialCurve& reference) {
         "the reference curve has no lateral strain (nu = 0): the objective (thesis eq. 5.9) divides by it");
 }
 
-struct Minimum {
-  std::array<double, 3> scaled;
-  double objective;
-  bool converged;
-};
-
-Minimum minimise(const UniaxialCurve& reference, double edge, double unit, std::array<double, 3> start) {
+/// Moves three scaled stiffnesses to a minimum of the objective, which it returns if it gets there.
+std::optional<double> minimise(const UniaxialCurve& reference, double edge, double unit, double* scaled) {
   ceres::Problem problem;
-  problem.AddParameterBlock(start.data(), 3);
+  problem.AddParameterBlock(scaled, 3);
   for (std::size_t i = 0; i < reference.axial_strain.size(); ++i) {
     if (reference.axial_strain[i] == 0) continue; // a cell at rest has neither stress nor strain
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<StrainResidual, 2, 3>(
                                  new StrainResidual(residual_at(reference, i, edge, unit))),
-                             nullptr, start.data());
+                             nullptr, scaled);
   }
-  for (int c = 0; c < 3; ++c) problem.SetParameterLowerBound(start.data(), c, 0);
+  for (int c = 0; c < 3; ++c) problem.SetParameterLowerBound(scaled, c, 0);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
@@ -100,12 +95,12 @@ Minimum minimise(const UniaxialCurve& reference, double edge, double unit, std::
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return {start, 2 * summary.final_cost, summary.IsSolutionUsable()};
+  return summary.IsSolutionUsable() ? std::optional(2 * summary.final_cost) : std::nullopt;
 }
 
 /// Equal stiffnesses, each kind of spring dominant, and two far corners.
-constexpr std::array<std::array<double, 3>, 6> starts = {
-    {{0.2, 0.2, 0.2}, {1, 0.05, 0.05}, {0.05, 1, 0.05}, {0.05, 0.05, 1}, {1, 1, 0.05}, {2, 2, 2}}};
+constexpr double starts[6][3] = {{0.2, 0.2, 0.2}, {1, 0.05, 0.05}, {0.05, 1, 0.05},
+                                 {0.05, 0.05, 1}, {1, 1, 0.05},    {2, 2, 2}};
 
 } // namespace
 
@@ -114,7 +109,7 @@ Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
   check(reference);
   const auto n = static_cast<Eigen::Index>(reference.axial_strain.size());
   Eigen::VectorXd residuals(2 * n);
-  if (jacobian != nullptr) jacobian->resize(2 * n, 3);
+  Eigen::MatrixX3d derivatives(2 * n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     using Jet = ceres::Jet<double, 3>;
     const Jet k[] = {Jet(stiffness.edge, 0), Jet(stiffness.face_diagonal, 1),
@@ -125,10 +120,10 @@ Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
                               0, 0);
     residuals(i) = pair[0].a;
     residuals(n + i) = pair[1].a;
-    if (jacobian == nullptr) continue;
-    jacobian->row(i) = pair[0].v.transpose();
-    jacobian->row(n + i) = pair[1].v.transpose();
+    derivatives.row(i) = pair[0].v;
+    derivatives.row(n + i) = pair[1].v;
   }
+  if (jacobian != nullptr) *jacobian = derivatives;
   return residuals;
 }
 
@@ -141,12 +136,12 @@ NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge) {
   const double unit = stiffness_unit(reference, edge);
   NonlinearFit fit{{}, std::numeric_limits<double>::infinity(), {}};
   for (const auto& start : starts) {
-    const Minimum minimum = minimise(reference, edge, unit, start);
-    if (!minimum.converged) continue;
-    const auto& [edges, face_diagonals, internal_diagonals] = minimum.scaled;
-    fit.minimisers.push_back({unit * edges, unit * face_diagonals, unit * internal_diagonals, 0});
-    if (!(minimum.objective < fit.objective)) continue;
-    fit.objective = minimum.objective;
+    double k[] = {start[0], start[1], start[2]};
+    const std::optional<double> objective = minimise(reference, edge, unit, k);
+    if (!objective) continue;
+    fit.minimisers.push_back({unit * k[0], unit * k[1], unit * k[2], 0});
+    if (!(*objective < fit.objective)) continue;
+    fit.objective = *objective;
     fit.stiffness = fit.minimisers.back();
   }
   if (fit.minimisers.empty())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace springproof::msm {
@@ -30,8 +31,8 @@ std::vector<double> numbers_of(std::string line, const std::string& place) {
 
 void check_row(const std::vector<double>& row, const UniaxialCurve& curve, const std::string& place) {
   if (row.size() != 2 && row.size() != 3)
-    throw cases::InputError(place + std::to_string(row.size()) +
-                            " columns; a curve has strain, stress and perhaps lateral strain");
+    throw cases::InputError(fmt::format("{}{} columns; a curve has strain, stress and perhaps lateral strain",
+                                        place, row.size()));
   if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); }))
     throw cases::InputError(place + "not a finite number");
   if (!curve.axial_strain.empty() && !(row[0] > curve.axial_strain.back()))
@@ -80,7 +81,7 @@ UniaxialCurve read_curve(const std::string& text, const std::string& name) {
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    const std::string place = name + ":" + std::to_string(number) + ": ";
+    const std::string place = fmt::format("{}:{}: ", name, number);
     const std::vector<double> row = numbers_of(line, place);
     if (row.empty()) continue;
     check_row(row, curve, place);
@@ -89,8 +90,8 @@ UniaxialCurve read_curve(const std::string& text, const std::string& name) {
     curve.lateral_strain.push_back(row.size() == 3 ? row[2] : -0.5 * row[0]);
   }
   if (curve.axial_strain.size() < 2)
-    throw cases::InputError(name + ": a curve needs at least two strains, this one has " +
-                            std::to_string(curve.axial_strain.size()));
+    throw cases::InputError(fmt::format("{}: a curve needs at least two strains, this one has {}", name,
+                                        curve.axial_strain.size()));
   if (all_zero(curve.stress)) throw cases::InputError(name + ": every stress is zero");
   if (all_zero(curve.lateral_strain)) throw cases::InputError(name + ": every lateral strain is zero");
   return curve;
@@ -110,8 +111,7 @@ double lateral_stretch(const CellStiffness& stiffness, double stretch) {
     (imbalance < 0 ? low : high) = x;
     double next = x - imbalance / lateral_imbalance_slope(k, x, stretch);
     if (!(next > low && next < high)) next = (low + high) / 2;
-    if (std::abs(next - x) <= 1e-10 * x)
-      return next; // the step converges quadratically: 1e-10 leaves round-off
+    if (std::abs(next - x) <= 1e-10 * x) return next; // it converges quadratically: this leaves round-off
     x = next;
   }
   return x;

@@ -30,25 +30,12 @@ class OneThread {
 /// does.
 class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
  public:
-  using CholmodSupernodalLLT::info;
+  using CholmodSupernodalLLT::analyzePattern, CholmodSupernodalLLT::factorize, CholmodSupernodalLLT::info,
+      CholmodSupernodalLLT::setShift, CholmodSupernodalLLT::solve;
   Factorisation() {
     cholmod().nmethods = 1;
     cholmod().method[0].ordering = CHOLMOD_METIS;
     cholmod().print = 0;
-  }
-
-  void analyse(const Tangent::Matrix& matrix) {
-    const OneThread one;
-    analyzePattern(matrix);
-  }
-  void factorise(const Tangent::Matrix& matrix, double shift) {
-    const OneThread one;
-    setShift(shift);
-    factorize(matrix);
-  }
-  Vector solution(const Vector& right_side) const {
-    const OneThread one;
-    return solve(right_side);
   }
 
   /// The smallest of pivot over diagonal entry: how much of a diagonal entry elimination leaves. Rounding
@@ -87,7 +74,8 @@ class DirectSystem : public SpringSystem {
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
         load_(on_free(to_vector(problem, problem.force))) {
-    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
+    const OneThread one;
+    factorisation_.analyzePattern(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
 
   const Vector& load() const override { return load_; }
@@ -111,7 +99,8 @@ class DirectSystem : public SpringSystem {
     double shift = 0;
     while (!factorise(displacement, TransverseTerm::exact, shift))
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
-    const auto apply = [&](const Vector& v) { return factorisation_.solution(v); };
+    const auto apply = [&](const Vector& v) -> Vector { return factorisation_.solve(v); };
+    const OneThread one;
     mechanics::LargestMode mode = mechanics::largest_mode(apply, tangent_.n_free());
     return Mode{1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
@@ -147,9 +136,7 @@ class DirectSystem : public SpringSystem {
   Tangent tangent_;
   Vector load_, diagonal_;
   Factorisation factorisation_;
-  Vector factorised_at_; ///< empty: nothing is factorised
-  TransverseTerm factorised_term_{};
-  double factorised_shift_ = 0;
+  std::optional<std::tuple<Vector, TransverseTerm, double>> factorised_; ///< displacement, term and shift
   bool is_definite_ = false;
 
   double reaction(const Vector& displacement) override {
@@ -163,7 +150,8 @@ class DirectSystem : public SpringSystem {
   std::optional<Vector> solve(const Vector& displacement, const Vector& residual, double /*forcing*/,
                               TransverseTerm term, double shift) override {
     if (!factorise(displacement, term, shift)) return std::nullopt;
-    const Vector step = with_supports(factorisation_.solution(residual.head(tangent_.n_free())));
+    const OneThread one;
+    const Vector step = with_supports(factorisation_.solve(residual.head(tangent_.n_free())));
     if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
     return step;
   }
@@ -188,16 +176,14 @@ class DirectSystem : public SpringSystem {
 
   /// Factorises tangent + shift unless that is what is there. @return whether it is positive definite
   bool factorise(const Vector& displacement, TransverseTerm term, double shift) {
-    if (factorised_at_.size() > 0 && factorised_at_ == displacement && factorised_term_ == term &&
-        factorised_shift_ == shift)
-      return is_definite_;
+    if (factorised_ == std::tie(displacement, term, shift)) return is_definite_;
+    const OneThread one;
     const Tangent::Matrix& matrix = tangent_.assemble(positions(displacement), term);
     diagonal_ = matrix.diagonal();
-    factorisation_.factorise(matrix, shift);
+    factorisation_.setShift(shift);
+    factorisation_.factorize(matrix);
     ++work_.factorisations;
-    factorised_at_ = displacement;
-    factorised_term_ = term;
-    factorised_shift_ = shift;
+    factorised_.emplace(displacement, term, shift);
     is_definite_ = factorisation_.info() == Eigen::Success;
     return is_definite_;
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "msm/problem.hpp"
-#include "msm/spring_system.hpp"
 
 #include <memory>
 

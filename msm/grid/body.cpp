@@ -2,9 +2,6 @@
 
 #include "cases/case/index.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace springproof::msm::grid {
 
 using cases::index;

@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/index.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
-#include "msm/grid/conjugate_gradients.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <utility>
@@ -57,9 +56,9 @@ class GridSystem : public SpringSystem {
     return lowest_mode(displacement)->eigenvalue > 0;
   }
 
-  /// The tangent at rest has no negative eigenvalue; that it has no zero one shows
-  /// in conjugate gradients reaching every part of a random right side, and by a motion that it resists:
-  /// where rounding alone resists, the answer is a huge motion, whose Rayleigh quotient tells.
+  /// The tangent at rest has no negative eigenvalue; that it has no zero one shows in conjugate gradients
+  /// reaching every part of a random right side, and by a motion that it resists: where rounding alone
+  /// resists, the answer is a huge motion, whose Rayleigh quotient tells.
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     const Vector rest = Vector::Zero(problem_.load.size());
@@ -89,17 +88,15 @@ class GridSystem : public SpringSystem {
     };
     examine(0, probe()); // rich in low modes
     double eigenvalue = grid::dot(basis[0], image[0], n_threads_);
-    std::size_t n = 2;
+    int n = 2;
     for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
       Vector residual = image[0];
       add(residual, -eigenvalue, basis[0], n_threads_);
       examine(1, residual);
       const auto products = [&](const Columns& left, const Columns& right) {
         Eigen::MatrixXd all(n, n);
-        for (std::size_t r = 0; r < n; ++r)
-          for (std::size_t c = 0; c < n; ++c)
-            all(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-                grid::dot(left[r], right[c], n_threads_);
+        for (int r = 0; r < n; ++r)
+          for (int c = 0; c < n; ++c) all(r, c) = grid::dot(left[index(r)], right[index(c)], n_threads_);
         return all;
       };
       const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
@@ -192,36 +189,71 @@ class GridSystem : public SpringSystem {
                    [&](std::ptrdiff_t first, std::ptrdiff_t n) { v.segment(first, n) *= factor; });
   }
 
-  /// (tangent + shift) x = right side, or nothing when some direction meets no or negative curvature.
   std::optional<Vector> solve(const Vector& displacement, const Vector& right_side, double forcing,
                               TransverseTerm term, double shift) override {
-    multigrid_->linearise(displacement);
     const Clamp clamp = term == TransverseTerm::clamped ? Clamp::yes : Clamp::no;
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, displacement, v, out);
       if (shift != 0) add(out, shift, v, n_threads_);
     };
-    const auto precondition = [&](const Vector& r, Vector& out) { multigrid_->apply(r, out); };
     // The cycle keeps what it learnt at the displacements before this one. After one where points coincide or
     // fly off that may be wrong, and then a new cycle has to start afresh.
     for (const bool may_be_misled : {true, false}) {
-      const ConjugateGradients found =
-          conjugate_gradients(apply, precondition, right_side, forcing, max_iterations, n_threads_);
-      work_.linear_iterations += found.iterations;
+      multigrid_->linearise(displacement);
+      const ConjugateGradients found = conjugate_gradients(apply, right_side, forcing);
       if (found.converged) return found.solution;
       if (found.met_negative_curvature || !may_be_misled) break;
       multigrid_.emplace(bodies_, n_threads_);
-      multigrid_->linearise(displacement);
     }
     return std::nullopt;
+  }
+
+  struct ConjugateGradients {
+    Vector solution;
+    bool converged = false;
+    bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
+  };
+
+  /// Conjugate gradients with the multigrid cycle, until the residual is at most `forcing` of the right side.
+  /// The cycle is symmetric but for the rounding of single precision; Polak and Ribiere's formula does not
+  /// mind.
+  template<class Operator>
+  ConjugateGradients conjugate_gradients(const Operator& apply, const Vector& right_side, double forcing) {
+    const auto product_of = [&](const Vector& a, const Vector& b) { return grid::dot(a, b, n_threads_); };
+    ConjugateGradients result;
+    result.solution.setZero(right_side.size());
+    Vector residual = right_side, preconditioned(right_side.size()), product = result.solution;
+    multigrid_->apply(residual, preconditioned);
+    Vector direction = preconditioned;
+    double slope = product_of(residual, preconditioned);
+    const double target = forcing * norm(right_side, n_threads_);
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+      apply(direction, product);
+      ++work_.linear_iterations;
+      const double curvature = product_of(direction, product);
+      result.met_negative_curvature = curvature <= 0;
+      if (!(curvature > 0) || !(slope > 0)) return result;
+      const double length = slope / curvature;
+      add(result.solution, length, direction, n_threads_);
+      add(residual, -length, product, n_threads_);
+      result.converged = norm(residual, n_threads_) <= target;
+      if (result.converged) return result;
+      const double crossed = product_of(residual, preconditioned);
+      multigrid_->apply(residual, preconditioned);
+      const double now = product_of(residual, preconditioned), keep = (now - crossed) / slope;
+      slope = now;
+      for_each_piece(direction.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+        direction.segment(first, n) = preconditioned.segment(first, n) + keep * direction.segment(first, n);
+      });
+    }
+    return result;
   }
 };
 
 } // namespace
 
-std::optional<GridProblem> make_grid_problem(const Problem& problem,
-                                             const std::vector<CellStiffness>& stiffness) {
-  if (!problem.mesh.grid) return std::nullopt;
+GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness) {
+
   const cases::Grid& grid = *problem.mesh.grid;
   GridProblem result;
   Body& body = result.body;

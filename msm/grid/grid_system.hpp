@@ -2,7 +2,6 @@
 
 #include "msm/grid/multigrid.hpp"
 #include "msm/problem.hpp"
-#include "msm/spring_system.hpp"
 
 #include <memory>
 
@@ -16,10 +15,8 @@ struct GridProblem {
   std::function<Field<double>(double load_factor)> supports{};
 };
 
-/// @param problem  must outlive what is returned, if its supports move
-/// @return nothing when the problem's mesh is no grid, or too thin for one cell along some axis
-std::optional<GridProblem> make_grid_problem(const Problem& problem,
-                                             const std::vector<CellStiffness>& stiffness);
+/// @param problem  on a grid; must outlive what is returned, if its supports move
+GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness);
 
 /// The lattice's equations without a matrix: conjugate gradients with the multigrid cycle.
 /// Vectors are fields of the layout.

@@ -18,13 +18,4 @@ const InstructionSet& instruction_set() {
   return set;
 }
 
-template<>
-const Kernels<double>& kernels() {
-  return instruction_set().in_double;
-}
-template<>
-const Kernels<float>& kernels() {
-  return instruction_set().in_float;
-}
-
 } // namespace springproof::msm::grid

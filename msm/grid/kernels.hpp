@@ -91,6 +91,11 @@ extern const InstructionSet baseline, avx2, avx512;
 /// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
 const InstructionSet& instruction_set();
 template<class Real>
-const Kernels<Real>& kernels();
+const Kernels<Real>& kernels() {
+  if constexpr (sizeof(Real) == sizeof(double))
+    return instruction_set().in_double;
+  else
+    return instruction_set().in_float;
+}
 
 } // namespace springproof::msm::grid

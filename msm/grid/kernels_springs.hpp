@@ -140,18 +140,16 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
     }
 }
 
-/// One spring of a pack of nodes, to the nodes that are dx further on in their row: the senders' sum grows,
-/// that of the nodes at the other end shrinks.
+/// One spring of a pack of nodes: the senders' sum grows, that of the nodes at the other end shrinks.
 /// @param from  where the senders' places at rest are, seen from the other row's, less the senders'
 /// displacement
 /// @param to    the pack at the senders' place in the other row
-/// @tparam is_first  nothing has come to those nodes' sums before
-template<int spring, int dx, bool is_first, class Real, class Action>
+template<int spring, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from,
                                      const Vec<Pack<Real>>& v, const Real* stiffness, Real* to,
                                      Vec<Pack<Real>>& own) {
   using P = Pack<Real>;
-  constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (dx + 1) * lanes;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (spring_steps[spring][0] + 1) * lanes;
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
@@ -159,7 +157,8 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
       action(d, change, load(stiffness + spring * lanes), load(stiffness + (n_springs + spring) * lanes));
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
-  if constexpr (is_first)
+  // Rows are swept upwards: nothing has come before to the row and plane after the senders'.
+  if constexpr (spring_steps[spring][1] == 1 && spring_steps[spring][2] == 1)
     store_three(sum, Vec<P>{} - f);
   else
     store_three(sum, load_three(sum) - f);
@@ -172,15 +171,13 @@ SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>&
                                     const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
                                     Real* plane, Vec<Pack<Real>>& own) {
   constexpr int dy = spring_steps[3 * group][1], dz = spring_steps[3 * group][2];
-  constexpr bool is_first = dy == 1 && dz == 1; // rows are swept upwards
   Vec<Pack<Real>> from = Vec<Pack<Real>>{} - u;
-  if constexpr (dy == 1) from.y = edge.y - u.y;
-  if constexpr (dy == -1) from.y = -edge.y - u.y;
+  if constexpr (dy != 0) from.y = (dy == 1 ? edge.y : -edge.y) - u.y;
   if constexpr (dz == 1) from.z = edge.z - u.z;
   Real* const to = plane + dy * tile * node_packs<Action> * pack_size<Real>;
-  sweep_spring<3 * group, -1, is_first>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 1, 0, is_first>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 2, 1, is_first>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 1>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 2>(action, from, v, stiffness, to, own);
 }
 
 /// All springs of a tile's packs in one row.
@@ -198,7 +195,7 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
     if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
     Real* const sum = here + (sums_at<Action> + 3) * lanes;
     Vec<P> own = load_three(sum);
-    sweep_spring<n_springs - 1, 1, false>(action, Vec<P>{} - u, v, stiffness, here, own);
+    sweep_spring<n_springs - 1>(action, Vec<P>{} - u, v, stiffness, here, own);
     if constexpr (upwards) {
       sweep_group<0>(action, edge, u, v, stiffness, above, own);
       sweep_group<1>(action, edge, u, v, stiffness, above, own);

@@ -10,11 +10,6 @@ namespace {
 
 using cases::index;
 
-/// First plane of slab s of n.
-int first_plane(int s, int n, int planes) {
-  return static_cast<int>(std::ptrdiff_t{s} * planes / n);
-}
-
 /// Stiffness of the spring of one cell that leads along a step.
 double stiffness_along(const CellSprings& cell, const int (&step)[3]) {
   const bool x = step[0] != 0, y = step[1] != 0, z = step[2] != 0;
@@ -50,8 +45,15 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     });
     springs_.volume_stiffness = stiffness.data();
   }
-  spill_.assign(index(n_slabs()), Field<Real>::Zero(6 * body.layout.plane + body.layout.lead + 32));
-  scratch_.assign(index(n_slabs()), Field<Real>::Zero(scratch_size(body.layout)));
+  // Slabs of some sixteen planes of nodes: the same on any number of threads, so that sums are too, and an
+  // even number, so that two threads have the same to do.
+  const int planes = body.layout.nodes[2], n = planes < 8 ? 1 : 2 * std::max(1, planes / 16);
+  const auto first_plane = [&](int slab) { return static_cast<int>(std::ptrdiff_t{slab} * planes / n); };
+  for (int slab = 0; slab < n; ++slab) {
+    auto& spill = arrays_.emplace_back(Field<Real>::Zero(6 * body.layout.plane + body.layout.lead + 32));
+    auto& scratch = arrays_.emplace_back(Field<Real>::Zero(scratch_size(body.layout)));
+    slabs_.push_back({first_plane(slab), first_plane(slab + 1), spill.data(), scratch.data()});
+  }
 }
 
 template<class Real>
@@ -101,34 +103,22 @@ void SpringField<Real>::set_by_node() {
   }
 }
 
-/// Planes of nodes are dealt out in slabs of some sixteen: the same on any number of threads, so that sums
-/// are too, and an even number, so that two threads have the same to do.
-template<class Real>
-int SpringField<Real>::n_slabs() const {
-  const int planes = springs_.layout.nodes[2];
-  return planes < 8 ? 1 : 2 * std::max(1, planes / 16);
-}
-
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
 template<class Real>
 template<class Run>
 void SpringField<Real>::for_each_slab(int components, Real* result, const Run& run) const {
   const Layout& layout = springs_.layout;
-  const int n = n_slabs();
-#pragma omp parallel num_threads(n_threads_) if (n_threads_ > 1 && springs_.layout.size > piece)
+  const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
+#pragma omp parallel num_threads(n_threads_) if (n_threads_ > 1 && layout.size > piece)
   {
 #pragma omp for schedule(static)
-    for (int s = 0; s < n; ++s) {
-      const Slab<Real> slab{first_plane(s, n, layout.nodes[2]), first_plane(s + 1, n, layout.nodes[2]),
-                            spill_[index(s)].data(), scratch_[index(s)].data()};
-      run(slab);
-    }
+    for (std::ptrdiff_t s = 0; s < n; ++s) run(slabs_[index(s)]);
 #pragma omp for schedule(static)
-    for (int s = 0; s < n - 1; ++s)
+    for (std::ptrdiff_t s = 0; s < n - 1; ++s)
       for (int c = 0; c < components; ++c) {
-        Real* plane =
-            result + layout.at(0, 0, first_plane(s + 1, n, layout.nodes[2]), c) - layout.at(0, 0, -1);
-        const Real* spill = spill_[index(s)].data() + c * layout.plane;
+        const Slab<Real>& slab = slabs_[index(s)];
+        Real* plane = result + layout.at(0, 0, slab.last, c) - layout.at(0, 0, -1);
+        const Real* spill = slab.spill + c * layout.plane;
         for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
       }
   }
@@ -196,13 +186,13 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
 
 template<class Real>
 double SpringField<Real>::energy(const Field<Real>& displacement) const {
-  const int n = n_slabs();
+  const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
   Eigen::VectorXd part(n);
 #pragma omp parallel for num_threads(n_threads_)                                                             \
     schedule(static) if (n_threads_ > 1 && springs_.layout.size > piece)
-  for (int s = 0; s < n; ++s)
-    part[s] = kernels<Real>().energy(springs_, first_plane(s, n, springs_.layout.nodes[2]),
-                                     first_plane(s + 1, n, springs_.layout.nodes[2]), displacement.data());
+  for (std::ptrdiff_t s = 0; s < n; ++s)
+    part[s] =
+        kernels<Real>().energy(springs_, slabs_[index(s)].first, slabs_[index(s)].last, displacement.data());
   double sum = 0;
   for (double value : part) sum += value;
   return sum;

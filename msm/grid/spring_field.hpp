@@ -1,9 +1,8 @@
 #pragma once
 
-#include "msm/grid/field.hpp"
+#include "msm/grid/body.hpp"
 
 #include <deque>
-#include <vector>
 
 namespace springproof::msm::grid {
 
@@ -31,17 +30,13 @@ class SpringField {
   const Body& body_;
   int n_threads_;
   Springs<Real> springs_;
-  std::deque<Field<Real>> arrays_; ///< what springs_ points to
-  mutable std::vector<Field<Real>> spill_, scratch_;
+  std::vector<Slab<Real>> slabs_;
+  std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
 
   void set_shares();
   void set_by_node();
-  int n_slabs() const;
   template<class Run>
   void for_each_slab(int components, Real* result, const Run& run) const;
 };
-
-extern template class SpringField<double>;
-extern template class SpringField<float>;
 
 } // namespace springproof::msm::grid

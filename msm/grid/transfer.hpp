@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/grid/field.hpp"
+#include "msm/grid/body.hpp"
 
 namespace springproof::msm::grid {
 
@@ -24,8 +24,5 @@ class Transfer {
   bool is_coarsened_[3]; ///< along x, y, z
   int n_threads_;
 };
-
-extern template class Transfer<double>;
-extern template class Transfer<float>;
 
 } // namespace springproof::msm::grid

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <memory>
 #include <random>
 
 namespace springproof::msm {
@@ -17,18 +16,9 @@ namespace {
 using mechanics::NonlinearProblem;
 using mechanics::Vector;
 
-/// One explicit iteration after the other, at full load.
-class Method {
- public:
-  explicit Method(NonlinearProblem& problem) : problem_(problem) {}
-  virtual ~Method() = default;
-  /// Moves `at`, where the residual is `force`, and evaluates the next.  @return false when there is no way
-  /// on
-  virtual bool step(Vector& at, Vector& force) = 0;
-
- protected:
-  NonlinearProblem& problem_;
-};
+/// One explicit iteration at full load: moves `at`, where the residual is `force`, and evaluates the next.
+/// @return false when there is no way on
+using Method = std::function<bool(Vector& at, Vector& force)>;
 
 /// Largest eigenvalue of the tangent (N/mm), by the power method on differences of forces.
 double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vector& force) {
@@ -49,25 +39,20 @@ double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vec
   return eigenvalue;
 }
 
-class ForceScaling : public Method {
- public:
-  ForceScaling(NonlinearProblem& problem, double eigenvalue) : Method(problem), alpha_(1 / eigenvalue) {}
-  bool step(Vector& at, Vector& force) override {
-    at += alpha_ * force;
-    force = problem_.residual(at, 1);
+Method force_scaling(NonlinearProblem& problem, double eigenvalue) {
+  return [&problem, alpha = 1 / eigenvalue](Vector& at, Vector& force) { // alpha: mm/N
+    at += alpha * force;
+    force = problem.residual(at, 1);
     return true;
-  }
+  };
+}
 
- private:
-  double alpha_; ///< mm/N
-};
-
-class Fire : public Method {
+class Fire {
  public:
   Fire(NonlinearProblem& problem, double eigenvalue)
-      : Method(problem), longest_(1 / std::sqrt(eigenvalue)), time_step_(0.1 * longest_) {} // all masses 1
+      : problem_(problem), longest_(1 / std::sqrt(eigenvalue)), time_step_(0.1 * longest_) {} // all masses 1
 
-  bool step(Vector& at, Vector& force) override {
+  bool operator()(Vector& at, Vector& force) {
     if (velocity_.size() == 0) velocity_ = Vector::Zero(at.size());
     const double power = force.dot(velocity_);
     if (power > 0) {
@@ -90,16 +75,17 @@ class Fire : public Method {
 
  private:
   static constexpr double first_mixing = 0.1;
+  NonlinearProblem& problem_;
   double longest_, time_step_, mixing_ = first_mixing;
   int n_downhill_ = 0;
   Vector velocity_;
 };
 
-class Lbfgs : public Method {
+class Lbfgs {
  public:
-  Lbfgs(NonlinearProblem& problem, double eigenvalue) : Method(problem), scale_(1 / eigenvalue) {}
+  Lbfgs(NonlinearProblem& problem, double eigenvalue) : problem_(problem), scale_(1 / eigenvalue) {}
 
-  bool step(Vector& at, Vector& force) override {
+  bool operator()(Vector& at, Vector& force) {
     if (last_at_.size() > 0) remember(at - last_at_, last_force_ - force);
     last_at_ = at;
     last_force_ = force;
@@ -114,6 +100,7 @@ class Lbfgs : public Method {
     Vector move, change; ///< mm; of the potential's gradient, N
     double product;
   };
+  NonlinearProblem& problem_;
   double scale_; ///< mm/N
   Vector last_at_, last_force_;
   std::deque<Pair> pairs_;
@@ -142,15 +129,10 @@ class Lbfgs : public Method {
   }
 };
 
-std::unique_ptr<Method> make_method(cases::Solver method, NonlinearProblem& problem, double eigenvalue) {
-  switch (method) {
-  case cases::Solver::force_scaling:
-    return std::make_unique<ForceScaling>(problem, eigenvalue);
-  case cases::Solver::fire:
-    return std::make_unique<Fire>(problem, eigenvalue);
-  default:
-    return std::make_unique<Lbfgs>(problem, eigenvalue);
-  }
+Method make_method(cases::Solver method, NonlinearProblem& problem, double eigenvalue) {
+  if (method == cases::Solver::force_scaling) return force_scaling(problem, eigenvalue);
+  if (method == cases::Solver::fire) return Fire(problem, eigenvalue);
+  return Lbfgs(problem, eigenvalue);
 }
 
 } // namespace
@@ -162,7 +144,7 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
   Vector at = start;
   problem.move_supports(at, 1);
   Vector force = problem.residual(at, 1);
-  const auto iteration = make_method(method, problem, largest_eigenvalue(problem, at, force));
+  const Method step = make_method(method, problem, largest_eigenvalue(problem, at, force));
   const auto give_up = [&](const std::string& reason) {
     throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason, 0,
                             result.residual);
@@ -175,7 +157,7 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
       give_up("the limit of " + std::to_string(settings.max_relaxation_iterations) +
               " iterations was reached");
     if (settings.should_stop && settings.should_stop()) give_up("it was stopped");
-    if (!iteration->step(at, force)) give_up("no step lowers the potential");
+    if (!step(at, force)) give_up("no step lowers the potential");
   }
   result.load_reached = 1;
   if (settings.stability != mechanics::Stability::ignore) result.is_stable = problem.is_stable(at);

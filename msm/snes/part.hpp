@@ -2,7 +2,6 @@
 
 #include "mechanics/petsc/handles.hpp"
 #include "msm/problem.hpp"
-#include "msm/spring_system.hpp"
 
 namespace springproof::msm {
 

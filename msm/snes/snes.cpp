@@ -124,6 +124,18 @@ class SnesProblem : public petsc::DistributedProblem {
     check(SNESCreate(communicator_, &snes));
     snes_.reset(snes);
     check(SNESSetOptionsPrefix(snes, "msm_"));
+    const auto evaluate_residual = [](SNES, Vec x, Vec out, void* problem) {
+      auto& self = *static_cast<SnesProblem*>(problem);
+      return self.errors_.run([&] {
+        if (self.settings_.should_stop && self.any_rank(self.settings_.should_stop()))
+          throw mechanics::Newton::Stopped{"it was stopped"};
+        self.part_.residual(x, self.load_factor_, out);
+      });
+    };
+    const auto evaluate_tangent = [](SNES, Vec x, Mat matrix, Mat, void* problem) {
+      auto& self = *static_cast<SnesProblem*>(problem);
+      return self.errors_.run([&] { self.part_.tangent(x, matrix); });
+    };
     check(SNESSetFunction(snes, residual_.get(), evaluate_residual, this));
     check(SNESSetJacobian(snes, matrix_.get(), matrix_.get(), evaluate_tangent, this));
     check(SNESSetType(snes, SNESNEWTONLS));
@@ -149,20 +161,6 @@ class SnesProblem : public petsc::DistributedProblem {
       check(SNESKSPSetUseEW(snes, PETSC_TRUE));
     }
     check(SNESSetFromOptions(snes));
-  }
-
-  static PetscErrorCode evaluate_residual(SNES, Vec x, Vec out, void* problem) {
-    auto& self = *static_cast<SnesProblem*>(problem);
-    return self.errors_.run([&] {
-      if (self.settings_.should_stop && self.any_rank(self.settings_.should_stop()))
-        throw mechanics::Newton::Stopped{"it was stopped"};
-      self.part_.residual(x, self.load_factor_, out);
-    });
-  }
-
-  static PetscErrorCode evaluate_tangent(SNES, Vec x, Mat matrix, Mat, void* problem) {
-    auto& self = *static_cast<SnesProblem*>(problem);
-    return self.errors_.run([&] { self.part_.tangent(x, matrix); });
   }
 };
 

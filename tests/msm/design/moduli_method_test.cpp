@@ -4,6 +4,7 @@
 #include "msm/design/design.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 
@@ -25,7 +26,8 @@ TEST_CASE("the moduli method's lattice has the Young's and shear modulus asked f
   const double nu = GENERATE(-0.2, 0.0, 0.2, 0.25, 0.35, 0.49);
   const double split = GENERATE(0.0, 0.3, 0.7, 1.0);
   const double shear = 0.3 / (2 * (1 + nu));
-  const msm::LatticeModuli moduli = msm::lattice_moduli(msm::moduli_method(0.3, shear, split, 1.7), 1.7);
+  const msm::LatticeModuli moduli =
+      msm::lattice_moduli(msm::moduli_method(0.3, shear, split, msm::cube(1.7)), 1.7);
   CHECK(moduli.youngs_modulus == Approx(0.3).epsilon(round_off));
   CHECK(moduli.shear_modulus == Approx(shear).epsilon(round_off));
 }
@@ -42,9 +44,9 @@ TEST_CASE("the hybrid method's lattice is isotropic with the E and nu asked for"
   CHECK(result.moduli.poissons_ratio == Approx(nu).epsilon(round_off));
 }
 
-TEST_CASE("at nu = 1/4 both closed forms are the same springs without a volume term", "[verification]") {
-  const msm::CellStiffness hybrid = msm::hybrid_method(0.12, 0.12, 0.7, 1);
-  const msm::CellStiffness springs = msm::moduli_method(0.3, 0.12, 0.7, 1);
+TEST_CASE("at nu = 1/4 both methods give the same springs without a volume term", "[verification]") {
+  const msm::CellStiffness hybrid = msm::hybrid_method(0.12, 0.12, 0.7, msm::cube(1));
+  const msm::CellStiffness springs = msm::moduli_method(0.3, 0.12, 0.7, msm::cube(1));
   CHECK(hybrid.edge == Approx(springs.edge).epsilon(round_off));
   CHECK(hybrid.face_diagonal == Approx(springs.face_diagonal).epsilon(round_off));
   CHECK(hybrid.internal_diagonal == Approx(springs.internal_diagonal).epsilon(round_off));
@@ -68,14 +70,16 @@ TEST_CASE("the hybrid method refuses Poisson's ratios below a quarter") {
 
 TEST_CASE("fitted to a cube, both methods are their closed forms", "[verification]") {
   const double split = GENERATE(0.3, 0.8);
-  const msm::CellStiffness closed = msm::hybrid_method(0.3, 0.1, split, 1.4);
-  const msm::CellStiffness fitted = msm::hybrid_method(0.3, 0.1, split, msm::cube(1.4));
+  const double lambda = 0.3, mu = 0.1, h = 1.4, internal = 0.75 * split * mu * h, face = (1 - split) * mu * h;
+  const msm::CellStiffness closed = {(face + 8 * internal / 3) / 4, face / 2, internal, lambda - mu};
+  const msm::CellStiffness fitted = msm::hybrid_method(lambda, mu, split, msm::cube(h));
   CHECK(fitted.edge == Approx(closed.edge).epsilon(1e-12)); // a 36x2 least-squares problem: round-off
   CHECK(fitted.face_diagonal == Approx(closed.face_diagonal).epsilon(1e-12));
   CHECK(fitted.internal_diagonal == Approx(closed.internal_diagonal).epsilon(1e-12));
   CHECK(fitted.volume == Approx(closed.volume).epsilon(1e-12));
-  const msm::CellStiffness springs = msm::moduli_method(0.3, 0.11, split, 1.4);
-  CHECK(msm::moduli_method(0.3, 0.11, split, msm::cube(1.4)).edge == Approx(springs.edge).epsilon(1e-12));
+  const double e = 0.3, g = 0.11, c11 = (e - g + std::sqrt((e + g) * (e + g) + 8 * g * g)) / 2;
+  const double edges = c11 * h - 2 * (1 - split) * g * h - split * g * h; // K_e = C11 h - 2 K_f - 4 K_d/3
+  CHECK(msm::moduli_method(e, g, split, msm::cube(h)).edge == Approx(edges / 4).epsilon(1e-12));
 }
 
 TEST_CASE("a slightly distorted cell is given slightly different springs") {
@@ -91,7 +95,7 @@ TEST_CASE("a slightly distorted cell is given slightly different springs") {
   CHECK(result.moduli.poissons_ratio == Approx(0.4).epsilon(0.05)); // likewise
 }
 
-TEST_CASE("closed forms refuse a split outside [0, 1]") {
+TEST_CASE("both methods refuse a split outside [0, 1]") {
   const cases::Design method = GENERATE(cases::Design::moduli, cases::Design::hybrid);
   msm::DesignRequest split = request(method, cases::LinearElastic{0.3, 0.3});
   split.options.split = GENERATE(-0.1, 1.1, std::nan(""));

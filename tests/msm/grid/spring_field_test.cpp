@@ -27,7 +27,7 @@ struct Both {
       : problem{mesh, msm::make_lattice(mesh, stiffness), Points(mesh.nodes.size(), Eigen::Vector3d::Zero()),
                 std::vector<bool>(3 * mesh.nodes.size(), false)} {
     for (std::size_t d : {0, 1, 2, 5, 10}) problem.is_constrained[d] = true;
-    grid = *msm::grid::make_grid_problem(problem, stiffness);
+    grid = msm::grid::make_grid_problem(problem, stiffness);
     const Points zero(mesh.nodes.size(), Eigen::Vector3d::Zero());
     displacement = held(bodies::disturbed(zero, 0.3 * mesh.grid->spacing.minCoeff()));
     direction = held(bodies::disturbed(bodies::disturbed(zero, 0.7), 0.4));
@@ -48,7 +48,8 @@ struct Both {
   }
   template<class Real>
   Vector free(const Field<Real>& field) const {
-    return msm::to_vector(problem, msm::grid::to_points(problem, grid.body.layout, field.template cast<double>()));
+    return msm::to_vector(problem,
+                          msm::grid::to_points(problem, grid.body.layout, field.template cast<double>()));
   }
 };
 
