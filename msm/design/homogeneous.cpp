@@ -45,8 +45,7 @@ Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
 
 /// D(q) as a sum over the 27 neighbours of a node, itself included: D(q) = sum_n B_n exp(i q d_n).
 struct DynamicalMatrix {
-  std::array<Eigen::Matrix3d, 27> blocks;
-  std::array<Eigen::Vector3d, 27> neighbours; ///< d_n in edges
+  std::array<Eigen::Matrix3d, 27> blocks; ///< neighbour n lies at (n % 3, n / 3 % 3, n / 9) - 1 edges
 
   Eigen::Matrix3d& block(const Eigen::Vector3d& d) {
     const Eigen::Vector3i i = d.cast<int>() + Eigen::Vector3i::Ones();
@@ -55,7 +54,10 @@ struct DynamicalMatrix {
   /// Smallest eigenvalue over |q h|².  @param phase  q h per axis, radians
   double smallest(const Eigen::Vector3d& phase) const {
     Eigen::Matrix3cd sum = Eigen::Matrix3cd::Zero();
-    for (std::size_t n = 0; n < 27; ++n) sum += blocks[n] * std::polar(1.0, phase.dot(neighbours[n]));
+    for (int n = 0; n < 27; ++n) {
+      const Eigen::Vector3d d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+      sum += blocks[static_cast<std::size_t>(n)] * std::polar(1.0, phase.dot(d));
+    }
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3cd>(sum, Eigen::EigenvaluesOnly).eigenvalues()(0) /
            phase.squaredNorm();
   }
@@ -63,11 +65,7 @@ struct DynamicalMatrix {
 
 DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   DynamicalMatrix matrix;
-  for (std::size_t n = 0; n < 27; ++n) {
-    const int i = static_cast<int>(n);
-    matrix.neighbours[n] = Eigen::Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    matrix.blocks[n].setZero();
-  }
+  matrix.blocks.fill(Eigen::Matrix3d::Zero());
   for (const auto& [d, spring] : node_springs(stiffness, edge)) {
     const Eigen::Matrix3d block = spring_stiffness(edge * f * d, spring, TransverseTerm::exact);
     matrix.block(Eigen::Vector3d::Zero()) += 2 * block;

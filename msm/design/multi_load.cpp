@@ -62,8 +62,7 @@ Eigen::Matrix3d cauchy_stress(const CellStiffness& stiffness, double edge, const
   return lattice_stress(stiffness, edge, f) * f.transpose() / f.determinant();
 }
 
-/// Weighted residual = matrix * k - target, rows of one path after the other; k = (k_e, k_f, k_d[, k_v
-/// edge]), N/mm.
+/// Residual of one path = matrix * k - target; k = (k_e, k_f, k_d, k_v edge), N/mm.
 struct LinearProblem {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd target;

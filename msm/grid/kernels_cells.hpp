@@ -161,8 +161,10 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* 
       const Real pressure = cells.stiffness[i] * (rest_volume - volume(x, g));
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) {
-        f[v] = change * g[v];
-        if constexpr (clamp == Clamp::no) f[v] = f[v] + pressure * volume_gradient_change(x, y, v);
+        if constexpr (clamp == Clamp::no)
+          f[v] = change * g[v] + pressure * volume_gradient_change(x, y, v);
+        else
+          f[v] = change * g[v];
       }
       store(b, i, f);
     }

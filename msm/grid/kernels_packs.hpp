@@ -114,6 +114,10 @@ template<class Real>
 SPRINGPROOF_INLINE Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+template<class P>
+SPRINGPROOF_INLINE Vec<P> window(const Vec<P>& a, const Vec<P>& b, int from) {
+  return {window(a.x, b.x, from), window(a.y, b.y, from), window(a.z, b.z, from)};
+}
 
 /// Three arrays of one row.
 template<class Real>

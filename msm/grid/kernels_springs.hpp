@@ -25,12 +25,11 @@ SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
 // direction, k and k l0: the first end receives the result and the second one its opposite.
 
-/// k l0/|d|. A ghost may lie where a node is: hence the 1e-30.
+/// 1/|d|. A ghost may lie where a node is: hence the 1e-30.
 template<class P>
-SPRINGPROOF_INLINE P rest_tension(const Vec<P>& d, const P& k_rest, P& inverse_length) {
+SPRINGPROOF_INLINE P inverse_length(const Vec<P>& d) {
   const P least = P{} + 1e-30f;
-  inverse_length = inverse_root(((least + d.x * d.x) + d.y * d.y) + d.z * d.z);
-  return k_rest * inverse_length;
+  return inverse_root(((least + d.x * d.x) + d.y * d.y) + d.z * d.z);
 }
 
 /// (k - k l0/|d|) d
@@ -39,8 +38,7 @@ struct Force {
   using P = Pack<Real>;
   static constexpr bool needs_direction = false;
   SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P& k_rest) const {
-    P inverse_length;
-    return (k - rest_tension(d, k_rest, inverse_length)) * d;
+    return (k - k_rest * inverse_length(d)) * d;
   }
 };
 
@@ -52,10 +50,10 @@ struct Product {
   static constexpr bool needs_direction = true;
   SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k,
                                        const P& k_rest) const {
-    P inverse_length;
-    P t = k - rest_tension(d, k_rest, inverse_length);
+    const P inverse = inverse_length(d);
+    P t = k - k_rest * inverse;
     if constexpr (clamp == Clamp::yes) t = t > Real(0) ? t : P{};
-    const P along = (t - k) * (dot(d, change) * (inverse_length * inverse_length));
+    const P along = (t - k) * (dot(d, change) * (inverse * inverse));
     return along * d - t * change;
   }
 };
@@ -226,17 +224,17 @@ SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std:
       at[-1] += sums[c * lanes];
     }
   for (std::ptrdiff_t p = 0; p < t.n; ++p, sums += node_packs<Action> * lanes) {
-    Vec<P> left = load_three(sums), own = load_three(sums + 3 * lanes), right = load_three(sums + 6 * lanes);
-    Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
+    const Vec<P> left = load_three(sums), right = load_three(sums + 6 * lanes);
+    const Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
+    Vec<P> total = load_three(sums + 3 * lanes) + window(before, right, lanes - 1) + window(left, next, 1);
+    before = right;
     for (int c = 0; c < 3; ++c) {
       Real* const to = result + p * lanes + c * distance;
-      const P total = own[c] + window(before[c], right[c], lanes - 1) + window(left[c], next[c], 1);
       if ((p + 1) * lanes <= n_nodes)
-        store(to, total);
+        store(to, total[c]);
       else // what follows the row's end stays as it is
-        store(to, first_of(n_nodes - p * lanes, total, load(to)));
+        store(to, first_of(n_nodes - p * lanes, total[c], load(to)));
     }
-    before = right;
   }
   if (t.is_last) return;
   for (int c = 0; c < 3; ++c) result[t.n * lanes + c * distance] = before[c][lanes - 1];

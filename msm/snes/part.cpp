@@ -31,7 +31,7 @@ Part::Part(const Problem& problem, MPI_Comm communicator) : problem_(problem), c
   moved_ = make_vector();
   force_ = make_vector();
   applied_ = make_vector();
-  put(applied_.get(), problem.force);
+  put(applied_.get(), own(problem.force));
   const WriteEntries applied(applied_.get());
   for (const PetscInt d : constrained_) applied[d - 3 * first_] = 0;
 }
@@ -92,18 +92,16 @@ int Part::local(int point) const {
   return static_cast<int>(n_own_ + (at - ghosts_.begin()));
 }
 
-void Part::put(Vec vector, const Points& values) const {
-  const WriteEntries entries(vector);
-  for (PetscInt p = 0; p < n_own_; ++p)
-    for (int c = 0; c < 3; ++c) entries[3 * p + c] = values[index(first_ + p)][c];
-}
-
 void Part::put(Vec vector, const Vector& own) const {
   std::copy(own.begin(), own.end(), WriteEntries(vector).data());
 }
 
 Vector Part::own(Vec vector) const {
   return Eigen::Map<const Vector>(ReadEntries(vector).data(), 3 * n_own_);
+}
+
+Vector Part::own(const Points& values) const {
+  return Eigen::Map<const Vector>(values.front().data() + 3 * first_, 3 * n_own_);
 }
 
 Points Part::gather(Vec vector) const {
@@ -114,10 +112,8 @@ Points Part::gather(Vec vector) const {
   check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
   check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
   check(VecScatterDestroy(&scatter));
-  const ReadEntries entries(all);
   Points values(problem_.lattice.rest.size());
-  for (std::size_t p = 0; p < values.size(); ++p)
-    values[p] = {entries[3 * p], entries[3 * p + 1], entries[3 * p + 2]};
+  std::copy_n(ReadEntries(all).data(), 3 * values.size(), values.front().data());
   return values;
 }
 

@@ -14,8 +14,8 @@ class Part {
   mechanics::petsc::Vector make_vector() const;
   mechanics::petsc::Matrix make_matrix() const;
 
-  /// Owned entries of a vector from values of all points.
-  void put(Vec vector, const Points& values) const;
+  /// This rank's entries of values of all points.
+  Vector own(const Points& values) const;
   /// Values of all points, on every rank.
   Points gather(Vec vector) const;
   /// Between PETSc's vectors and the driver's: owned entries.

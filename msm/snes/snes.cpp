@@ -39,12 +39,10 @@ class SnesProblem : public petsc::DistributedProblem {
   }
 
   Vector state(const Points& displacement) const {
-    const petsc::Vector all = part_.make_vector();
-    if (!displacement.empty()) part_.put(all.get(), displacement);
-    return part_.own(all.get());
+    return displacement.empty() ? part_.own(petsc::like(at_).get()) : part_.own(displacement);
   }
   Points displacement(const Vector& state) const {
-    const petsc::Vector all = part_.make_vector();
+    const petsc::Vector all = petsc::like(at_);
     part_.put(all.get(), state);
     return part_.gather(all.get());
   }
