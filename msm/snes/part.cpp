@@ -175,8 +175,7 @@ void Part::tangent(Vec displacement, Mat matrix) const {
 }
 
 double Part::reference_force() const {
-  PetscReal norm = 0;
-  check(VecNorm(applied_.get(), NORM_2, &norm));
+  const auto norm = petsc::get<PetscReal>(VecNorm, applied_.get(), NORM_2);
   return norm > 0 ? norm : 1;
 }
 

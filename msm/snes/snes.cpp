@@ -52,16 +52,11 @@ class SnesProblem : public petsc::DistributedProblem {
     part_.put(at_.get(), at);
     part_.move_supports(at_.get(), load_factor);
     errors_.call([&] { return SNESSolve(snes_.get(), nullptr, at_.get()); });
-    SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-    PetscInt newton = 0, linear = 0;
-    PetscReal norm = 0;
-    check(SNESGetConvergedReason(snes_.get(), &reason));
-    check(SNESGetIterationNumber(snes_.get(), &newton));
-    check(SNESGetLinearSolveIterations(snes_.get(), &linear));
-    check(SNESGetFunctionNorm(snes_.get(), &norm));
-    work_.linear_iterations += linear;
+    work_.linear_iterations += petsc::get<PetscInt>(SNESGetLinearSolveIterations, snes_.get());
     at = part_.own(at_.get());
-    return Solved{reason > 0, static_cast<int>(newton), norm / part_.reference_force()};
+    return Solved{petsc::get<SNESConvergedReason>(SNESGetConvergedReason, snes_.get()) > 0,
+                  petsc::get<PetscInt>(SNESGetIterationNumber, snes_.get()),
+                  petsc::get<PetscReal>(SNESGetFunctionNorm, snes_.get()) / part_.reference_force()};
   }
 
   Vector residual(const Vector& at, double load_factor, mechanics::Expect) override {
@@ -76,11 +71,9 @@ class SnesProblem : public petsc::DistributedProblem {
   /// By the factorisation's pivots, or by conjugate gradients for a random right side, which has a part in
   /// every mode, meeting no negative curvature.
   std::optional<bool> is_stable(const Vector& at) override {
-    KSP linear = nullptr;
-    PC preconditioner = nullptr;
+    const KSP linear = petsc::get<KSP>(SNESGetKSP, snes_.get());
+    const PC preconditioner = petsc::get<PC>(KSPGetPC, linear);
     PetscBool is_direct = PETSC_FALSE;
-    check(SNESGetKSP(snes_.get(), &linear));
-    check(KSPGetPC(linear, &preconditioner));
     check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCCHOLESKY, &is_direct));
     part_.put(at_.get(), at);
     part_.tangent(at_.get(), matrix_.get());
@@ -88,14 +81,10 @@ class SnesProblem : public petsc::DistributedProblem {
     check(KSPSetOperators(linear, matrix_.get(), matrix_.get()));
     if (!is_direct) check(KSPSetTolerances(linear, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
     check(KSPSolve(linear, right.get(), solution.get()));
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check(KSPGetConvergedReason(linear, &reason));
+    const auto reason = petsc::get<KSPConvergedReason>(KSPGetConvergedReason, linear);
     if (!is_direct || reason <= 0) return reason > 0;
-    Mat factor = nullptr;
-    PetscInt negative = 0;
-    check(PCFactorGetMatrix(preconditioner, &factor));
-    check(MatMumpsGetInfog(factor, 12, &negative));
-    return negative == 0;
+    const Mat factor = petsc::get<Mat>(PCFactorGetMatrix, preconditioner);
+    return petsc::get<PetscInt>(MatMumpsGetInfog, factor, 12) == 0; // negative pivots
   }
   std::optional<Vector> direction(const Vector&, const Vector&, double, double,
                                   mechanics::Convexity) override {
@@ -115,11 +104,7 @@ class SnesProblem : public petsc::DistributedProblem {
   Work work_;
 
   void make_solver() {
-    SNES snes = nullptr;
-    SNESLineSearch line_search = nullptr;
-    KSP linear = nullptr;
-    PC preconditioner = nullptr;
-    check(SNESCreate(communicator_, &snes));
+    const SNES snes = petsc::get<SNES>(SNESCreate, communicator_);
     snes_.reset(snes);
     check(SNESSetOptionsPrefix(snes, "msm_"));
     const auto evaluate_residual = [](SNES, Vec x, Vec out, void* problem) {
@@ -137,14 +122,13 @@ class SnesProblem : public petsc::DistributedProblem {
     check(SNESSetFunction(snes, residual_.get(), evaluate_residual, this));
     check(SNESSetJacobian(snes, matrix_.get(), matrix_.get(), evaluate_tangent, this));
     check(SNESSetType(snes, SNESNEWTONLS));
-    check(SNESGetLineSearch(snes, &line_search));
     // On the residual: next to the solution the energy's change drowns in rounding, and PETSc's search with
     // it.
-    check(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
+    check(SNESLineSearchSetType(petsc::get<SNESLineSearch>(SNESGetLineSearch, snes), SNESLINESEARCHBT));
     check(SNESSetTolerances(snes, settings_.tolerance * part_.reference_force(), 0, 0,
                             settings_.max_newton_per_step, PETSC_DEFAULT));
-    check(SNESGetKSP(snes, &linear));
-    check(KSPGetPC(linear, &preconditioner));
+    const KSP linear = petsc::get<KSP>(SNESGetKSP, snes);
+    const PC preconditioner = petsc::get<PC>(KSPGetPC, linear);
     PetscInt n_unknowns = 0;
     check(MatGetSize(matrix_.get(), &n_unknowns, nullptr));
     if (n_unknowns <= direct_up_to) {
