@@ -71,15 +71,11 @@ class PathFollower {
     }
   }
 
-  Vector extrapolated(double target) const {
-    if (!(previous_step_ > 0)) return now_;
-    return now_ + ((target - reached_) / previous_step_) * (now_ - previous_);
-  }
-
-  /// What a load step starts from. Supports that move take the body along as far as the tangent knows: moved
-  /// alone, they would turn the cells next to them inside out.
+  /// What a load step starts from: the last increment extrapolated. Supports that move take the body along as
+  /// far as the tangent knows: moved alone, they would turn the cells next to them inside out.
   Vector predicted(double target) {
-    Vector trial = extrapolated(target);
+    Vector trial = now_;
+    if (previous_step_ > 0) trial += ((target - reached_) / previous_step_) * (now_ - previous_);
     if (!problem_.moves_supports()) return trial;
     const double at_load = load(target);
     Vector there = trial;
