@@ -29,8 +29,8 @@ const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted
   const auto& d = discretisation_;
   const auto n = index(d.nodes.per_cell);
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      cell_displacement_[3 * a + i] = state.data()[3 * index(d.nodes.of_cell[index(cell) * n + a]) + i];
+    std::copy_n(state.data() + 3 * d.nodes.of_cell[index(cell) * n + a], 3,
+                cell_displacement_.data() + 3 * a);
   const auto& material = d.material_of_cell;
   return kernels_[material.empty() ? 0 : index(material[index(cell)])]->evaluate(
       d.geometry.of(cell), cell_displacement_.data(),
@@ -48,7 +48,7 @@ void Assembly::add_tangent(int cell, const CellResult& result, const std::vector
   for (std::size_t l = 0; l < n_dofs; ++l) {
     const double change = gap[index(rows_[l])];
     for (std::size_t k = 0; k < n_dofs && change != 0; ++k)
-      condensed[index(rows_[k])] += result.tangent[k * n_dofs + l] * change;
+      condensed[index(rows_[k])] += result.tangent(k, l) * change;
   }
   for (PetscInt& row : rows_)
     if (discretisation_.constraints.is_constrained[index(row)]) row = -1; // PETSc ignores it
@@ -58,8 +58,8 @@ void Assembly::add_tangent(int cell, const CellResult& result, const std::vector
   const auto first = cell * discretisation_.element.n_pressure_modes;
   std::copy(result.pressure_residual.begin(), result.pressure_residual.end(),
             pressure_residual_.begin() + first);
-  std::copy(result.pressure_slope.begin(), result.pressure_slope.end(),
-            pressure_slope_.begin() + first * size);
+  std::copy_n(result.pressure_slope.data(), result.pressure_slope.size(),
+              pressure_slope_.begin() + first * size);
 }
 
 std::optional<double> Assembly::assemble(const State& state, const std::vector<double>& gap, Wanted wanted,

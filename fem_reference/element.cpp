@@ -34,18 +34,17 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
 
 CellKernel::CellKernel(const ElementType& element) : element_(element) {
   const int n_nodes = (element.degree + 1) * (element.degree + 1) * (element.degree + 1);
-  const auto n_points = static_cast<std::size_t>(n_nodes), n_dofs = 3 * n_points;
-  const auto n_modes = static_cast<std::size_t>(element.n_pressure_modes);
+  const int n_dofs = 3 * n_nodes, n_modes = element.n_pressure_modes;
+  const auto n_points = static_cast<std::size_t>(n_nodes);
   volume_ratio_.resize(n_points);
   cofactor_.resize(n_points);
   target_.resize(n_points);
   result_.force.resize(n_dofs);
-  result_.plain_force.resize(n_dofs);
-  result_.tangent.resize(n_dofs * n_dofs);
+  result_.tangent.resize(n_dofs, n_dofs);
   result_.pressure_residual.resize(n_modes);
-  result_.pressure_slope.resize(n_modes * n_dofs);
-  volume_gradient_.resize(n_modes * n_dofs);
-  right_factor_.resize(9 * n_points * n_dofs);
+  result_.pressure_slope.resize(n_modes, n_dofs);
+  volume_gradient_.resize(n_modes, n_dofs);
+  right_factor_.resize(27 * n_points * n_points);
 }
 
 Matrix3 CellKernel::deformation_gradient(const CellGeometry& g, int q, const double* displacement) {
@@ -63,8 +62,7 @@ void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const double weighted = g.weights[q] * stress_.stress(3 * i + j);
-      for (int a = 0; a < n; ++a)
-        result_.force[static_cast<std::size_t>(i * n + a)] += weighted * gradient[j * n + a];
+      for (int a = 0; a < n; ++a) result_.force[i * n + a] += weighted * gradient[j * n + a];
     }
   if (wanted == Wanted::stress) return;
   for (int row = 0; row < 9; ++row) {
@@ -92,21 +90,19 @@ void CellKernel::add_stiffness(const CellGeometry& g) {
 /// B_m = sum w phi_m cof F . grad N: the gradient of the moments of the cell's volume.
 void CellKernel::volume_gradients(const CellGeometry& g) {
   const int n = g.n_nodes, n_modes = element_.n_pressure_modes;
-  std::fill(volume_gradient_.begin(), volume_gradient_.end(), 0.);
+  volume_gradient_.setZero();
   for (int q = 0; q < g.n_points; ++q)
     for (int m = 0; m < n_modes; ++m) {
       const Matrix3 area = g.weights[q] * g.modes[q * n_modes + m] * cofactor_[static_cast<std::size_t>(q)];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           for (int a = 0; a < n; ++a)
-            volume_gradient_[static_cast<std::size_t>((m * 3 + i) * n + a)] +=
-                area(i, j) * g.gradients[(3 * q + j) * n + a];
+            volume_gradient_(m, i * n + a) += area(i, j) * g.gradients[(3 * q + j) * n + a];
     }
 }
 
 void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
   const int n_modes = element_.n_pressure_modes;
-  const auto n_dofs = static_cast<Eigen::Index>(result_.force.size());
   Eigen::VectorXd residual = Eigen::VectorXd::Zero(n_modes);
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n_modes, n_modes);
   double rest_volume = 0;
@@ -120,20 +116,16 @@ void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
   result_.volume_mismatch = residual.cwiseAbs().maxCoeff() / rest_volume;
   if (wanted == Wanted::stress) return;
   volume_gradients(g);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const RowMajor> gradient(volume_gradient_.data(), n_modes, n_dofs);
-  Eigen::Map<RowMajor> slope(result_.pressure_slope.data(), n_modes, n_dofs);
-  Eigen::Map<Eigen::VectorXd> change(result_.pressure_residual.data(), n_modes);
   const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
-  slope = factor.solve(gradient);
-  change = factor.solve(residual);
-  Eigen::Map<Eigen::VectorXd>(result_.force.data(), n_dofs).noalias() += gradient.transpose() * change;
-  Eigen::Map<RowMajor>(result_.tangent.data(), n_dofs, n_dofs).noalias() += gradient.transpose() * slope;
+  result_.pressure_slope = factor.solve(volume_gradient_);
+  result_.pressure_residual = factor.solve(residual);
+  result_.force.noalias() += volume_gradient_.transpose() * result_.pressure_residual;
+  result_.tangent.noalias() += volume_gradient_.transpose() * result_.pressure_slope;
 }
 
 const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* displacement,
                                        const double* pressure, Wanted wanted) {
-  std::fill(result_.force.begin(), result_.force.end(), 0.);
+  result_.force.setZero();
   result_.valid = add_points(g, displacement, pressure, wanted);
   if (!result_.valid) return result_;
   result_.volume = std::inner_product(g.weights, g.weights + g.n_points, volume_ratio_.begin(), 0.);

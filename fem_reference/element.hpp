@@ -38,17 +38,18 @@ struct CellGeometry {
   const double* modes;     ///< pressure shape functions: [q*n_pressure_modes + m]
 };
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// What a cell contributes, and what the condensed pressure needs afterwards.
 struct CellResult {
   bool valid;             ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
   double volume;          ///< deformed, mm³
   double volume_mismatch; ///< largest |integral of mode (J - J(p))| / rest volume
-  std::vector<double>
-      force; ///< internal force, N; with the condensed pressure imbalance when a tangent is wanted
-  std::vector<double> tangent;           ///< row major, N/mm
-  std::vector<double> pressure_residual; ///< C^-1 R_p, MPa: pressure change at fixed displacement
-  std::vector<double> pressure_slope;    ///< C^-1 B, MPa/mm, [m*n_dofs + dof]
-  std::vector<double> plain_force;       ///< internal force without the condensed imbalance
+  Eigen::VectorXd force;  ///< internal, N; has the condensed pressure imbalance when a tangent is wanted
+  RowMajorMatrix tangent; ///< N/mm
+  Eigen::VectorXd pressure_residual; ///< C^-1 R_p, MPa: pressure change at fixed displacement
+  RowMajorMatrix pressure_slope;     ///< C^-1 B, MPa/mm, (mode, dof)
+  Eigen::VectorXd plain_force;       ///< internal force without the condensed imbalance
 };
 
 /// Loop over the points of a cell, its buffers kept between cells; LawKernel adds the law.
@@ -86,8 +87,8 @@ class CellKernel {
   void condense(const CellGeometry& geometry, Wanted wanted);
 
   CellResult result_;
-  std::vector<double> volume_gradient_; ///< [m*n_dofs + dof]: B
-  std::vector<double> right_factor_;    ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
+  RowMajorMatrix volume_gradient_;   ///< (mode, dof): B
+  std::vector<double> right_factor_; ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };
 
 } // namespace springproof::fem_reference

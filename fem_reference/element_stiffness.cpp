@@ -48,8 +48,7 @@ ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertice
   ElementStiffness stiffness;
   for (int row = 0; row < 24; ++row) // of degree of freedom i*8 + a in the kernel
     for (int column = 0; column < 24; ++column)
-      stiffness(3 * (row % 8) + row / 8, 3 * (column % 8) + column / 8) =
-          result.tangent[static_cast<std::size_t>(24 * row + column)];
+      stiffness(3 * (row % 8) + row / 8, 3 * (column % 8) + column / 8) = result.tangent(row, column);
   return stiffness;
 }
 

@@ -3,7 +3,7 @@
 #include "cases/case/index.hpp"
 #include "fem_reference/space.hpp"
 
-#include <cmath>
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/dofs/dof_tools.h>
 
 namespace springproof::fem_reference {
@@ -22,10 +22,9 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
   per_cell = static_cast<int>(space.node_element.n_dofs_per_cell());
   for (const auto& at : space.node_element.get_unit_support_points()) {
     between.emplace_back();
-    for (int v = 0; v < 8; ++v) // at a coordinate of 1/2 a vertex is as near as the opposite one
-      if (std::abs(at[0] - (v & 1)) < 0.75 && std::abs(at[1] - (v >> 1 & 1)) < 0.75 &&
-          std::abs(at[2] - (v >> 2)) < 0.75)
-        between.back().push_back(v);
+    for (unsigned v = 0; v < 8; ++v) // the weights are 1, 1/2, 1/4 or 1/8, or zero
+      if (dealii::GeometryInfo<3>::d_linear_shape_function(at, v) > 0.1)
+        between.back().push_back(static_cast<int>(v));
   }
 
   point.resize(global.size());

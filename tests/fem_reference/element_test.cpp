@@ -61,8 +61,7 @@ struct OneCell {
                                              Wanted::stress_and_tangent);
       REQUIRE(r.valid);
       if (r.volume_mismatch <= 1e-15) break;
-      for (std::size_t m = 0; m < r.pressure_residual.size(); ++m)
-        pressure(static_cast<Eigen::Index>(m)) += r.pressure_residual[m];
+      pressure.head(r.pressure_residual.size()) += r.pressure_residual;
     }
     return kernel->evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),
                             Wanted::stress_and_tangent);
@@ -72,8 +71,7 @@ struct OneCell {
     const CellResult& r = balanced(u);
     const Eigen::Index n = discretisation.nodes.per_cell;
     Eigen::VectorXd f(n_dofs());
-    for (Eigen::Index k = 0; k < n_dofs(); ++k)
-      f(3 * (k % n) + k / n) = r.plain_force[static_cast<std::size_t>(k)];
+    for (Eigen::Index k = 0; k < n_dofs(); ++k) f(3 * (k % n) + k / n) = r.plain_force[k];
     return f;
   }
   Eigen::MatrixXd tangent(const Eigen::VectorXd& u) {
@@ -82,8 +80,7 @@ struct OneCell {
     Eigen::MatrixXd k(n_dofs(), n_dofs());
     for (Eigen::Index row = 0; row < n_dofs(); ++row)
       for (Eigen::Index column = 0; column < n_dofs(); ++column)
-        k(3 * (row % n) + row / n, 3 * (column % n) + column / n) =
-            r.tangent[static_cast<std::size_t>(row * n_dofs() + column)];
+        k(3 * (row % n) + row / n, 3 * (column % n) + column / n) = r.tangent(row, column);
     return k;
   }
 };
