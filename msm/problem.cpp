@@ -34,15 +34,19 @@ int n_inverted(const cases::HexMesh& mesh, const Points& displacement) {
   return n;
 }
 
+void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement)));
+  solution.inverted_cells = n_inverted(mesh, solution.displacement);
+}
+
 cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
                             Points displacement) {
   cases::Solution solution = mechanics::to_solution(equilibrium);
   solution.unknowns = static_cast<std::size_t>(
       std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false));
-  for (std::size_t c = 0; c < problem.mesh.cells.size(); ++c)
-    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(problem.mesh, c, displacement)));
-  solution.inverted_cells = n_inverted(problem.mesh, displacement);
   solution.displacement = std::move(displacement);
+  measure_cells(problem.mesh, solution);
   return solution;
 }
 

@@ -25,6 +25,10 @@ Problem make_problem(const cases::Scene& scene);
 /// The cells of a mesh with a corner Jacobian <= 0.  @param displacement  mm, one per node
 int n_inverted(const cases::HexMesh& mesh, const Points& displacement);
 
+/// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
+/// inverted.
+void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
+
 /// What an equilibrium and its displacement (mm, one per point) say of a problem.
 cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
                             Points displacement);
