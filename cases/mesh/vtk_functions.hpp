@@ -8,17 +8,14 @@ namespace springproof::cases {
 /// A surface of triangles, seen from outside anticlockwise, mm.
 using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
 
-/// A vector at every node.
-struct PointField {
+/// Values at every node or of every cell.
+template<class Value>
+struct NamedValues {
   std::string name;
-  std::vector<Eigen::Vector3d> values;
+  std::vector<Value> values;
 };
-
-/// A number for every cell.
-struct CellField {
-  std::string name;
-  std::vector<double> values;
-};
+using PointField = NamedValues<Eigen::Vector3d>;
+using CellField = NamedValues<double>;
 
 /// The points of an unstructured grid and their vectors in a file's order; a point that several pieces share
 /// occurs several times.

@@ -20,19 +20,20 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     std::cerr
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";
+  std::string message = "springproof: standard output cannot be written";
+  int status = wrong_input;
   try {
-    const int status = action();
+    const int done = action();
     std::cout.flush();
-    if (std::cout) return status;
-    session.give_up("springproof: standard output cannot be written", wrong_input);
-    return wrong_input;
+    if (std::cout) return done;
   } catch (const cases::InputError& error) {
-    session.give_up(error.what(), wrong_input);
-    return wrong_input;
+    message = error.what();
   } catch (const std::exception& error) {
-    session.give_up(std::string("springproof: internal error: ") + error.what(), internal_error);
-    return internal_error;
+    message = std::string("springproof: internal error: ") + error.what();
+    status = internal_error;
   }
+  session.give_up(message, status);
+  return status;
 }
 
 } // namespace

@@ -4,10 +4,6 @@
 #include "cases/scene/scene.hpp"
 #include "msm/design/design.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace springproof::compare {
 
 /// One model's answer to a case, and what it took. Wall-clock seconds.

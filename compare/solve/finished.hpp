@@ -2,10 +2,6 @@
 
 #include "compare/solve/answers.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace springproof::compare {
 
 /// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a case. One is

@@ -20,10 +20,6 @@ namespace springproof::compare {
 
 namespace {
 
-std::system_error system_error(int code, const std::string& what) {
-  return {code, std::generic_category(), what};
-}
-
 /// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
 /// take itself for this process, and may have done so before main(): the system keeps the first state.
 const std::vector<std::string>& initial_environment() {
@@ -69,7 +65,7 @@ class Worker {
     // A socket and not two pipes, so that writing to a worker that has died is an error and no signal.
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-      throw system_error(errno, "no socket for a worker");
+      throw std::system_error(errno, std::generic_category(), "no socket for a worker");
     socket_ = ends[0];
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -82,7 +78,8 @@ class Worker {
     close(ends[1]);
     if (error == 0) return;
     close(socket_);
-    throw system_error(error, "the worker '" + command.front() + "' cannot be started");
+    throw std::system_error(error, std::generic_category(),
+                            "the worker '" + command.front() + "' cannot be started");
   }
   ~Worker() {
     if (process_ > 0 && job_) kill(process_, SIGKILL);
@@ -157,7 +154,7 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
     std::vector<pollfd> sockets; // poll() passes over a negative one
     for (const auto& worker : workers) sockets.push_back({worker ? worker->socket() : -1, POLLIN, 0});
     if (poll(sockets.data(), sockets.size(), -1) < 0 && errno != EINTR)
-      throw system_error(errno, "waiting for the workers");
+      throw std::system_error(errno, std::generic_category(), "waiting for the workers");
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!workers[w] || sockets[w].revents == 0) continue;
       const std::size_t job = *workers[w]->job();

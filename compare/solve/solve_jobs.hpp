@@ -4,8 +4,6 @@
 #include "compare/solve/solve.hpp"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 /// Cases solved side by side on the machine's cores: what the commands that solve many cases share.
 namespace springproof::compare {
