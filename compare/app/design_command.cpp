@@ -5,11 +5,8 @@
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/gnuplot.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,12 +23,6 @@ struct CommandOptions {
   std::string out;
   bool has_many() const { return compare || pareto; }
 };
-
-std::vector<DesignAttempt> attempts_of(const CommandOptions& options, const msm::DesignRequest& request) {
-  if (options.pareto) return attempt_springs(request);
-  if (options.compare) return attempt_all(request);
-  return {attempt_one(request)};
-}
 
 Json to_json(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
   Json document{{"schema", 1}};
@@ -71,7 +62,9 @@ void write_files(const CommandOptions& options, const msm::DesignRequest& reques
 int run(const CommandOptions& options) {
   const msm::DesignRequest request = request_from(options.design);
   claim_folder(options.out);
-  std::vector<DesignAttempt> attempts = attempts_of(options, request);
+  std::vector<DesignAttempt> attempts = options.pareto    ? attempt_springs(request)
+                                        : options.compare ? attempt_all(request)
+                                                          : std::vector{attempt_one(request)};
   if (options.measure) measure_on_cube(attempts, request);
   if (mpi_rank() != 0) return 0;
   if (options.json)

@@ -12,13 +12,6 @@ namespace springproof::compare {
 
 namespace {
 
-/// Rivlin's constants as Ogden terms: W = C10 (I1 - 3) + C01 (I2 - 3) is mu = 2 C10 at alpha = 2 and mu = 2
-/// C01 at alpha = -2.
-cases::Ogden rivlin(double c10, double c01) {
-  if (c01 == 0) return {{2 * c10}, {2}, std::nullopt};
-  return {{2 * c10, 2 * c01}, {2, -2}, std::nullopt};
-}
-
 cases::Ogden checked(const cases::Ogden& ogden) {
   const double shear_modulus = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0);
   if (ogden.mu.size() != ogden.alpha.size())
@@ -43,8 +36,12 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
         "--neo-hookean, --mooney-rivlin, --yeoh, --curve, or --case");
   if (!o.ogden_mu.empty()) return checked({o.ogden_mu, o.ogden_alpha, std::nullopt});
   if (o.neo_hookean != 0) return checked({{o.neo_hookean}, {2}, std::nullopt});
-  if (!o.mooney_rivlin.empty()) return checked(rivlin(o.mooney_rivlin.at(0), o.mooney_rivlin.at(1)));
-  if (!o.yeoh.empty()) return checked(rivlin(o.yeoh.at(0), 0)); // its small-strain material is neo-Hookean
+  if (const auto& c = o.mooney_rivlin; !c.empty()) { // W = C10 (I1 - 3) + C01 (I2 - 3) in Ogden's terms
+    if (c.at(1) == 0) return checked({{2 * c.at(0)}, {2}, std::nullopt});
+    return checked({{2 * c.at(0), 2 * c.at(1)}, {2, -2}, std::nullopt});
+  }
+  if (!o.yeoh.empty()) // its small-strain material is neo-Hookean
+    return checked({{2 * o.yeoh.at(0)}, {2}, std::nullopt});
   if (curve) { // the secant of the first strain that is not 0
     const std::size_t first = curve->axial_strain[0] == 0 ? 1 : 0;
     const double strain = curve->axial_strain[first];

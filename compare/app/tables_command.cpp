@@ -3,12 +3,9 @@
 #include "compare/provenance/stopwatch.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
-#include "compare/thesis/regenerate.hpp"
 #include "compare/thesis/write_files.hpp"
-#include "compare/thesis/write_json.hpp"
 #include "compare/thesis/write_text.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -26,27 +23,20 @@ struct TablesOptions {
   bool json = false, trace = false;
 };
 
-void show_progress(int done, int all) {
-  constexpr int width = 40;
-  std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}",
-                           std::string(static_cast<std::size_t>(width * done / all), '#'), width, done, all,
-                           done == all ? "\n" : "");
-}
-
 int tables(const TablesOptions& options) {
   const int rank = mpi_rank();
   const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
   claim_folder(options.out);
-  SolveOptions solving;
-  solving.n_workers = options.workers;
-  ThesisResults results = regenerate(options.tables, solving, [&](int done, int all) {
-    if (is_on_terminal) show_progress(done, all);
+  ThesisResults results = regenerate(options.tables, {options.workers}, [&](int done, int all) {
+    constexpr int width = 40;
+    if (is_on_terminal)
+      std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}", std::string(width * done / all, '#'), width,
+                               done, all, done == all ? "\n" : "");
   });
   if (rank != 0) return 0; // the springs' side is on rank 0 alone
-  const auto lacks_value = [](const ComputedFigure& c) { return !c.value; };
-  const bool failed = std::any_of(results.entries.begin(), results.entries.end(), [&](const TableEntry& e) {
-    return std::any_of(e.computed.begin(), e.computed.end(), lacks_value);
-  });
+  bool failed = false;
+  for (const TableEntry& entry : results.entries)
+    for (const ComputedFigure& computed : entry.computed) failed = failed || !computed.value;
   Stopwatch stopwatch;
   if (options.json)
     std::cout << results_to_json(results).dump(2) << '\n';

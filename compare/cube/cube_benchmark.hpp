@@ -1,12 +1,11 @@
 #pragma once
 
 #include "compare/gates/comparison.hpp"
+#include "msm/design/homogeneous.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
 
 /// The thesis's cube, on which designs are measured: 10x10x10 cells under tension, shear and torsion, with a
 /// small and a large set of loads. `design --measure`, the advice of `tables` and the README's picture all
@@ -15,8 +14,7 @@
 /// The one reference of every material is what the cube's case files (cases/thesis) declare in [fem], for
 /// both load sets:
 ///   linear elasticity: log_strain with q1_bbar. The springs' law is geometrically nonlinear, so its
-///   reference
-///     is too; the thesis's table 4.5 is reproduced with it at every Poisson's ratio.
+///     reference is too; the thesis's table 4.5 is reproduced with it at every Poisson's ratio.
 ///   Ogden: hyperelastic with q1_p0, its mean-dilatation element (table 5.1).
 /// Loads grow with E L0², so that the strains, and with them all errors in percent, depend neither on Young's
 /// modulus nor on the cells' edge.
@@ -83,7 +81,13 @@ struct LoadSetErrors {
 
 struct CubeErrors {
   LoadSetErrors small, large;
-  std::optional<double> worst() const, worst_volume() const; ///< over both; absent when a test failed
+  /// Over both; absent when a test failed.
+  std::optional<double> worst() const {
+    return small.worst && large.worst ? std::max(small.worst, large.worst) : std::nullopt;
+  }
+  std::optional<double> worst_volume() const {
+    return small.worst && large.worst ? std::max(small.worst_volume, large.worst_volume) : std::nullopt;
+  }
   bool is_stable() const { return small.is_stable && large.is_stable; }
 };
 
@@ -94,5 +98,35 @@ struct CubeSolve {
 
 /// @param solves  in the order of cube_tests
 CubeErrors cube_errors(const std::vector<CubeSolve>& solves);
+
+/// What a method answers, how far its lattice is stable, and how well the cube does with it.
+struct DesignAttempt {
+  std::string name;
+  std::optional<msm::DesignResult> design;
+  std::string refusal{};                          ///< why there is no design
+  std::optional<msm::StabilityRange> stability{}; ///< of a cubical cell's lattice
+  std::optional<CubeErrors> cube{};               ///< when measured
+};
+
+/// The request's own method.  @throws InputError, SolveError
+DesignAttempt attempt_one(const msm::DesignRequest& request);
+
+/// Every method that designs from a material; one that refuses the material is an attempt without a design.
+std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request);
+
+/// Springs alone between accuracy and stability: the moduli method over its split, and the thesis's and the
+/// multi-load fits without a volume term.
+std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request);
+
+/// Solves the cube with every design, of cells like the request's. Collective over MPI_COMM_WORLD.
+/// @throws InputError unless the cell is a cube
+void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request);
+
+/// Smaller of the logarithmic strains to which a lattice can be stretched and compressed.
+double stable_strain(const msm::StabilityRange& range);
+
+/// Whether no other attempt has both a smaller worst error and a larger stable strain. Attempts that were not
+/// measured never are.
+std::vector<bool> on_pareto_front(const std::vector<DesignAttempt>& attempts);
 
 } // namespace springproof::compare

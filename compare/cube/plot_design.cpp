@@ -1,6 +1,5 @@
 #include "compare/cube/plot_design.hpp"
 
-#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
@@ -12,11 +11,6 @@
 namespace springproof::compare {
 
 namespace {
-
-const std::vector<double>& thesis_poissons_ratios() {
-  static const std::vector<double> ratios{0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.49};
-  return ratios;
-}
 
 std::vector<double> equally_spaced(double lowest, double highest, int n) {
   std::vector<double> values;
@@ -33,10 +27,9 @@ double contribution(const msm::CellStiffness& part, double lateral_strain, doubl
 } // namespace
 
 void plot_linear_method(const std::string& folder, cases::Element element) {
-  const std::vector<double>& ratios = thesis_poissons_ratios();
+  const std::vector<double> ratios{0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.49}; // the thesis's
   std::vector<double> residuals;
-  write_file(folder + "/linear_method_curves.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/linear_method_curves.csv", [&](CsvWriter& csv) {
     csv.row("# poissons_ratio", "engineering_strain", "stress_over_E", "lateral_strain");
     for (const double nu : ratios) {
       const msm::DesignResult design =
@@ -50,8 +43,7 @@ void plot_linear_method(const std::string& folder, cases::Element element) {
       csv.end_block();
     }
   });
-  write_file(folder + "/linear_method_residual.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/linear_method_residual.csv", [&](CsvWriter& csv) {
     csv.row("# poissons_ratio", "residual");
     for (std::size_t i = 0; i < ratios.size(); ++i) csv.row(ratios[i], residuals[i]);
   });
@@ -64,8 +56,7 @@ void plot_linear_method(const std::string& folder, cases::Element element) {
 void plot_uniaxial(const std::string& folder, const std::string& name, const msm::CellStiffness& design,
                    double edge, const msm::UniaxialCurve& reference) {
   const msm::UniaxialCurve curve = msm::uniaxial_response(design, edge, reference.axial_strain);
-  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/" + name + ".csv", [&](CsvWriter& csv) {
     csv.row("# log_strain", "stress_reference", "stress_cell", "lateral_reference",
             "lateral_cell (stresses in MPa)");
     for (std::size_t i = 0; i < curve.axial_strain.size(); ++i)
@@ -78,8 +69,7 @@ void plot_uniaxial(const std::string& folder, const std::string& name, const msm
 void plot_contributions(const std::string& folder, const std::string& name,
                         const std::vector<PulledCell>& cells) {
   std::vector<std::string> titles;
-  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/" + name + ".csv", [&](CsvWriter& csv) {
     csv.row("# log_strain", "stress", "stress_edges", "stress_face_diagonals",
             "stress_internal_diagonals (MPa)");
     for (const PulledCell& cell : cells) {
@@ -102,8 +92,7 @@ void plot_contributions(const std::string& folder, const std::string& name,
 void plot_incompressible_family(const std::string& folder) {
   const std::vector<double> strains = equally_spaced(0, 0.4, 20);
   double n_sets = 0;
-  write_file(folder + "/figure_5_5.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/figure_5_5.csv", [&](CsvWriter& csv) {
     csv.row("# k_e", "k_f", "k_d (N/mm)", "log_strain", "stress", "lateral_strain");
     for (int e = 0; e <= 5; ++e)
       for (int f = 0; f <= 5; ++f)
@@ -121,7 +110,7 @@ void plot_incompressible_family(const std::string& folder) {
           for (std::size_t i = 0; i < strains.size(); ++i)
             csv.row(k.edge, k.face_diagonal, k.internal_diagonal, strains[i], curve.stress[i],
                     curve.lateral_strain[i]);
-          out << '\n'; // ends the curve
+          csv.row(); // ends the curve
         }
   });
   draw(folder, "figure_5_5", "incompressible_family",
@@ -136,8 +125,7 @@ void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, d
     return found.directions.leftCols<2>().transpose() * (k - centre);
   };
   double reach = 0.6 * centre.norm();
-  write_file(folder + "/valley_sets.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/valley_sets.csv", [&](CsvWriter& csv) {
     csv.row("# a", "b", "phi (the minimum first, then the others projected)");
     csv.row(0, 0, msm::uniaxial_objective(minimum, edge, reference));
     for (const msm::CellStiffness& other : others) {
@@ -146,10 +134,9 @@ void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, d
       csv.row(1e3 * at.x(), 1e3 * at.y(), msm::uniaxial_objective(other, edge, reference));
     }
   });
-  write_file(folder + "/valley.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
-    out << "# a,b (N/m along the two best-determined directions),phi; empty where a stiffness would be "
-           "negative\n";
+  write_csv_file(folder + "/valley.csv", [&](CsvWriter& csv) {
+    csv.row("# a", "b (N/m along the two best-determined directions)",
+            "phi; empty where a stiffness would be negative");
     for (const double a : equally_spaced(-reach, reach, 81)) {
       for (const double b : equally_spaced(-reach, reach, 81)) {
         const Eigen::Vector3d k = centre + found.directions.leftCols<2>() * Eigen::Vector2d(a, b);
@@ -159,7 +146,7 @@ void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, d
         csv.row(1e3 * a, 1e3 * b,
                 allowed ? std::optional(msm::uniaxial_objective(cell, edge, reference)) : std::nullopt);
       }
-      out << '\n';
+      csv.row();
     }
   });
   const auto label = [&](int c) {

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "msm/design/design.hpp"
-#include "msm/design/homogeneous.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 

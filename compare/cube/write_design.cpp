@@ -1,12 +1,10 @@
 #include "compare/cube/write_design.hpp"
 
-#include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
 
 #include <array>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <utility>
 
@@ -149,13 +147,13 @@ Json attempt_to_json(const DesignAttempt& attempt) {
 
 void plot_pareto_front(const std::string& folder, const std::vector<DesignAttempt>& attempts) {
   const std::vector<bool> front = on_pareto_front(attempts);
-  write_file(folder + "/pareto.csv", [&](std::ostream& out) {
-    CsvWriter csv(out, 6);
+  const auto write = [&](CsvWriter& csv) {
     csv.row("# design", "worst_error_percent", "stable_strain", "on_front");
     for (std::size_t i = 0; i < attempts.size(); ++i)
       if (const DesignAttempt& a = attempts[i]; a.cube && a.cube->worst() && a.stability)
         csv.row(a.name, a.cube->worst(), stable_strain(*a.stability), front[i] ? 1 : 0);
-  });
+  };
+  write_csv_file(folder + "/pareto.csv", write, 6);
   draw(folder, "pareto", "pareto", {{"width", 900.}});
 }
 

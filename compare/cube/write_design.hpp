@@ -1,11 +1,9 @@
 #pragma once
 
-#include "compare/cube/design_study.hpp"
+#include "compare/cube/cube_benchmark.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
-#include <string>
-#include <vector>
 
 namespace springproof::compare {
 

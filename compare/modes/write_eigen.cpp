@@ -6,7 +6,6 @@
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
@@ -30,6 +29,90 @@ Json spaces_to_json(const std::vector<Eigenspace>& spaces) {
   for (const Eigenspace& space : spaces)
     list.push_back({{"eigenvalue", space.eigenvalue}, {"multiplicity", space.dimension}});
   return list;
+}
+
+/// A panel's blocks: a dot for every pair of eigenvectors whose spaces are not orthogonal, lines between the
+/// eigenspaces of both cells, blocks of equivalent ones. A dot's size is the spaces' coupling, not the
+/// vectors' projection, which depends on the basis that the solver happened to return.
+void write_panel(CsvWriter& csv, const EigenspaceAnalysis& analysis) {
+  const auto is_equivalent = [&](std::size_t i, std::size_t j) {
+    return std::any_of(analysis.equivalent.begin(), analysis.equivalent.end(),
+                       [&](const Equivalence& e) { return e.fem_space == i && e.msm_space == j; });
+  };
+  csv.row("# msm_vector", "fem_vector", "size", "equivalent");
+  for (std::size_t i = 0; i < analysis.fem_spaces.size(); ++i)
+    for (std::size_t j = 0; j < analysis.msm_spaces.size(); ++j) {
+      const Eigenspace &fem = analysis.fem_spaces[i], &msm = analysis.msm_spaces[j];
+      const double share = analysis.coupling(i, j);
+      if (share < 1e-12) continue; // orthogonal: the square of round-off is left
+      for (int a = 0; a < fem.dimension; ++a)
+        for (int b = 0; b < msm.dimension; ++b)
+          csv.row(msm.offset + b + 1, fem.offset + a + 1, 0.4 + std::sqrt(share),
+                  is_equivalent(i, j) ? 1 : 0);
+    }
+  csv.end_block();
+  csv.row("# line from", "", "to");
+  for (const Eigenspace& space : analysis.msm_spaces)
+    csv.row(space.offset + 0.5, 0.5, space.offset + 0.5, 24.5);
+  for (const Eigenspace& space : analysis.fem_spaces)
+    csv.row(0.5, space.offset + 0.5, 24.5, space.offset + 0.5);
+  csv.end_block();
+  csv.row("# equivalent from", "", "to");
+  for (const Equivalence& e : analysis.equivalent) {
+    const Eigenspace &fem = analysis.fem_spaces[e.fem_space], &msm = analysis.msm_spaces[e.msm_space];
+    csv.row(msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
+            fem.offset + fem.dimension + 0.5);
+  }
+  if (analysis.equivalent.empty()) csv.row("nan", "nan", "nan", "nan"); // an empty block would not be counted
+  csv.end_block();
+}
+
+std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Index n = 0; n < vector.size() / 3; ++n) points.emplace_back(vector.segment<3>(3 * n));
+  return points;
+}
+
+cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
+  cases::HexMesh mesh;
+  mesh.nodes.assign(vertices.begin(), vertices.end());
+  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  return mesh;
+}
+
+/// The 12 edges as separate lines: rest position and displaced one.
+void write_edges(CsvWriter& csv, const msm::CellVertices& rest, const Eigen::VectorXd& mode) {
+  const double size = 0.35 * (rest[7] - rest[0]).norm() / mode.cwiseAbs().maxCoeff() / 2;
+  for (const auto& edge : cases::cell_edges) {
+    for (const int v : edge) {
+      const Eigen::Vector3d x = rest[v], y = x + size * mode.segment<3>(3 * v);
+      csv.row(x.x(), x.y(), x.z(), y.x(), y.y(), y.z());
+    }
+    csv.end_block();
+  }
+}
+
+/// One picture for every deforming eigenspace, of its first canonical vector, with the eigenspace's number in
+/// brackets.
+void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
+                      const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
+  std::vector<cases::PointField> fields;
+  std::vector<std::string> titles;
+  for (std::size_t s = 0; s < spaces.size(); ++s) {
+    const Eigen::MatrixXd shapes = canonical_basis(basis(spectrum, spaces[s]));
+    for (Eigen::Index c = 0; c < shapes.cols(); ++c)
+      fields.push_back({fmt::format("space {} vector {}", s + 1, c + 1), as_points(shapes.col(c))});
+    if (s == 0) continue; // rigid motions
+    const std::string data = fmt::format("{}_{}.csv", name, s + 1);
+    write_csv_file(
+        folder + "/" + data, [&](CsvWriter& csv) { write_edges(csv, rest, shapes.col(0)); }, 6);
+    titles.push_back(
+        fmt::format("({}) {:.3g}, dimension {}", s + 1, spaces[s].eigenvalue, spaces[s].dimension));
+  }
+  const double height = 300 * static_cast<double>((titles.size() + 2) / 3);
+  draw(folder, name, "mode_sheet", {{"titles", titles}, {"width", 900.}, {"height", height}});
+  write_file(folder + "/" + name + ".vtu",
+             [&](std::ostream& out) { write_vtu(out, cell_mesh(rest), fields); });
 }
 
 } // namespace
@@ -84,102 +167,13 @@ Json free_modes_to_json(const FreeBodyModes& modes) {
   return list;
 }
 
-namespace {
-
-/// A panel's blocks: a dot for every pair of eigenvectors whose spaces are not orthogonal, lines between the
-/// eigenspaces of both cells, blocks of equivalent ones. A dot's size is the spaces' coupling, not the
-/// vectors' projection, which depends on the basis that the solver happened to return.
-void write_panel(std::ostream& out, const EigenspaceAnalysis& analysis) {
-  const auto is_equivalent = [&](std::size_t i, std::size_t j) {
-    return std::any_of(analysis.equivalent.begin(), analysis.equivalent.end(),
-                       [&](const Equivalence& e) { return e.fem_space == i && e.msm_space == j; });
-  };
-  CsvWriter csv(out);
-  csv.row("# msm_vector", "fem_vector", "size", "equivalent");
-  for (std::size_t i = 0; i < analysis.fem_spaces.size(); ++i)
-    for (std::size_t j = 0; j < analysis.msm_spaces.size(); ++j) {
-      const Eigenspace &fem = analysis.fem_spaces[i], &msm = analysis.msm_spaces[j];
-      const double share = analysis.coupling(i, j);
-      if (share < 1e-12) continue; // orthogonal: the square of round-off is left
-      for (int a = 0; a < fem.dimension; ++a)
-        for (int b = 0; b < msm.dimension; ++b)
-          csv.row(msm.offset + b + 1, fem.offset + a + 1, 0.4 + std::sqrt(share),
-                  is_equivalent(i, j) ? 1 : 0);
-    }
-  csv.end_block();
-  csv.row("# line from", "", "to");
-  for (const Eigenspace& space : analysis.msm_spaces)
-    csv.row(space.offset + 0.5, 0.5, space.offset + 0.5, 24.5);
-  for (const Eigenspace& space : analysis.fem_spaces)
-    csv.row(0.5, space.offset + 0.5, 24.5, space.offset + 0.5);
-  csv.end_block();
-  csv.row("# equivalent from", "", "to");
-  for (const Equivalence& e : analysis.equivalent) {
-    const Eigenspace &fem = analysis.fem_spaces[e.fem_space], &msm = analysis.msm_spaces[e.msm_space];
-    csv.row(msm.offset + 0.5, fem.offset + 0.5, msm.offset + msm.dimension + 0.5,
-            fem.offset + fem.dimension + 0.5);
-  }
-  if (analysis.equivalent.empty()) csv.row("nan", "nan", "nan", "nan"); // an empty block would not be counted
-  csv.end_block();
-}
-
-std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
-  std::vector<Eigen::Vector3d> points;
-  for (Eigen::Index n = 0; n < vector.size() / 3; ++n) points.emplace_back(vector.segment<3>(3 * n));
-  return points;
-}
-
-cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
-  cases::HexMesh mesh;
-  mesh.nodes.assign(vertices.begin(), vertices.end());
-  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
-  return mesh;
-}
-
-/// The 12 edges as separate lines: rest position and displaced one.
-void write_edges(std::ostream& out, const msm::CellVertices& rest, const Eigen::VectorXd& mode) {
-  const double size = 0.35 * (rest[7] - rest[0]).norm() / mode.cwiseAbs().maxCoeff() / 2;
-  CsvWriter csv(out, 6);
-  for (const auto& edge : cases::cell_edges) {
-    for (const int v : edge) {
-      const Eigen::Vector3d x = rest[v], y = x + size * mode.segment<3>(3 * v);
-      csv.row(x.x(), x.y(), x.z(), y.x(), y.y(), y.z());
-    }
-    csv.end_block();
-  }
-}
-
-/// One picture for every deforming eigenspace, of its first canonical vector, with the eigenspace's number in
-/// brackets.
-void write_mode_sheet(const std::string& folder, const std::string& name, const Spectrum& spectrum,
-                      const std::vector<Eigenspace>& spaces, const msm::CellVertices& rest) {
-  std::vector<cases::PointField> fields;
-  std::vector<std::string> titles;
-  for (std::size_t s = 0; s < spaces.size(); ++s) {
-    const Eigen::MatrixXd shapes = canonical_basis(basis(spectrum, spaces[s]));
-    for (Eigen::Index c = 0; c < shapes.cols(); ++c)
-      fields.push_back({fmt::format("space {} vector {}", s + 1, c + 1), as_points(shapes.col(c))});
-    if (s == 0) continue; // rigid motions
-    const std::string data = fmt::format("{}_{}.csv", name, s + 1);
-    write_file(folder + "/" + data, [&](std::ostream& out) { write_edges(out, rest, shapes.col(0)); });
-    titles.push_back(
-        fmt::format("({}) {:.3g}, dimension {}", s + 1, spaces[s].eigenvalue, spaces[s].dimension));
-  }
-  const double height = 300 * static_cast<double>((titles.size() + 2) / 3);
-  draw(folder, name, "mode_sheet", {{"titles", titles}, {"width", 900.}, {"height", height}});
-  write_file(folder + "/" + name + ".vtu",
-             [&](std::ostream& out) { write_vtu(out, cell_mesh(rest), fields); });
-}
-
-} // namespace
-
 void plot_dot_diagrams(const std::string& folder, const std::string& name,
                        const std::vector<DotDiagram>& panels) {
   std::vector<std::string> titles;
-  write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
+  write_csv_file(folder + "/" + name + ".csv", [&](CsvWriter& csv) {
     for (const DotDiagram& panel : panels) {
       titles.push_back(fmt::format("{} h = {:.2f}", panel.title, panel.analysis->h));
-      write_panel(out, *panel.analysis);
+      write_panel(csv, *panel.analysis);
     }
   });
   const double width = 100 + 500 * static_cast<double>(panels.size());
@@ -189,8 +183,7 @@ void plot_dot_diagrams(const std::string& folder, const std::string& name,
 void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
                              const msm::CellVertices& vertices) {
   plot_dot_diagrams(folder, "dot_diagram", {{"", &analysis}});
-  write_file(folder + "/coupling.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/coupling.csv", [&](CsvWriter& csv) {
     for (const auto row : analysis.coupling.rowwise()) csv.row(std::vector<double>(row.begin(), row.end()));
   });
   write_mode_sheet(folder, "fem_modes", analysis.fem, analysis.fem_spaces, vertices);
@@ -200,8 +193,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
                             const cases::HexMesh& mesh) {
   std::vector<cases::PointField> fields;
-  write_file(folder + "/body_modes.csv", [&](std::ostream& out) {
-    CsvWriter csv(out);
+  write_csv_file(folder + "/body_modes.csv", [&](CsvWriter& csv) {
     csv.row("# mode", "fem_eigenvalue", "msm_eigenvalue", "ratio", "angle_degrees");
     for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
       const ModePair& pair = modes.pairs[m];

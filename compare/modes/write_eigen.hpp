@@ -4,7 +4,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
-#include <string>
 
 namespace springproof::compare {
 

@@ -2,12 +2,12 @@
 
 #include "cases/case/names.hpp"
 #include "compare/solve/solve.hpp"
+#include "msm/cell_volume.hpp"
 #include "msm/problem.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fstream>
 #include <memory>
@@ -57,21 +57,6 @@ void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
   }
 }
 
-void write_supports(std::ostream& out, const cases::Scene& scene) {
-  const std::vector<bool> fixed = cases::constrained_dofs(scene);
-  fmt::print(out, "*BOUNDARY\n");
-  for (std::size_t d = 0; d < fixed.size(); ++d)
-    if (fixed[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
-}
-
-void write_loads(std::ostream& out, const cases::Scene& scene) {
-  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
-  fmt::print(out, "*CLOAD\n");
-  for (std::size_t n = 0; n < forces.size(); ++n)
-    for (int a = 0; a < 3; ++a)
-      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
-}
-
 /// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
 /// displacement but a zero.
 double fortran_number(const std::string& field) {
@@ -84,7 +69,7 @@ std::optional<std::pair<std::size_t, Vector3d>> read_node_line(const std::string
   const std::string node = line.substr(0, 10);
   if (node.find_first_not_of(" 0123456789") != std::string::npos) return std::nullopt;
   Vector3d u;
-  for (int a = 0; a < 3; ++a) u[a] = fortran_number(line.substr(10 + 14 * static_cast<std::size_t>(a), 14));
+  for (int a = 0; a < 3; ++a) u[a] = fortran_number(line.substr(10 + 14 * a, 14));
   return std::pair(static_cast<std::size_t>(std::strtoul(node.c_str(), nullptr, 10)), u);
 }
 
@@ -106,18 +91,15 @@ std::string last_error(std::istream& in) {
   return error.empty() ? "it gave no reason" : error;
 }
 
-/// Volume of a cell whose strains are small: rest volume times one plus the trace. The volume is cubic in the
-/// displacement, so that central differences of two steps give its linear part exactly.
+/// Volume of a cell whose strains are small: rest volume times one plus the trace, which is its linear part
+/// in the displacement.
 double linear_volume(const cases::HexMesh& mesh, std::size_t cell,
                      const std::vector<Vector3d>& displacement) {
-  const auto rest = cases::cell_vertices(mesh, cell),
-             deformed = cases::cell_vertices(mesh, cell, displacement);
-  const auto volume_at = [&](double factor) {
-    std::array<Vector3d, 8> vertices;
-    for (std::size_t v = 0; v < 8; ++v) vertices[v] = rest[v] + factor * (deformed[v] - rest[v]);
-    return cases::cell_volume(vertices);
-  };
-  return volume_at(0) + (8 * (volume_at(1) - volume_at(-1)) - (volume_at(2) - volume_at(-2))) / 12;
+  const auto rest = cases::cell_vertices(mesh, cell);
+  const auto gradient = msm::trilinear_volume_gradient(rest);
+  double volume = cases::cell_volume(rest);
+  for (std::size_t v = 0; v < 8; ++v) volume += gradient[v].dot(displacement[mesh.cells[cell][v]]);
+  return volume;
 }
 
 /// Volumes of the body's cells, each the sum of its descendants, which refinement numbers one after another.
@@ -131,12 +113,6 @@ std::vector<double> body_cell_volumes(const cases::Scene& scene, const cases::Sc
                                    ? linear_volume(refined.mesh, c, displacement)
                                    : cases::cell_volume(cases::cell_vertices(refined.mesh, c, displacement));
   return volumes;
-}
-
-cases::Solution skipped(const std::string& message) {
-  cases::Solution solution;
-  solution.message = message;
-  return solution;
 }
 
 /// Largest difference of two displacements over the largest displacement of the first; NaN if a number is.
@@ -171,7 +147,10 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
   fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
              number(material.poissons_ratio));
   fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
-  write_supports(out, scene);
+  fmt::print(out, "*BOUNDARY\n");
+  const std::vector<bool> constrained = cases::constrained_dofs(scene);
+  for (std::size_t d = 0; d < constrained.size(); ++d)
+    if (constrained[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
   // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
   // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
   // digits it prints.
@@ -180,7 +159,11 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
                     "*STATIC\n1., 1.\n");
   else
     fmt::print(out, "*STEP\n*STATIC\n");
-  write_loads(out, scene);
+  fmt::print(out, "*CLOAD\n");
+  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    for (int a = 0; a < 3; ++a)
+      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
 }
 
@@ -206,8 +189,11 @@ CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
 }
 
 cases::Solution solve_with_calculix(const cases::Scene& scene) {
-  if (const auto reason = reason_without_calculix(scene.definition)) return skipped(*reason);
-  if (std::system("command -v ccx >/dev/null 2>&1") != 0) return skipped("CalculiX (ccx) is not installed");
+  cases::Solution solution;
+  solution.message = reason_without_calculix(scene.definition).value_or("");
+  if (solution.message.empty() && std::system("command -v ccx >/dev/null 2>&1") != 0)
+    solution.message = "CalculiX (ccx) is not installed";
+  if (!solution.message.empty()) return solution; // skipped
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   const auto folder = temporary_folder();
   {
@@ -224,16 +210,14 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
     throw cases::SolveError("CalculiX stopped: " + error, output.load_reached, 0);
 
-  cases::Solution solution;
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
   solution.newton_iterations = count_iterations(progress);
   const std::vector<bool> fixed = cases::constrained_dofs(refined);
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
   // Refinement keeps the numbers of the body's own nodes.
-  solution.displacement.assign(output.displacement.begin(),
-                               output.displacement.begin() +
-                                   static_cast<std::ptrdiff_t>(scene.mesh.nodes.size()));
+  solution.displacement = output.displacement;
+  solution.displacement.resize(scene.mesh.nodes.size());
   msm::measure_cells(scene.mesh, solution);
   solution.cell_volume = body_cell_volumes(scene, refined, output.displacement);
   return solution;

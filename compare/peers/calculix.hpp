@@ -1,12 +1,8 @@
 #pragma once
 
-#include "cases/case/solution.hpp"
-#include "cases/scene/scene.hpp"
 #include "compare/solve/answers.hpp"
 
-#include <optional>
 #include <ostream>
-#include <string>
 
 /// CalculiX, an independent finite-element program, solves a case too. Its element C3D8 is the
 /// fully integrated trilinear hexahedron: linear in a static step it is our small_strain q1, with NLGEOM our

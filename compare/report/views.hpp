@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/thesis/plot_bodies.hpp"
-#include "compare/thesis/results.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

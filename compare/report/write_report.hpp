@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/thesis/draw_figures.hpp"
-#include "compare/thesis/results.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

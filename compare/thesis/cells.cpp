@@ -10,15 +10,15 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double cell_edge = 2;      // mm; thesis section 4.2.2
-constexpr double youngs_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
+constexpr double cell_edge = 2;    // mm; thesis section 4.2.2
+constexpr double cell_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
 
 Spectrum springs_spectrum(const msm::CellStiffness& stiffness) {
   return full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
 }
 
 CellAnalysis analyse_cell(double poissons_ratio) {
-  const cases::LinearElastic material{youngs_modulus, poissons_ratio};
+  const cases::LinearElastic material{cell_modulus, poissons_ratio};
   const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), cases::Msm{});
   const msm::CellStiffness stiffness = msm::design(request).stiffness;
   return {

@@ -2,6 +2,7 @@
 
 #include "compare/thesis/table_jobs.hpp"
 
+/// What other designs than the thesis's give: in its tables, and as advice for linear elasticity.
 namespace springproof::compare {
 
 /// One table with springs of one design: what the error is, whatever print says. Errors against the table's
@@ -22,5 +23,39 @@ std::vector<JobPair> design_jobs(const PublishedFigure& figure);
 /// Per table: the published figures, the thesis's sets, and every method but the linear one
 /// (nonlinear_method: the true minimiser of eq. 5.9), each designed from the table's own material.
 std::vector<DesignRow> design_rows(const std::vector<PublishedFigure>& figures, const Solutions& solutions);
+
+/// A design for linear elasticity at a Poisson's ratio, to be measured on the cube.
+struct AdviceQuestion {
+  double poissons_ratio;
+  std::string design;
+};
+
+/// Every method at nu = 0.2, 0.3, 0.35, 0.45, 0.49.
+std::vector<AdviceQuestion> advice_questions();
+
+/// In the order of cube_tests.
+std::vector<JobPair> advice_jobs(const AdviceQuestion& asked);
+
+/// A design at one Poisson's ratio, for any Young's modulus E and edge L0, with its errors on the thesis's
+/// cube. The errors hold for equal strains, that is equal force/(E L0²).
+struct Advice {
+  double poissons_ratio;
+  std::string design;
+  std::optional<msm::CellStiffness> stiffness{}; ///< over E L0 (volume: over E), no unit; absent when refused
+  CubeErrors cube{};
+  Trace small_trace{}, large_trace{}; ///< give the worst error under either load set
+  bool is_recommended = false;        ///< one at most for each Poisson's ratio
+  Trace trace{};                      ///< gives the stiffnesses
+  /// Why there are no stiffnesses or errors; empty otherwise.
+  const std::string& refusal() const {
+    return cube.small.failure.empty() ? cube.large.failure : cube.small.failure;
+  }
+};
+
+std::vector<Advice> advise(const std::vector<AdviceQuestion>& questions, const Solutions& solutions);
+
+/// Marks, for each Poisson's ratio, the design with the smallest worst error over both load sets, among those
+/// that are stable in every test; none when there is none.
+void recommend(std::vector<Advice>& advice);
 
 } // namespace springproof::compare

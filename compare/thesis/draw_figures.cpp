@@ -23,9 +23,9 @@ constexpr CubeTest panel_order[] = {{"tensile", "small"}, {"tensile", "large"}, 
                                     {"shear", "large"},   {"torsion", "small"}, {"torsion", "large"}};
 
 const Comparison* find_case(const std::vector<Comparison>& cases, const std::string& name) {
-  const auto found = std::find_if(cases.begin(), cases.end(),
-                                  [&](const Comparison& c) { return c.scene.definition.name == name; });
-  return found == cases.end() ? nullptr : &*found;
+  for (const Comparison& comparison : cases)
+    if (comparison.scene.definition.name == name) return &comparison;
+  return nullptr;
 }
 
 /// The printed set for nu = 0.5.
@@ -71,26 +71,24 @@ void draw_dot_diagrams(const std::string& folder, const ThesisResults& results,
       {"A.3", {0.2, 0.25}}, {"A.4", {0.3}},
       {"A.5", {0.35}},      {"A.6", {0.4}},
       {"A.7", {0.45}},      {"A.8", {0.49}}};
-  int n = 0;
-  for (const auto& [number, ratios] : groups) {
-    ++n;
+  for (std::size_t g = 0; g < std::size(groups); ++g) {
+    const auto& [number, ratios] = groups[g];
     std::vector<DotDiagram> panels;
-    std::string command;
-    for (const double nu : ratios)
-      for (const CellAnalysis& cell : results.cells)
+    std::vector<std::string> commands;
+    for (const CellAnalysis& cell : results.cells) // ascending, as the ratios
+      for (const double nu : ratios)
         if (std::abs(cell.poissons_ratio - nu) < 1e-9) {
           panels.push_back({fmt::format("ν = {:.2f},", nu), &cell.spaces});
-          command += fmt::format("{}build/springproof eigen --poisson {:g} --out DIR",
-                                 command.empty() ? "" : "; ", nu);
+          commands.push_back(fmt::format("build/springproof eigen --poisson {:g} --out DIR", nu));
         }
     if (panels.empty()) continue;
-    const std::string name = fmt::format("figure_A_{}", n);
+    const std::string name = fmt::format("figure_A_{}", g + 1);
     plot_dot_diagrams(folder, name, panels);
     figures.push_back(
         {number, name,
          "Eigenvectors of both stiffness matrices of one cell, rigid motions first. Lines part the "
          "eigenspaces; a mark's size is what two spaces share. Squares on shaded blocks: equivalent spaces.",
-         command});
+         fmt::format("{}", fmt::join(commands, "; "))});
   }
 }
 

@@ -1,10 +1,7 @@
 #pragma once
 
 #include "compare/thesis/plot_bodies.hpp"
-#include "compare/thesis/results.hpp"
-
-#include <string>
-#include <vector>
+#include "compare/thesis/regenerate.hpp"
 
 namespace springproof::compare {
 

@@ -1,19 +1,24 @@
 #include "compare/thesis/entries.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace springproof::compare {
 
 namespace {
 
+bool have_one_measure(const PublishedFigure& a, const PublishedFigure& b) {
+  return a.material == b.material && a.poissons_ratio == b.poissons_ratio && a.design == b.design &&
+         a.design_poissons_ratio == b.design_poissons_ratio && a.load_set == b.load_set &&
+         a.measure == b.measure;
+}
+
 /// The published figure of another test of the same material and springs, in whichever table.
 std::optional<double> published_value(const PublishedFigure& figure) {
   for (const PublishedFigure& other : published_figures())
-    if (other.material == figure.material && other.poissons_ratio == figure.poissons_ratio &&
-        other.design == figure.design && other.design_poissons_ratio == figure.design_poissons_ratio &&
-        other.load_set == figure.load_set && other.measure == figure.measure)
-      return other.value;
+    if (have_one_measure(other, figure)) return other.value;
   return std::nullopt;
 }
 
@@ -29,7 +34,8 @@ PublishedFigure small_beta_2(PublishedFigure figure) {
 /// @param figure  that beta_2
 void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& figure,
                               const FemChoice& reference, const Solutions& solutions) {
-  const MeasuredPair beta = measured_pair(solutions, thesis_jobs(figure, reference), figure.measure);
+  const JobPair jobs = thesis_jobs(figure, reference);
+  const MeasuredPair beta = measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), figure.measure);
   if (!beta.fem) return;
   const auto with_error = [&](const std::optional<double>& error) { // (45 + b (1 + r))/(45 + b) - 1
     return error ? std::optional(*beta.fem * *error / (45 + *beta.fem)) : std::nullopt;
@@ -41,9 +47,8 @@ void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& f
 ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference,
                        const Solutions& solutions) {
   const JobPair jobs = thesis_jobs(figure, reference);
-  const MeasuredPair pair = measured_pair(solutions, jobs, figure.measure);
-  ComputedFigure computed{reference.name(), figure.unit == "mm3" ? pair.msm : pair.error(), pair.fem,
-                          pair.msm};
+  const MeasuredPair pair = measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), figure.measure);
+  ComputedFigure computed{reference.name, figure.unit == "mm3" ? pair.msm : pair.error(), pair.fem, pair.msm};
   if (!computed.value) computed.reason = pair.reason;
   if (figure.measure == "beta_1")
     add_readings_from_beta_2(computed, small_beta_2(figure), reference, solutions);
@@ -71,27 +76,62 @@ std::string explain_beta_1(const TableEntry& entry) {
 
 /// The printed tilt of the left edge under the large shear lies above that reference which meets the tilt of
 /// the right edge, although both come from the same two solutions.
-std::string explain_alpha_1(const TableEntry& entry, const TableEntry* alpha_2) {
-  const ComputedFigure* right = alpha_2 ? alpha_2->nearest() : nullptr;
-  if (!right) return "";
-  const ComputedFigure& left = entry.computed[static_cast<std::size_t>(right - alpha_2->computed.data())];
-  if (!left.value || !(entry.published.value - *left.value > 1)) return "";
-  return fmt::format(
-      "print lies {:.1f} points above {}, which meets alpha_2 of the same two solutions within {:.1f}",
-      entry.published.value - *left.value, left.reference,
-      std::abs(*right->value - alpha_2->published.value));
+std::string explain_alpha_1(const TableEntry& entry, const std::vector<TableEntry>& entries) {
+  PublishedFigure beside = entry.published;
+  beside.measure = "alpha_2";
+  for (const TableEntry& alpha_2 : entries) {
+    const PublishedFigure& p = alpha_2.published;
+    const ComputedFigure* right = alpha_2.nearest();
+    if (!right || !have_one_measure(p, beside) || p.table != beside.table || p.test != beside.test) continue;
+    const ComputedFigure& left = entry.computed[right - alpha_2.computed.data()];
+    if (left.value && beside.value - *left.value > 1)
+      return fmt::format(
+          "print lies {:.1f} points above {}, which meets alpha_2 of the same two solutions within {:.1f}",
+          beside.value - *left.value, left.reference, std::abs(*right->value - p.value));
+  }
+  return "";
 }
 
-/// Another measure of the same test.
-const TableEntry* find_beside(const std::vector<TableEntry>& entries, const PublishedFigure& figure,
-                              const std::string& measure) {
-  for (const TableEntry& entry : entries) {
-    const PublishedFigure& p = entry.published;
-    if (p.table == figure.table && p.poissons_ratio == figure.poissons_ratio && p.design == figure.design &&
-        p.load_set == figure.load_set && p.test == figure.test && p.measure == measure)
-      return &entry;
+bool is_met(const ComputedFigure& computed, const PublishedFigure& published, double bound) {
+  // A difference that is the bound but for rounding of the two figures' decimals counts as within.
+  return computed.value && std::abs(*computed.value - published.value) <= bound * (1 + 1e-12);
+}
+
+Within count(const std::vector<const TableEntry*>& entries, double bound) {
+  Within within{bound, 0, 0, 0};
+  for (const TableEntry* entry : entries) {
+    const auto is_met_here = [&](const ComputedFigure& c) { return is_met(c, entry->published, bound); };
+    const auto& computed = entry->computed;
+    const auto first = std::find_if(computed.begin(), computed.end(), is_met_here);
+    ++(first == computed.end()     ? within.neither
+       : first == computed.begin() ? within.declared
+                                   : within.other_only);
   }
-  return nullptr;
+  return within;
+}
+
+/// A kind of figure, which is counted by itself.
+struct Kind {
+  const char *name, *unit;
+  std::vector<double> bounds;
+  double listing_bound;
+};
+
+// A figure of one cell is exact: half a unit of the last printed digit is all that may be between, twice that
+// where the thesis computed from rounded stiffnesses.
+const Kind kinds[] = {{"errors, beta_1 aside", "points", {0.1, 0.5, 1, 2}, 1},
+                      {"errors in beta_1", "points", {0.1, 0.5, 1, 2}, 1},
+                      {"volumes (5.2)", "mm3", {0.1, 0.5, 1, 2}, 2},
+                      {"bar (5.12)", "points", {0.1, 0.5, 1, 1.6, 2}, 1.6},
+                      {"pseudo-stiffnesses (4.1)", "", {0.0005, 0.001, 0.002}, 0.0005},
+                      {"eigenvalues and multiplicities (4.2), h (4.3)", "", {0.005, 0.01, 0.02}, 0.005}};
+
+/// The name of its kind.
+std::string kind_of(const PublishedFigure& figure) {
+  if (figure.test == "cell") return kinds[figure.table == "4.1" ? 4 : 5].name;
+  if (figure.table == "5.12") return kinds[3].name;
+  if (figure.unit == "mm3") return kinds[2].name;
+  return kinds[figure.measure == "beta_1" ? 1 : 0].name;
 }
 
 } // namespace
@@ -145,9 +185,30 @@ void explain(std::vector<TableEntry>& entries) {
   for (TableEntry& entry : entries) {
     const PublishedFigure& p = entry.published;
     if (p.measure == "beta_1") entry.finding = explain_beta_1(entry);
-    if (p.measure == "alpha_1" && p.load_set == "large")
-      entry.finding = explain_alpha_1(entry, find_beside(entries, p, "alpha_2"));
+    if (p.measure == "alpha_1" && p.load_set == "large") entry.finding = explain_alpha_1(entry, entries);
   }
+}
+
+std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
+  std::vector<SummaryGroup> groups;
+  for (const Kind& kind : kinds) {
+    std::vector<const TableEntry*> members;
+    std::set<std::string> tables;
+    for (const TableEntry& entry : entries)
+      if (kind_of(entry.published) == kind.name) {
+        members.push_back(&entry);
+        tables.insert(entry.published.table);
+      }
+    if (members.empty()) continue;
+    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound,
+                       {},        {}};
+    group.trace.command = fmt::format("build/springproof tables {}", fmt::join(tables, " "));
+    for (const double bound : kind.bounds) group.within.push_back(count(members, bound));
+    for (const TableEntry* entry : members)
+      if (count({entry}, kind.listing_bound).neither == 1) group.beyond.push_back(entry);
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 } // namespace springproof::compare

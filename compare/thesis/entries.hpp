@@ -2,7 +2,7 @@
 
 #include "compare/thesis/table_jobs.hpp"
 
-/// The published errors, volumes and deflections (tables 4.5 to 5.4, figure 5.12) beside the computed ones.
+/// The published figures beside the computed ones, what is known of those that are not met, and how many are.
 namespace springproof::compare {
 
 /// A figure computed against one finite-element reference.
@@ -13,9 +13,8 @@ struct ComputedFigure {
   /// beta_1 alone: error of (45 deg + beta_2 of the small test), which is what some printed rows hold,
   /// percent.
   std::optional<double> from_beta_2{};
-  std::optional<double>
-      from_printed_beta_2{}; ///< the same with the error of beta_2 that is printed, not ours
-  std::string reason{};      ///< why there is no value; empty when there is one
+  std::optional<double> from_printed_beta_2{}; ///< the same with the printed error of beta_2, not ours
+  std::string reason{};                        ///< why there is no value; empty when there is one
   Trace trace{};
 };
 
@@ -32,7 +31,7 @@ struct TableEntry {
 
 /// The jobs behind an entry.
 std::vector<JobPair> entry_jobs(const PublishedFigure& figure);
-/// One entry per published figure but those of cells, against each reference.
+/// One entry per published figure of tables 4.5 to 5.4 and figure 5.12, against each reference.
 std::vector<TableEntry> error_entries(const std::vector<PublishedFigure>& figures,
                                       const Solutions& solutions);
 
@@ -46,5 +45,27 @@ BetaReading nearest_from_beta_2(const TableEntry& entry);
 
 /// What is known of printed figures that no computation meets, into the entries' `finding`.
 void explain(std::vector<TableEntry>& entries);
+
+/// How many published figures of one kind are met within a bound, in points of percent or the kind's unit.
+struct Within {
+  double bound;
+  int declared;   ///< by the declared reference
+  int other_only; ///< by another reference, and not by the declared one
+  int neither;    ///< by none, those without a value among them
+};
+
+struct SummaryGroup {
+  std::string name; ///< "errors, beta_1 aside", "errors in beta_1", "volumes (5.2)", ...
+  std::string unit; ///< "points" or "mm3" ...
+  int n_entries;
+  std::vector<Within> within;
+  double listing_bound; ///< entries beyond it are listed
+  Trace trace;          ///< counts again
+  /// By every reference; the entry's finding explains it, or nothing does.
+  std::vector<const TableEntry*> beyond;
+};
+
+/// Counts what is reproduced; pointers go into `entries`.
+std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries);
 
 } // namespace springproof::compare

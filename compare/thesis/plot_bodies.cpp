@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <map>
 
@@ -89,14 +88,9 @@ std::vector<Line> edges_of(const std::vector<Face>& faces, Edges wanted) {
   return lines;
 }
 
-/// One block of the data file: lines, a blank line after each.
-struct Block {
-  std::string name;
-  std::vector<Line> lines;
-};
-
-/// What is seen of a panel. A side without displacements is empty.
-std::vector<Block> blocks_of(const Overlay& panel, const Eigen::Matrix3d& view) {
+/// What is seen of a panel, by name. A side without displacements is empty.
+std::vector<std::pair<std::string, std::vector<Line>>> blocks_of(const Overlay& panel,
+                                                                 const Eigen::Matrix3d& view) {
   std::vector<Line> fem, springs;
   if (panel.fem.is_there())
     fem = closed_polygons(visible_faces(*panel.fem.mesh, *panel.fem.displacement, view));
@@ -124,9 +118,9 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
   write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
     for (const Overlay& panel : panels) {
       titles.push_back(panel.title);
-      for (const Block& block : blocks_of(panel, view)) {
-        fmt::print(out, "# {}: x,y,z,across,up (mm)\n", block.name);
-        for (const Line& line : block.lines) {
+      for (const auto& [block, lines] : blocks_of(panel, view)) {
+        fmt::print(out, "# {}: x,y,z,across,up (mm)\n", block);
+        for (const Line& line : lines) { // with a blank line after each
           for (const Eigen::Vector3d& x : line) {
             const Eigen::Vector2d seen = view.topRows<2>() * x;
             box.extend(seen);
@@ -134,7 +128,7 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
           }
           fmt::print(out, "\n");
         }
-        if (block.lines.empty()) fmt::print(out, "?,?,?,?,?\n\n"); // an empty block would not be counted
+        if (lines.empty()) fmt::print(out, "?,?,?,?,?\n\n"); // an empty block would not be counted
         fmt::print(out, "\n");
       }
     }

@@ -32,10 +32,10 @@ std::vector<PublishedFigure> read_published_figures() {
     figures.push_back({row[0], "linear_elastic", row.number(1), "linear_method", row.number(1), "", "cell",
                        measure, unit, row.number(field)});
   };
-  const char* kinds[] = {"edge", "face_diagonal", "internal_diagonal"};
+  const char* springs[] = {"edge", "face_diagonal", "internal_diagonal"};
   for (std::size_t kind = 0; kind < 3; ++kind) // row by row, as in print
     for (const CsvRow& row : read_csv(path_of("pseudo_stiffness")))
-      add_of_cell(row, kinds[kind], "1", 2 + kind);
+      add_of_cell(row, springs[kind], "1", 2 + kind);
   for (const CsvRow& row : read_csv(path_of("eigenvalues"))) {
     add_of_cell(row, row[2] + "_eigenvalue_" + row[3], "N/mm", 4);
     add_of_cell(row, row[2] + "_multiplicity_" + row[3], "1", 5);

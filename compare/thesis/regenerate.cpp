@@ -74,11 +74,6 @@ bool has_own_poissons_ratio(const PublishedFigure& figure) {
   return !elastic || elastic->poissons_ratio == figure.poissons_ratio;
 }
 
-/// Solved for tables 4.5 and 4.6 anyway.
-bool is_of_figure_4_15(const PublishedFigure& figure) {
-  return (figure.table == "4.5" || figure.table == "4.6") && figure.poissons_ratio == 0.25;
-}
-
 ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_everything,
                           const Solutions& solutions) {
   ThesisResults results;
@@ -91,6 +86,9 @@ ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_e
     results.cases.push_back(join(solutions, jobs));
     results.volumes.push_back(volumes_of(results.cases.back(), trace_of(jobs)));
   }
+  const auto is_of_figure_4_15 = [](const PublishedFigure& figure) { // solved for these tables anyway
+    return (figure.table == "4.5" || figure.table == "4.6") && figure.poissons_ratio == 0.25;
+  };
   for (const JobPair& jobs : jobs_of_cases(figures, is_of_figure_4_15))
     results.figure_4_15.push_back(join(solutions, jobs));
   results.cell_volume_changes = cell_volume_changes(figures, solutions);
@@ -104,11 +102,9 @@ ThesisResults tables_from(const std::vector<PublishedFigure>& figures, bool is_e
 /// Summed over all solves of one side.
 double seconds(const Solutions& solutions, cases::Side side) {
   double sum = 0;
-  for (const auto& [job, comparison] : solutions) {
-    if (job.only != side) continue;
-    const Answer& solved = side == cases::Side::fem ? comparison.answers.fem : comparison.answers.msm;
-    sum += solved.setup_seconds + solved.solve_seconds;
-  }
+  for (const auto& [job, comparison] : solutions)
+    for (const Answer* solved : {&comparison.answers.fem, &comparison.answers.msm})
+      if (job.only == side) sum += solved->setup_seconds + solved->solve_seconds;
   return sum;
 }
 

@@ -11,40 +11,33 @@ namespace springproof::compare {
 
 namespace {
 
-bool is_linear_elastic(const PublishedFigure& figure) {
-  return figure.material == "linear_elastic";
-}
-
-std::string case_path_of(const PublishedFigure& figure) {
+std::string path_of_case(const PublishedFigure& figure) {
   return cases_folder() + "/" + case_file_of(figure);
 }
 
 std::vector<std::string> material_settings(const PublishedFigure& figure) {
-  if (!is_linear_elastic(figure)) return {};
+  if (figure.material == "ogden") return {};
   return {fmt::format("material.poissons_ratio={}", figure.poissons_ratio)};
 }
 
 SolveJob fem_job(const PublishedFigure& figure, const FemChoice& reference) {
-  std::vector<std::string> settings = material_settings(figure);
-  if (!reference.is_declared) {
-    settings.push_back("fem.formulation=" + cases::name_of(reference.formulation));
-    settings.push_back("fem.element=" + cases::name_of(reference.element));
-  }
-  return {case_path_of(figure), settings, cases::Side::fem};
+  SolveJob job{path_of_case(figure), material_settings(figure), cases::Side::fem};
+  job.settings.insert(job.settings.end(), reference.settings.begin(), reference.settings.end());
+  return job;
 }
 
 SolveJob designed_springs(const PublishedFigure& figure, const std::string& design) {
-  std::vector<std::string> settings = material_settings(figure);
+  SolveJob job{path_of_case(figure), material_settings(figure), cases::Side::msm};
   // The Ogden cases give their springs: the whole block goes, or the stiffnesses would contradict the design.
-  settings.push_back(is_linear_elastic(figure) ? "msm.design=" + design
-                                               : fmt::format("msm={{design=\"{}\"}}", design));
-  return {case_path_of(figure), settings, cases::Side::msm};
+  job.settings.push_back(figure.material == "ogden" ? fmt::format("msm={{design=\"{}\"}}", design)
+                                                    : "msm.design=" + design);
+  return job;
 }
 
 SolveJob thesis_springs(const PublishedFigure& figure) {
-  if (figure.load_set.empty()) return {case_path_of(figure), {}, cases::Side::msm};
+  if (figure.load_set.empty()) return {path_of_case(figure), {}, cases::Side::msm};
   if (const auto k = published_stiffness(figure.design, figure.material, figure.design_poissons_ratio))
-    return {case_path_of(figure),
+    return {path_of_case(figure),
             {"msm.design=given", fmt::format("msm.stiffness=[{}]", fmt::join(*k, ","))},
             cases::Side::msm};
   SolveJob job = designed_springs(figure, figure.design);
@@ -55,16 +48,13 @@ SolveJob thesis_springs(const PublishedFigure& figure) {
 
 } // namespace
 
-std::string FemChoice::name() const {
-  return cases::name_of(formulation) + " " + cases::name_of(element);
-}
-
 std::vector<FemChoice> references_of(const PublishedFigure& figure) {
-  const cases::Fem declared = cases::read_case(case_path_of(figure)).fem;
-  std::vector<FemChoice> references{{declared.formulation, declared.element, true}};
-  if (!is_linear_elastic(figure)) return references;
-  for (const cases::Formulation other : {cases::Formulation::log_strain, cases::Formulation::small_strain})
-    if (other != declared.formulation) references.push_back({other, cases::Element::q1_bbar, false});
+  const cases::Fem declared = cases::read_case(path_of_case(figure)).fem;
+  std::vector<FemChoice> references{
+      {cases::name_of(declared.formulation) + " " + cases::name_of(declared.element), {}}};
+  for (const std::string other : {"log_strain", "small_strain"})
+    if (figure.material != "ogden" && other != cases::name_of(declared.formulation))
+      references.push_back({other + " q1_bbar", {"fem.formulation=" + other, "fem.element=q1_bbar"}});
   return references;
 }
 
@@ -102,10 +92,6 @@ std::string shell_command(const std::vector<std::string>& words) {
   for (const std::string& word : words)
     line += word.find_first_not_of(plain) == std::string::npos ? " " + word : " '" + word + "'";
   return line;
-}
-
-MeasuredPair measured_pair(const Solutions& solutions, const JobPair& jobs, const std::string& measure) {
-  return measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), measure);
 }
 
 } // namespace springproof::compare

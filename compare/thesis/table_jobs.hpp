@@ -5,8 +5,6 @@
 #include "compare/thesis/published.hpp"
 
 #include <map>
-#include <string>
-#include <vector>
 
 /// The solves behind a published figure, and the command that repeats them.
 namespace springproof::compare {
@@ -20,14 +18,12 @@ struct Trace {
 
 /// A finite-element side that a figure is compared with.
 struct FemChoice {
-  cases::Formulation formulation;
-  cases::Element element;
-  bool is_declared; ///< by the case file
-  std::string name() const;
+  std::string name;                  ///< formulation and element, "small_strain q1_bbar"
+  std::vector<std::string> settings; ///< that make it of the case file; empty for the declared one
 };
 
-/// The case file's own [fem] first. The published linear elastic figures come from two references: log strain
-/// and small strain, both with B-bar; the one that is not declared is the other.
+/// The case file's own [fem], the declared reference, first. The published linear elastic figures come from
+/// two references: log strain and small strain, both with B-bar; the one that is not declared is the other.
 std::vector<FemChoice> references_of(const PublishedFigure& figure);
 
 /// Path below cases_folder() of the case behind a figure of chapters 4.3 and 5.3.
@@ -56,7 +52,5 @@ std::string shell_command(const std::vector<std::string>& words);
 
 /// The jobs solved, each once, however many figures share it.
 using Solutions = std::map<SolveJob, Comparison>;
-
-MeasuredPair measured_pair(const Solutions& solutions, const JobPair& jobs, const std::string& measure);
 
 } // namespace springproof::compare

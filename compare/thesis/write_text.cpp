@@ -1,11 +1,7 @@
 #include "compare/thesis/write_text.hpp"
 
-#include "compare/thesis/sheet.hpp"
-#include "compare/thesis/summary.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <functional>
 
@@ -13,56 +9,54 @@ namespace springproof::compare {
 
 namespace {
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : "-";
+/// The parts that tell an entry's column from others.
+std::array<std::string, 3> column_of(const PublishedFigure& p) {
+  return {p.design, fmt::format("nu = {:g}", p.poissons_ratio), p.load_set};
 }
 
-std::string number(const std::optional<double>& value, const PublishedFigure& figure) {
+std::string number(const std::optional<double>& value, int digits = 2) {
   if (!value) return "-";
-  const int digits = figure.test == "cell" ? 4 : 2;
   const std::string text = fmt::format("{:.{}f}", *value, digits);
   const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
   return is_zero ? fmt::format("{:.{}f}", 0.0, digits) : text; // never "-0.00"
 }
 
-std::string title(const Sheet& sheet) {
-  const bool has_two = sheet.entries.front()->computed.size() > 1;
-  return fmt::format("{}: {}{}", name_of(sheet), subject_of(sheet),
-                     has_two ? "; first the declared reference; * the one nearer to print" : "");
+int digits_of(const PublishedFigure& figure) {
+  return figure.test == "cell" ? 4 : 2;
 }
 
 /// Rows of one measure: each reference, print, the difference of the nearest, and what explains a beta_1.
-void write_measure(std::ostream& out, const Sheet& sheet, std::size_t row) {
+void write_measure(std::ostream& out, const Sheet::Row& row) {
   const auto line = [&](const std::string& test, const std::string& measure, const std::string& label,
                         const std::function<std::string(const TableEntry&)>& cell) {
     fmt::print(out, "  {:<8} {:<18} {:<22}", test, measure, label);
-    for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
-      const TableEntry* entry = sheet.find(row, c);
+    for (const TableEntry* entry : row.cells)
       fmt::print(out, " {:>16}", entry ? cell(*entry) : std::string());
-    }
     fmt::print(out, "\n");
   };
-  const auto& [test, measure] = sheet.rows[row];
-  const auto& references = sheet.first_of_row(row)->computed;
+  const auto& [test, measure, cells, first] = row;
+  const auto& references = first->computed;
+  const int digits = digits_of(first->published);
   for (std::size_t k = 0; k < references.size(); ++k)
     line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
       const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
-      return number(entry.computed[k].value, entry.published) + (is_marked ? "*" : "");
+      return number(entry.computed[k].value, digits) + (is_marked ? "*" : "");
     });
   line("", "", measure == "beta_1" ? "published (!)" : "published",
-       [](const TableEntry& entry) { return number(entry.published.value, entry.published); });
-  line("", "", "difference", [](const TableEntry& entry) {
+       [&](const TableEntry& entry) { return number(entry.published.value, digits); });
+  line("", "", "difference", [&](const TableEntry& entry) {
     const ComputedFigure* nearest = entry.nearest();
-    return number(nearest ? entry.difference(*nearest) : std::nullopt, entry.published);
+    return number(nearest ? entry.difference(*nearest) : std::nullopt, digits);
   });
-  const bool has_large = std::any_of(sheet.columns.begin(), sheet.columns.end(),
-                                     [](const auto& column) { return column[2] == "large"; });
+  const bool has_large = std::any_of(cells.begin(), cells.end(), [](const TableEntry* entry) {
+    return entry && entry->published.load_set == "large";
+  });
   // It explains the large rows in print; of the small ones nothing does.
   if (measure == "beta_1" && has_large)
-    line("", "", "45 deg + small beta_2", [](const TableEntry& entry) {
+    line("", "", "45 deg + small beta_2", [&](const TableEntry& entry) {
       if (entry.published.load_set != "large") return std::string();
       const auto [reference, value] = nearest_from_beta_2(entry);
-      return number(reference ? std::optional(value) : std::nullopt, entry.published);
+      return number(reference ? std::optional(value) : std::nullopt, digits);
     });
 }
 
@@ -78,13 +72,15 @@ void write_commands(std::ostream& out, const Sheet& sheet, Commands commands) {
 }
 
 void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
-  fmt::print(out, "\n{}\n", title(sheet));
+  const bool has_two = sheet.entries.front()->computed.size() > 1;
+  fmt::print(out, "\n{}: {}{}\n", name_of(sheet), subject_of(sheet),
+             has_two ? "; first the declared reference; * the one nearer to print" : "");
   for (std::size_t part = 0; part < 3; ++part) {
     fmt::print(out, "  {:<8} {:<18} {:<22}", "", "", "");
     for (const auto& column : sheet.columns) fmt::print(out, " {:>16}", column[part]);
     fmt::print(out, "\n");
   }
-  for (std::size_t row = 0; row < sheet.rows.size(); ++row) write_measure(out, sheet, row);
+  for (const Sheet::Row& row : sheet.rows) write_measure(out, row);
   const bool has_beta_1 = std::any_of(sheet.entries.begin(), sheet.entries.end(),
                                       [](const TableEntry* e) { return e->published.measure == "beta_1"; });
   if (has_beta_1)
@@ -139,9 +135,9 @@ void write_beyond(std::ostream& out, const TableEntry& entry) {
   fmt::print(out, "    {} {} {} {} nu = {:g}, {}: published {:g};", p.table, p.load_set, p.test, p.measure,
              p.poissons_ratio, p.design, p.value);
   for (const ComputedFigure& c : entry.computed)
-    fmt::print(out, " {} {}{};", c.reference,
-               c.value ? fmt::format(p.test == "cell" ? "{:.4f}" : "{:.2f}", *c.value) : "no value: ",
-               c.value ? "" : c.reason);
+    fmt::print(
+        out, " {} {}{};", c.reference,
+        c.value ? fmt::format("{:.{}f}", *c.value, digits_of(p)) : "no value: ", c.value ? "" : c.reason);
   fmt::print(out, " {}\n", entry.finding.empty() ? "unexplained" : entry.finding);
 }
 
@@ -214,6 +210,47 @@ void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& grou
 }
 
 } // namespace
+
+std::vector<Sheet> sheets_of(const std::vector<TableEntry>& entries) {
+  std::vector<Sheet> sheets;
+  for (const TableEntry& entry : entries) {
+    if (sheets.empty() || sheets.back().table != entry.published.table)
+      sheets.push_back({entry.published.table});
+    auto& columns = sheets.back().columns;
+    sheets.back().entries.push_back(&entry);
+    if (std::find(columns.begin(), columns.end(), column_of(entry.published)) == columns.end())
+      columns.push_back(column_of(entry.published));
+  }
+  for (auto& [table, columns, rows, of_table] : sheets)
+    for (const TableEntry* entry : of_table) {
+      const PublishedFigure& p = entry->published;
+      auto row = std::find_if(rows.begin(), rows.end(), [&](const Sheet::Row& r) {
+        return r.test == p.test && r.measure == p.measure;
+      });
+      if (row == rows.end())
+        row = rows.insert(row, {p.test, p.measure, std::vector<const TableEntry*>(columns.size()), entry});
+      row->cells[std::find(columns.begin(), columns.end(), column_of(p)) - columns.begin()] = entry;
+    }
+  return sheets;
+}
+
+std::string name_of(const Sheet& sheet) {
+  return (sheet.table == "5.12" ? "Figure " : "Table ") + sheet.table;
+}
+
+std::string name_of(const PublishedFigure& figure) {
+  std::string name = figure.test + " " + figure.measure;
+  for (const std::string& part : column_of(figure)) name += part.empty() ? "" : ", " + part;
+  return name;
+}
+
+std::string subject_of(const Sheet& sheet) {
+  if (sheet.table == "4.1") return "pseudo-stiffnesses k' of the springs, k = (L0/2) k' E";
+  if (sheet.table == "4.2") return "eigenvalues (N/mm for E = 1 MPa, L0 = 2 mm) and multiplicities";
+  if (sheet.table == "4.3") return "similarity h of the two matrices' eigenspaces";
+  if (sheet.entries.front()->published.unit == "mm3") return "volume of the springs' body, mm3";
+  return "error r = (MSM - FEM)/FEM x 100 %";
+}
 
 void write_tables_text(std::ostream& out, const ThesisResults& results, Commands commands) {
   for (const Sheet& sheet : sheets_of(results.entries)) write_sheet(out, sheet, commands);

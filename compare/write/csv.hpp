@@ -1,5 +1,7 @@
 #pragma once
 
+#include "compare/provenance/whole_file.hpp"
+
 #include <fmt/format.h>
 #include <optional>
 #include <ostream>
@@ -27,7 +29,7 @@ class CsvWriter {
 
   template<class... Fields>
   void row(const Fields&... fields) {
-    const char* comma = "";
+    [[maybe_unused]] const char* comma = ""; // of a row without fields
     ((out_ << std::exchange(comma, ",") << field(fields)), ...);
     out_ << '\n';
   }
@@ -57,5 +59,15 @@ class CsvWriter {
   std::ostream& out_;
   int digits_;
 };
+
+/// Writes a file of comma-separated rows, whole or not at all.
+/// @param write  given the file's CsvWriter
+template<class Write>
+void write_csv_file(const std::string& path, const Write& write, int digits = 8) {
+  write_file(path, [&](std::ostream& out) {
+    CsvWriter csv(out, digits);
+    write(csv);
+  });
+}
 
 } // namespace springproof::compare

@@ -1,7 +1,6 @@
-#include "compare/peers/displacement_file.hpp"
+#include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/peers/external_side.hpp"
 #include "compare/write/write.hpp"
 #include "tests/support/case_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "compare/thesis/advice.hpp"
+#include "compare/thesis/designs.hpp"
 
 #include <catch2/catch.hpp>
 
