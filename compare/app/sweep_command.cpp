@@ -3,7 +3,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/instructions.hpp"
-#include "compare/sweep/plot_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
 #include <algorithm>

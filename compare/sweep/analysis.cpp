@@ -23,6 +23,10 @@ std::optional<std::size_t> best(const std::vector<Point>& points, const IsAllowe
   return found;
 }
 
+bool any_point(const Point&) {
+  return true;
+}
+
 std::tuple<double, double> speed_first(const Point& p) {
   return {p.seconds, p.error_percent};
 }
@@ -33,12 +37,6 @@ std::string describe(const Point& p) {
 
 const char* name_of(Family family) {
   return family == Family::springs ? "springs" : "finite elements";
-}
-
-template<class Key>
-const Point& least(const std::vector<Point>& points, const Key& key) {
-  return *std::min_element(points.begin(), points.end(),
-                           [&](const Point& a, const Point& b) { return key(a) < key(b); });
 }
 
 /// Two digits, or the whole number.
@@ -75,6 +73,18 @@ std::vector<std::string> floor_sentences(const Sweep& sweep, Error error) {
     if (method.rfind("springs ", 0) == 0)
       sentences.push_back(floor_sentence(method, levels, errors_by_level(sweep, method, error)));
   return sentences;
+}
+
+/// Median of the repetitions; nothing without any.
+std::optional<double> median_seconds(const SweepRow& row, Clock clock) {
+  if (clock == Clock::re_solve) return median(row.run.again_seconds);
+  const auto first = median(row.run.first_seconds);
+  if (!first) return std::nullopt;
+  return *first + median(row.run.setup_seconds).value_or(0); // CalculiX does not tell them apart
+}
+
+std::optional<double> error_of(const SweepRow& row, Error error) {
+  return error == Error::field ? row.field_error_percent : worst_measure_error(row);
 }
 
 } // namespace
@@ -125,24 +135,16 @@ std::optional<double> worst_measure_error(const SweepRow& row) {
   return worst;
 }
 
-std::optional<double> error_of(const SweepRow& row, Error error) {
-  return error == Error::field ? row.field_error_percent : worst_measure_error(row);
-}
-
-std::optional<double> median_seconds(const SweepRow& row, Clock clock) {
-  if (clock == Clock::re_solve) return median(row.run.again_seconds);
-  const auto first = median(row.run.first_seconds);
-  if (!first) return std::nullopt;
-  return *first + median(row.run.setup_seconds).value_or(0); // CalculiX does not tell them apart
+std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock) {
+  const auto seconds = median_seconds(row, clock), percent = error_of(row, error);
+  if (!seconds || !percent) return std::nullopt;
+  return Point{full_name(row.variant), family_of(row.variant), *seconds, *percent};
 }
 
 std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock) {
   std::vector<Point> points;
-  for (const SweepRow& row : sweep.rows) {
-    const auto seconds = median_seconds(row, clock), percent = error_of(row, error);
-    if (seconds && percent)
-      points.push_back({full_name(row.variant), family_of(row.variant), *seconds, *percent});
-  }
+  for (const SweepRow& row : sweep.rows)
+    if (const auto point = point_of(row, error, clock)) points.push_back(*point);
   return points;
 }
 
@@ -191,7 +193,7 @@ std::string fastest_sentence(const std::vector<Point>& points, double error_perc
   const auto fastest = fastest_within(points, error_percent);
   if (!fastest)
     return start + "no model gets there; nearest comes " +
-           describe(least(points, [](const Point& p) { return p.error_percent; })) + ".";
+           describe(points[*best(points, any_point, [](const Point& p) { return p.error_percent; })]) + ".";
   const Point& winner = points[*fastest];
   const Family other = winner.family == Family::springs ? Family::finite_elements : Family::springs;
   const auto rival = fastest_within(points, error_percent, other);
@@ -209,7 +211,7 @@ std::string most_accurate_sentence(const std::vector<Point>& points, double seco
   const auto found = most_accurate_within(points, seconds);
   if (!found)
     return start + "no model answers in that time; the fastest is " +
-           describe(least(points, [](const Point& p) { return p.seconds; })) + ".";
+           describe(points[*best(points, any_point, [](const Point& p) { return p.seconds; })]) + ".";
   const std::string sentence = start + describe(points[*found]) + " is the most accurate";
   if (points[*found].error_percent > uncertainty_percent) return sentence + ".";
   return sentence +

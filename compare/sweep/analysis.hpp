@@ -43,12 +43,8 @@ enum class Clock {
 /// Largest error of a measure, without sign; nothing when no measure has one.
 std::optional<double> worst_measure_error(const SweepRow& row);
 
-std::optional<double> error_of(const SweepRow& row, Error error);
-
-/// Median of the repetitions; nothing without any.
-std::optional<double> median_seconds(const SweepRow& row, Clock clock);
-
-/// The rows that have both a time and an error.
+/// Nothing for a row that lacks a time or an error.
+std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock);
 std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock);
 
 /// Errors of a spring design at its tightest tolerance, per level of the plan.

@@ -15,4 +15,9 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep);
 
 nlohmann::ordered_json sweep_to_json(const Sweep& sweep);
 
+/// Error against time, log-log, as NAME.svg and NAME.png for both errors and both clocks, with the Pareto
+/// front, the reference's uncertainty and the floor of each spring design. Nothing without a reference.
+/// @throws InputError as draw()
+void plot_sweep(const std::string& folder, const Sweep& sweep);
+
 } // namespace springproof::compare
