@@ -2,7 +2,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/sweep/time_variant.hpp"
+#include "compare/sweep/sweep.hpp"
 
 #include <csignal>
 #include <memory>

@@ -1,14 +1,143 @@
 #include "compare/sweep/sweep.hpp"
 
+#include "compare/peers/calculix.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/stopwatch.hpp"
+#include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve.hpp"
+#include "compare/solve/springs.hpp"
+#include "fem_reference/model.hpp"
+#include "msm/model.hpp"
 
-#include <mpi.h>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cereal {
+
+SPRINGPROOF_FIELDS(springproof::compare::Variant, program, design, formulation, element, cells, tolerance)
+SPRINGPROOF_FIELDS(springproof::compare::TimingRules, repetitions, budget_seconds)
+SPRINGPROOF_FIELDS(springproof::compare::VariantRun, first, again, setup_seconds, first_seconds,
+                   again_seconds, is_warm, peak_megabytes, start_megabytes)
+
+} // namespace cereal
 
 namespace springproof::compare {
 
 namespace {
+
+using Times = std::vector<double>; ///< seconds
+
+/// One solve of a model that is there; its time counts if it found an equilibrium, and so says the answer.
+bool solve_timed(cases::Solution& solution, Times& times, const std::function<cases::Solution()>& solve) {
+  Answer answer = solve_side([] { return 0; }, [&](int) { return solve(); });
+  if (answer.converged()) times.push_back(answer.solve_seconds);
+  solution = std::move(answer.solution);
+  return solution.status == cases::Status::converged;
+}
+
+cases::Scene with_load(cases::Scene scene, double factor) {
+  for (auto& applied : scene.loads) {
+    applied.load.value *= factor;
+    applied.load.moment *= factor;
+  }
+  for (auto& moved : scene.moved) {
+    moved.motion.displacement *= factor;
+    moved.motion.angle *= factor;
+  }
+  return scene;
+}
+
+msm::Model make_springs(const cases::Scene& scene) {
+  return msm::Model(scene, stiffness_of_cells(design_for(scene)));
+}
+
+/// A round: the model made and solved twice, from rest and after the change of the load.
+/// @param before  displacement under the smaller load
+void solve_springs(VariantRun& run, const cases::Scene& scene, double tolerance, const msm::Points& before) {
+  Stopwatch stopwatch;
+  msm::Model model = make_springs(scene);
+  run.setup_seconds.push_back(stopwatch.lap());
+  mechanics::EquilibriumSettings settings;
+  settings.tolerance = tolerance;
+  settings.stability = mechanics::Stability::ignore;
+  if (solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); }))
+    solve_timed(run.again, run.again_seconds, [&] { return model.solve(settings, before); });
+}
+
+/// Under the smaller load, where the equilibrium has to be stable.
+Answer springs_before(const cases::Scene& scene, double tolerance) {
+  mechanics::EquilibriumSettings settings;
+  settings.tolerance = tolerance;
+  return solve_side([&] { return make_springs(with_load(scene, 1 - load_change)); },
+                    [&](msm::Model& model) { return model.solve(settings); });
+}
+
+/// All ranks go by what rank 0 measured.
+double agreed(double seconds) {
+  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return seconds;
+}
+
+/// Displacements of nodes that are those of a grid, in its order.
+msm::Points on_grid(const std::vector<fem_reference::NodeDisplacement>& nodes, const Eigen::Vector3d& size,
+                    const std::array<int, 3>& cells) {
+  msm::Points field(static_cast<std::size_t>(cells[0] + 1) * static_cast<std::size_t>(cells[1] + 1) *
+                    static_cast<std::size_t>(cells[2] + 1));
+  for (const auto& node : nodes) {
+    long place = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const int n = cells[static_cast<std::size_t>(axis)];
+      place = place * (n + 1) + std::lround(node.rest[axis] / size[axis] * n);
+    }
+    field[static_cast<std::size_t>(place)] = node.displacement;
+  }
+  return field;
+}
+
+/// A round, as of springs.
+void solve_finite_elements(VariantRun& run, const cases::Scene& scene, const Variant& variant,
+                           const TimingRules& rules) {
+  Stopwatch stopwatch;
+  fem_reference::Model model(scene, MPI_COMM_WORLD);
+  run.setup_seconds.push_back(stopwatch.lap());
+  mechanics::EquilibriumSettings settings = fem_reference::default_settings();
+  settings.tolerance = variant.tolerance;
+  settings.stability = mechanics::Stability::ignore;
+  if (!solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); })) return;
+  if (field_cells(variant) != variant.cells)
+    run.first.displacement = on_grid(model.node_displacements(),
+                                     std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
+  if (agreed(run.first_seconds.back()) > rules.budget_seconds) {
+    run.again.message = "left out: the first solve took longer than the budget";
+    return;
+  }
+  Times untold;
+  if (solve_timed(run.again, untold, [&] { return model.solve_again(1 - load_change, settings); }))
+    solve_timed(run.again, run.again_seconds, [&] { return model.solve_again(1, settings); });
+}
+
+/// A first round stands for all when the budget does not pay for others, else it is the warm-up.
+VariantRun repeat(const std::function<void(VariantRun&)>& add_round, const TimingRules& rules,
+                  const std::function<double(double)>& agree) {
+  VariantRun run;
+  const auto add = [&] {
+    run.again = {};
+    add_round(run);
+    run.again.displacement.clear();
+    run.again.cell_volume.clear();
+  };
+  const Stopwatch stopwatch;
+  add();
+  const double seconds = agree(stopwatch.seconds());
+  const int n = run.first.status == cases::Status::converged ? n_repetitions(seconds, rules) : 0;
+  if (n == 0) return run;
+  run = {};
+  run.is_warm = true;
+  for (int i = 0; i < n; ++i) add();
+  return run;
+}
 
 VariantRun failed_run(const std::string& reason) {
   VariantRun run;
@@ -65,6 +194,58 @@ void finish(const Sweep& sweep, SweepRow& row) {
 }
 
 } // namespace
+
+int n_repetitions(double seconds_of_first, const TimingRules& rules) {
+  if (!(seconds_of_first <= rules.budget_seconds)) return 0;
+  if (!(seconds_of_first * rules.repetitions > rules.budget_seconds)) return rules.repetitions;
+  return std::max(1, static_cast<int>(rules.budget_seconds / seconds_of_first));
+}
+
+VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
+  const cases::Scene scene = cases::make_scene(with_variant(definition, variant));
+  if (variant.program == Program::finite_elements)
+    return repeat([&](VariantRun& run) { solve_finite_elements(run, scene, variant, rules); }, rules, agreed);
+  if (mpi_rank() != 0) return {};
+  const auto alone = [](double seconds) { return seconds; };
+  if (variant.program == Program::calculix) // reading its input and writing its output are part of its time
+    return repeat(
+        [&](VariantRun& run) {
+          solve_timed(run.first, run.first_seconds, [&] { return solve_with_calculix(scene); });
+        },
+        rules, alone);
+  const Answer before = springs_before(scene, variant.tolerance);
+  if (before.converged())
+    return repeat(
+        [&](VariantRun& run) { solve_springs(run, scene, variant.tolerance, before.solution.displacement); },
+        rules, alone);
+  VariantRun unstable;
+  unstable.first = before.solution;
+  return unstable;
+}
+
+std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules) {
+  return cases::to_bytes(definition, variant, rules);
+}
+
+std::string answer_timing_job(const std::string& job) {
+  cases::Case definition;
+  Variant variant;
+  TimingRules rules;
+  cases::from_bytes(job, definition, variant, rules);
+  const std::optional<double> before = peak_resident_megabytes();
+  VariantRun run = time_variant(definition, variant, rules);
+  if (variant.program != Program::calculix) { // whose memory is another process's
+    run.start_megabytes = before;
+    run.peak_megabytes = peak_resident_megabytes();
+  }
+  return cases::to_bytes(run);
+}
+
+VariantRun variant_run_from(const std::string& answer) {
+  VariantRun run;
+  cases::from_bytes(answer, run);
+  return run;
+}
 
 Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
                 const std::string& program, const std::function<void(const Sweep&)>& on_row) {

@@ -2,11 +2,49 @@
 
 #include "compare/sweep/plan.hpp"
 #include "compare/sweep/reference.hpp"
-#include "compare/sweep/time_variant.hpp"
 
 #include <functional>
 
 namespace springproof::compare {
+
+/// How often a variant is timed.
+struct TimingRules {
+  int repetitions = 5;       ///< after a warm-up
+  double budget_seconds = 2; ///< for the repetitions together
+};
+
+/// Repetitions that follow a first round of that many seconds: as many as the budget pays for, at most those
+/// asked for; 0 when it does not pay for one, and then the first round has to stand for all.
+int n_repetitions(double seconds_of_first, const TimingRules& rules);
+
+/// How much the load grows before the re-solve: from 95 to 100 per cent of the case's.
+constexpr double load_change = 0.05;
+
+/// A variant's answer, what it took, and how long. Wall-clock seconds, one entry per repetition.
+struct VariantRun {
+  cases::Solution
+      first; ///< from rest, displacement on the grid of field_cells(); failed or skipped with the reason
+  cases::Solution again; ///< after the load change, from the displacement before it; without displacement;
+                         ///< skipped with the reason when the first solve takes longer than the budget
+  std::vector<double> setup_seconds;
+  std::vector<double> first_seconds;
+  std::vector<double> again_seconds;
+  bool is_warm = false;                  ///< a round came before those that were timed
+  std::optional<double> peak_megabytes;  ///< resident memory of the process that did nothing else
+  std::optional<double> start_megabytes; ///< of it before the model was made
+};
+
+/// Solves a variant of a case again and again on one thread. Springs have to be stable under the smaller
+/// load, which is looked at once; the solves that are timed do not diagnose stability. Collective over
+/// MPI_COMM_WORLD; all but finite elements run on rank 0 alone, where alone their answer is.
+/// @throws InputError when the case has no such variant
+VariantRun time_variant(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
+
+/// A job of a worker, and its answer with the memory of that process in it.
+std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
+std::string answer_timing_job(const std::string& job);
+/// @throws std::exception if the bytes are no answer
+VariantRun variant_run_from(const std::string& answer);
 
 /// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept.
 struct SweepRow {
