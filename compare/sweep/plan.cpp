@@ -48,11 +48,6 @@ std::vector<std::array<int, 3>> levels_of(const cases::Box& box, int n_levels) {
   return levels;
 }
 
-Variant finite_elements(Formulation formulation, Element element, const std::array<int, 3>& cells,
-                        double tolerance) {
-  return {Program::finite_elements, {}, formulation, element, cells, tolerance};
-}
-
 void leave_out(Plan& plan, const std::string& what, long size, long limit) {
   plan.left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
 }
@@ -85,7 +80,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
       const bool is_loose = tolerance != tight;
       if (is_loose && (is_linear || extent == Extent::quick || size > size_limits.loose)) continue;
       if (!is_loose && is_planned) continue;
-      plan.variants.push_back(finite_elements(formulation, element, cells, tolerance));
+      plan.variants.push_back({Program::finite_elements, {}, formulation, element, cells, tolerance});
     }
     if (!is_linear && extent == Extent::full && size > size_limits.loose)
       leave_out(plan, name + " at looser tolerances", size, size_limits.loose);
@@ -162,7 +157,7 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
   plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
   for (std::size_t level = 0; level < 3; ++level)
     plan.reference.push_back(
-        finite_elements(Formulation::log_strain, Element::q2, plan.levels[level], tight));
+        {Program::finite_elements, {}, Formulation::log_strain, Element::q2, plan.levels[level], tight});
   plan.variants = plan.reference;
   add_springs(plan, extent);
   for (const Formulation formulation : {Formulation::small_strain, Formulation::log_strain})

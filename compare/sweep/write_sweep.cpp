@@ -128,15 +128,14 @@ Json value_to_json(const ReferenceValue& v) {
 
 Json reference_to_json(const Sweep& sweep) {
   if (!sweep.reference) return {{"reason", sweep.reason_without_reference}};
-  Json document{{"method", method_name(sweep.plan.reference.front())},
-                {"meshes", Json::array()},
-                {"compared_on", sweep.reference->scene.mesh.grid->cells},
-                {"field", value_to_json(sweep.reference->field)},
-                {"measures", Json::array()}};
-  for (const Variant& mesh : sweep.plan.reference) document["meshes"].push_back(mesh.cells);
-  for (const ReferenceValue& value : sweep.reference->measures)
-    document["measures"].push_back(value_to_json(value));
-  return document;
+  Json meshes = Json::array(), measures = Json::array();
+  for (const Variant& mesh : sweep.plan.reference) meshes.push_back(mesh.cells);
+  for (const ReferenceValue& value : sweep.reference->measures) measures.push_back(value_to_json(value));
+  return {{"method", method_name(sweep.plan.reference.front())},
+          {"meshes", meshes},
+          {"compared_on", sweep.reference->scene.mesh.grid->cells},
+          {"field", value_to_json(sweep.reference->field)},
+          {"measures", measures}};
 }
 
 Json row_to_json(const Sweep& sweep, const SweepRow& row) {
