@@ -2,10 +2,8 @@
 
 #include "compare/write/write.hpp"
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fstream>
 #include <iterator>
@@ -21,7 +19,8 @@ namespace fs = std::filesystem;
 
 const char* const kernels[] = {"force_double",   "force_float",   "product_double",  "product_float",
                                "diagonal_float", "energy_double", "multigrid_cycle", "list_force"};
-constexpr int cells_of_cube = 10;
+constexpr int cells_of_cube = 10; ///< along each edge
+constexpr double nodes_of_cube = (cells_of_cube + 1.) * (cells_of_cube + 1.) * (cells_of_cube + 1.);
 
 /// Instructions of one call of each kernel. One run for all: valgrind takes seconds to start.
 std::vector<double> instructions(const std::string& instruction_set) {
@@ -64,10 +63,9 @@ InstructionCounts count_instructions() {
   }
   const char* asked = std::getenv("SPRINGPROOF_INSTRUCTION_SET");
   result.instruction_set = asked && *asked ? asked : "avx2";
-  const double n_nodes = std::pow(cells_of_cube + 1., 3);
   try {
     for (const double total : instructions(result.instruction_set))
-      result.counts.push_back({kernels[result.counts.size()], cells_of_cube, total, total / n_nodes});
+      result.per_call.emplace_back(kernels[result.per_call.size()], total);
   } catch (const std::exception& error) {
     result.reason = std::string("sweep --perf: ") + error.what();
   }
@@ -78,20 +76,20 @@ void write_instructions_text(std::ostream& out, const InstructionCounts& counts)
   fmt::print(out, "instructions of the springs' kernels, {} (callgrind, one thread)\n",
              counts.instruction_set);
   fmt::print(out, "  {:<16} {:>9} {:>14} {:>10}\n", "kernel", "cells", "per call", "per node");
-  for (const auto& [kernel, cells, per_call, per_node] : counts.counts)
-    fmt::print(out, "  {:<16} {:>9} {:>14.0f} {:>10.1f}\n", kernel, fmt::format("{0}x{0}x{0}", cells),
-               per_call, per_node);
+  for (const auto& [kernel, per_call] : counts.per_call)
+    fmt::print(out, "  {:<16} {:>9} {:>14.0f} {:>10.1f}\n", kernel, fmt::format("{0}x{0}x{0}", cells_of_cube),
+               per_call, per_call / nodes_of_cube);
 }
 
 nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts) {
   nlohmann::ordered_json document = provenance();
   document["instruction_set"] = counts.instruction_set;
   document["kernels"] = nlohmann::ordered_json::array();
-  for (const auto& [kernel, cells, per_call, per_node] : counts.counts)
+  for (const auto& [kernel, per_call] : counts.per_call)
     document["kernels"].push_back({{"kernel", kernel},
-                                   {"cells", {cells, cells, cells}},
+                                   {"cells", {cells_of_cube, cells_of_cube, cells_of_cube}},
                                    {"instructions_per_call", per_call},
-                                   {"instructions_per_node", per_node}});
+                                   {"instructions_per_node", per_call / nodes_of_cube}});
   return document;
 }
 

@@ -3,22 +3,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace springproof::compare {
 
-/// Instructions of one call of a kernel, which are the same on every run of the same binary.
-struct InstructionCount {
-  std::string kernel;
-  int cells; ///< along each edge of the cube
-  double per_call;
-  double per_node; ///< of the cube
-};
-
+/// Instructions of one call of each kernel, which are the same on every run of the same binary.
 struct InstructionCounts {
-  std::string instruction_set; ///< of the kernels: valgrind knows no AVX-512
-  std::vector<InstructionCount> counts;
-  std::string reason; ///< why there are none; empty when there are
+  std::string instruction_set;                          ///< of the kernels: valgrind knows no AVX-512
+  std::vector<std::pair<std::string, double>> per_call; ///< of the kernels by name
+  std::string reason;                                   ///< why there are none; empty when there are
 };
 
 /// Counts the instructions of the springs' kernels with valgrind's callgrind: each runs twice, a few times
