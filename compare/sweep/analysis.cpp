@@ -119,12 +119,12 @@ std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points
       [](const Point& p) { return std::tuple(p.error_percent, p.seconds); });
 }
 
-std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors,
-                                                double fraction) {
+std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors) {
   if (errors.empty() || !errors.back()) return std::nullopt;
   const double floor = *errors.back();
   std::size_t level = errors.size() - 1;
-  while (level > 0 && errors[level - 1] && std::abs(*errors[level - 1] - floor) <= fraction * floor) --level;
+  while (level > 0 && errors[level - 1] && std::abs(*errors[level - 1] - floor) <= floor_fraction * floor)
+    --level;
   return level;
 }
 
@@ -220,7 +220,7 @@ std::string most_accurate_sentence(const std::vector<Point>& points, double seco
 
 std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
                            const std::vector<std::optional<double>>& errors) {
-  const auto level = first_level_at_floor(errors, floor_fraction);
+  const auto level = first_level_at_floor(errors);
   if (!level) return design + ": no error on the finest level, so no floor is known.";
   const double floor = *errors.back();
   std::size_t least_level = errors.size() - 1;

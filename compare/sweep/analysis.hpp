@@ -25,12 +25,13 @@ std::optional<std::size_t> fastest_within(const std::vector<Point>& points, doub
 /// The most accurate point that takes at most a time; of equally accurate ones the faster.
 std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points, double seconds);
 
-/// The coarsest level from which on every error lies within a fraction of the last one, which is the floor
-/// that refinement leads to. The last level itself: no floor is in sight. Nothing without an error on the
-/// last level.
+/// An error is at its floor when it is within this fraction of the one with the most cells.
+constexpr double floor_fraction = 0.1;
+
+/// The coarsest level from which on every error is at the floor that refinement leads to. The last level
+/// itself: no floor is in sight. Nothing without an error on the last level.
 /// @param errors  per level, coarse to fine; where one is missing, no floor reaches across
-std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors,
-                                                double fraction);
+std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors);
 
 /// What an error is of.
 enum class Error { field, worst_measure };
@@ -73,9 +74,6 @@ std::string most_accurate_sentence(const std::vector<Point>& points, double seco
 /// @param levels  names of the resolutions, coarse to fine     @param errors  percent, one per level
 std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
                            const std::vector<std::optional<double>>& errors);
-
-/// An error is at its floor when it is within this fraction of the one with the most cells.
-constexpr double floor_fraction = 0.1;
 
 /// What a sweep's numbers say, grouped: a heading and its sentences.
 struct Conclusions {
