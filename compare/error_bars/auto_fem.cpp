@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/solve/solve.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
@@ -42,12 +41,11 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
   linear.formulation = cases::Formulation::small_strain;
   FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
   const std::string finite = cases::name_of(scene.definition.fem.formulation);
-  if (!tried.answer.converged()) {
+  if (!tried.answer.converged())
     return {{},
             scene.definition.fem,
             {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
                          tried.answer.solution.message)}};
-  }
   const double gradient = 100 * largest_gradient(scene.mesh, tried.answer.solution.displacement);
   const double tolerated = tolerated_by_all(scene, tried.answer.solution);
   const bool is_small = gradient < tolerated;

@@ -10,12 +10,6 @@
 
 namespace springproof::compare {
 
-namespace {
-
-constexpr double safety_factor = 1.25; ///< Roache's, for three meshes and more
-
-} // namespace
-
 MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio, double resolved) {
   assert(coarse_to_fine.size() >= 3 && ratio > 1);
   const std::size_t n = coarse_to_fine.size();
@@ -40,6 +34,7 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
 }
 
 double discretisation_error_percent(double value, const MeshLimit& limit) {
+  constexpr double safety_factor = 1.25; // Roache's, for three meshes and more
   return 100 * safety_factor * std::abs((value - limit.extrapolated) / value);
 }
 

@@ -79,10 +79,7 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     const cases::Measure* measure = find_named(scene.definition.measures, expected.measure);
     const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
     Gate gate = judge(expected, measures);
-    if (expected.quantity == Quantity::error_percent)
-      gate.unit = "%";
-    else if (measure)
-      gate.unit = unit_of(*measure);
+    gate.unit = expected.quantity == Quantity::error_percent ? "%" : measure ? unit_of(*measure) : "";
     if (!gate.met() && !gate.value && find_named(measures, expected.measure))
       gate.cause = why_without_value(answers, expected.quantity);
     gate.uncertainty = uncertainty(gate, measure, studied);

@@ -263,12 +263,9 @@ Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules&
 
   for (std::size_t v = 0; v < sweep.plan.variants.size(); ++v) {
     const Variant& variant = sweep.plan.variants[v];
-    sweep.rows.push_back({variant,
-                          sweep.processes == Processes::this_one
-                              ? run_here(sweep, variant)
-                              : run_in_own_process(sweep, variant, program),
-                          std::nullopt,
-                          {}});
+    sweep.rows.push_back({variant, sweep.processes == Processes::this_one
+                                       ? run_here(sweep, variant)
+                                       : run_in_own_process(sweep, variant, program)});
     const std::size_t n_reference = sweep.plan.reference.size();
     if (v + 1 == n_reference) {
       find_reference(sweep);

@@ -50,8 +50,8 @@ VariantRun variant_run_from(const std::string& answer);
 struct SweepRow {
   Variant variant;
   VariantRun run;
-  std::optional<double> field_error_percent;
-  std::vector<std::optional<double>> measure_error_percent; ///< of the case's measures, with their sign
+  std::optional<double> field_error_percent{};
+  std::vector<std::optional<double>> measure_error_percent{}; ///< of the case's measures, with their sign
 };
 
 enum class Processes { one_per_variant, this_one };

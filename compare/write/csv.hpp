@@ -12,15 +12,6 @@
 
 namespace springproof::compare {
 
-/// A field of a comma-separated file as RFC 4180 has it: a text with a comma, a quote or a line break stands
-/// in quotes, and its quotes are doubled.
-inline std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 /// Writes comma-separated rows: numbers to so many digits, whole numbers and texts as they are, nothing for a
 /// value that is absent, the fields of a vector one after the other.
 class CsvWriter {
@@ -37,7 +28,14 @@ class CsvWriter {
   void end_block() { out_ << "\n\n"; }
 
  private:
-  std::string field(const std::string& text) const { return csv_text(text); }
+  /// As RFC 4180 has it: a text with a comma, a quote or a line break stands in quotes, and its quotes are
+  /// doubled.
+  std::string field(const std::string& text) const {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+  }
   template<class Number>
   std::enable_if_t<std::is_arithmetic_v<Number>, std::string> field(Number value) const {
     if constexpr (std::is_floating_point_v<Number>)

@@ -38,13 +38,6 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
   fmt::print(out, "\n");
 }
 
-void write_external(std::ostream& out, const Answers& answers) {
-  const cases::Solution& s = answers.msm.solution;
-  fmt::print(out, "  msm  displacements of {} at {} nodes", answers.msm_source, s.displacement.size());
-  if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
-  fmt::print(out, "\n");
-}
-
 std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {
   if (!design) return cases::name_of(method);
   const auto& [edge, face_diagonal, internal_diagonal, volume] = design->stiffness;
@@ -193,10 +186,11 @@ void write_text(std::ostream& out, const Comparison& comparison) {
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
              answers.fem);
   for (const std::string& choice : answers.choices) fmt::print(out, "       {}\n", choice);
-  if (answers.msm_source.empty())
+  if (const cases::Solution& msm = answers.msm.solution; answers.msm_source.empty())
     write_side(out, "msm", describe(answers.design, definition.msm.design), answers.msm);
   else
-    write_external(out, answers);
+    fmt::print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source, msm.displacement.size(),
+               msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) fmt::print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);

@@ -5,7 +5,6 @@
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 namespace springproof::compare {
