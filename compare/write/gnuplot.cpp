@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <spawn.h>
 #include <sys/wait.h>
