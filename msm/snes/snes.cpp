@@ -1,19 +1,210 @@
 #include "msm/snes/snes.hpp"
 
+#include "cases/case/index.hpp"
 #include "mechanics/equilibrium/newton.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
-#include "msm/snes/part.hpp"
+#include "mechanics/petsc/handles.hpp"
+#include "msm/tangent.hpp"
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 namespace springproof::msm {
 
+using cases::index;
 using mechanics::petsc::check;
+using mechanics::petsc::ReadEntries;
+using mechanics::petsc::WriteEntries;
 namespace petsc = mechanics::petsc;
 
 namespace {
 
 constexpr PetscInt direct_up_to = 30000; ///< unknowns; there both ways take about as long
+
+/// A rank's part of the lattice: its points, and the springs and cells whose first point is among them.
+/// Points of others that these touch are ghosts at the end of the rank's own.
+class Part {
+ public:
+  Part(const Problem& problem, MPI_Comm communicator) : problem_(problem), communicator_(communicator) {
+    deal_out();
+    lattice_.rest.resize(index(n_own_) + ghosts_.size());
+    for (std::size_t local = 0; local < lattice_.rest.size(); ++local)
+      lattice_.rest[local] = problem.lattice.rest[index(global(local))];
+    for (const Link& link : problem.lattice.links)
+      if (owns(link.i)) lattice_.links.push_back({local(link.i), local(link.j), link.spring});
+    for (const VolumeCell& cell : problem.lattice.volume_cells)
+      if (owns(cell.nodes[0])) {
+        lattice_.volume_cells.push_back(cell);
+        for (int& node : lattice_.volume_cells.back().nodes) node = local(node);
+      }
+    for (PetscInt d = 3 * first_; d < 3 * (first_ + n_own_); ++d)
+      if (problem.is_constrained[index(d)]) constrained_.push_back(d);
+    moved_ = make_vector();
+    force_ = make_vector();
+    applied_ = make_vector();
+    put(applied_.get(), own(problem.force));
+    const WriteEntries applied(applied_.get());
+    for (const PetscInt d : constrained_) applied[d - 3 * first_] = 0;
+  }
+
+  petsc::Vector make_vector() const {
+    const auto n_ghosts = static_cast<PetscInt>(ghosts_.size());
+    return petsc::Vector(petsc::get<Vec>(VecCreateGhostBlock, communicator_, 3, 3 * n_own_, PETSC_DECIDE,
+                                         n_ghosts, ghosts_.data()));
+  }
+
+  petsc::Matrix make_matrix() const {
+    const auto create = [&](MatType type) {
+      const Mat made = petsc::get<Mat>(MatCreate, communicator_);
+      petsc::Matrix owned(made);
+      check(MatSetSizes(made, 3 * n_own_, 3 * n_own_, PETSC_DECIDE, PETSC_DECIDE));
+      check(MatSetType(made, type));
+      check(MatSetBlockSize(made, 3));
+      return owned;
+    };
+    petsc::Matrix matrix = create(MATAIJ); // GAMG's coarsening wants it, with its block size
+    const petsc::Matrix sparsity = create(MATPREALLOCATOR);
+    check(MatSetUp(sparsity.get()));
+    add_tangent(lattice_.rest, sparsity.get());
+    check(MatPreallocatorPreallocate(sparsity.get(), PETSC_TRUE, matrix.get()));
+    check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+    // Where it is not definite, the pivots' signs or conjugate gradients tell.
+    check(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE));
+    petsc::attach_rigid_motions(matrix.get(), lattice_.rest);
+    return matrix;
+  }
+
+  /// This rank's entries of values of all points.
+  Vector own(const Points& values) const {
+    return Eigen::Map<const Vector>(values.front().data() + 3 * first_, 3 * n_own_);
+  }
+
+  /// Values of all points, on every rank.
+  Points gather(Vec vector) const {
+    VecScatter scatter = nullptr;
+    Vec all = nullptr;
+    check(VecScatterCreateToAll(vector, &scatter, &all));
+    const petsc::Vector owned(all);
+    check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterDestroy(&scatter));
+    Points values(problem_.lattice.rest.size());
+    std::copy_n(ReadEntries(all).data(), 3 * values.size(), values.front().data());
+    return values;
+  }
+
+  /// Between PETSc's vectors and the driver's: owned entries.
+  void put(Vec vector, const Vector& own) const {
+    std::copy(own.begin(), own.end(), WriteEntries(vector).data());
+  }
+  Vector own(Vec vector) const { return Eigen::Map<const Vector>(ReadEntries(vector).data(), 3 * n_own_); }
+
+  /// Minus the forces on the points at a displacement, N; of constrained degrees of freedom how far they are
+  /// from where they should be, mm. SNES' function: it has the tangent as its derivative.
+  void residual(Vec displacement, double load_factor, Vec out) const {
+    const Points internal = internal_force(lattice_, local_positions(displacement));
+    {
+      const WriteEntries force(force_.get());
+      for (std::size_t p = 0; p < internal.size(); ++p)
+        for (int c = 0; c < 3; ++c) force[3 * p + static_cast<std::size_t>(c)] = -internal[p][c];
+    }
+    petsc::add_ghosts(force_.get());
+    check(VecCopy(force_.get(), out));
+    check(VecAXPY(out, -load_factor, applied_.get()));
+    // An iterative solver moves the supports a little: the next step has to bring them back.
+    const ReadEntries is(displacement);
+    const WriteEntries entries(out);
+    for_each_constrained(load_factor,
+                         [&](PetscInt d, double prescribed) { entries[d] = is[d] - prescribed; });
+  }
+
+  void tangent(Vec displacement, Mat matrix) const {
+    check(MatZeroEntries(matrix));
+    add_tangent(local_positions(displacement), matrix);
+    check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
+                             nullptr, nullptr));
+  }
+
+  /// Sets the constrained degrees of freedom.
+  void move_supports(Vec displacement, double load_factor) const {
+    const WriteEntries entries(displacement);
+    for_each_constrained(load_factor, [&](PetscInt d, double prescribed) { entries[d] = prescribed; });
+  }
+
+  /// What residuals are measured against: the norm of the applied forces, N; 1 when there are none.
+  double reference_force() const {
+    const auto norm = petsc::get<PetscReal>(VecNorm, applied_.get(), NORM_2);
+    return norm > 0 ? norm : 1;
+  }
+
+ private:
+  const Problem& problem_;
+  MPI_Comm communicator_;
+  PetscInt first_ = 0, n_own_ = 0;
+  std::vector<PetscInt> ghosts_;      ///< ascending
+  std::vector<PetscInt> constrained_; ///< owned degrees of freedom
+  Lattice lattice_;                   ///< in local numbers
+  petsc::Vector moved_, force_, applied_;
+
+  bool owns(int point) const { return point >= first_ && point < first_ + n_own_; }
+
+  PetscInt global(std::size_t local) const {
+    return local < index(n_own_) ? first_ + static_cast<PetscInt>(local) : ghosts_[local - index(n_own_)];
+  }
+
+  int local(int point) const {
+    if (owns(point)) return point - static_cast<int>(first_);
+    const auto at = std::lower_bound(ghosts_.begin(), ghosts_.end(), point);
+    return static_cast<int>(n_own_ + (at - ghosts_.begin()));
+  }
+
+  void deal_out() {
+    n_own_ = PETSC_DECIDE;
+    PetscInt all = static_cast<PetscInt>(problem_.lattice.rest.size()), end = 0;
+    check(PetscSplitOwnership(communicator_, &n_own_, &all));
+    MPI_Scan(&n_own_, &end, 1, MPIU_INT, MPI_SUM, communicator_);
+    first_ = end - n_own_;
+    std::set<PetscInt> touched;
+    for (const Link& link : problem_.lattice.links)
+      if (owns(link.i) && !owns(link.j)) touched.insert(link.j);
+    for (const VolumeCell& cell : problem_.lattice.volume_cells)
+      if (owns(cell.nodes[0]))
+        for (const int node : cell.nodes)
+          if (!owns(node)) touched.insert(node);
+    ghosts_.assign(touched.begin(), touched.end());
+  }
+
+  void add_tangent(const Points& positions, Mat matrix) const {
+    const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
+      const PetscInt row = global(index(i)), column = global(index(j));
+      const Eigen::Matrix3d transposed = block.transpose(); // PETSc wants rows, Eigen stores columns
+      check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, transposed.data(), ADD_VALUES));
+      if (i != j) check(MatSetValuesBlocked(matrix, 1, &column, 1, &row, block.data(), ADD_VALUES));
+    };
+    visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  }
+
+  Points local_positions(Vec displacement) const {
+    check(VecCopy(displacement, moved_.get()));
+    petsc::update_ghosts(moved_.get());
+    const ReadEntries entries(moved_.get());
+    Points positions = lattice_.rest;
+    for (std::size_t p = 0; p < positions.size(); ++p)
+      positions[p] += Eigen::Vector3d(entries[3 * p], entries[3 * p + 1], entries[3 * p + 2]);
+    return positions;
+  }
+
+  /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.
+  template<class Action>
+  void for_each_constrained(double load_factor, const Action& action) const {
+    const Points supports = problem_.supports ? problem_.supports(load_factor) : Points{};
+    for (const PetscInt d : constrained_)
+      action(d - 3 * first_, supports.empty() ? 0 : supports[index(d / 3)][static_cast<int>(d % 3)]);
+  }
+};
 
 /// A right side with a part in every mode.
 petsc::Vector random_like(const petsc::Vector& vector) {
@@ -22,7 +213,7 @@ petsc::Vector random_like(const petsc::Vector& vector) {
   check(VecGetOwnershipRange(right.get(), &first, &last));
   std::mt19937 generator(3u + static_cast<unsigned>(first));
   std::normal_distribution<double> normal;
-  const petsc::WriteEntries entries(right.get());
+  const WriteEntries entries(right.get());
   for (PetscInt d = 0; d < last - first; ++d) entries[d] = normal(generator);
   return right;
 }
