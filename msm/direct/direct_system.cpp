@@ -1,13 +1,14 @@
 #include "msm/direct/direct_system.hpp"
 
-#include "mechanics/equilibrium/lanczos.hpp"
 #include "msm/tangent.hpp"
 
 #include <Eigen/CholmodSupport>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <omp.h>
+#include <random>
 
 namespace springproof::msm {
 
@@ -57,6 +58,35 @@ class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower>
   }
 };
 
+/// Largest eigenvalue of a symmetric operator and its eigenvector, by Lanczos with full reorthogonalisation
+/// from a fixed pseudo-random vector: to 1e-6 relative, or what 60 steps give.
+mechanics::NonlinearProblem::Mode largest_mode(const std::function<Vector(const Vector&)>& apply,
+                                               Eigen::Index n) {
+  const Eigen::Index max_steps = std::min<Eigen::Index>(60, n);
+  Eigen::MatrixXd basis(n, max_steps);
+  Vector alpha(max_steps), beta(max_steps);
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  for (Eigen::Index i = 0; i < n; ++i) basis(i, 0) = normal(generator);
+  basis.col(0).normalize();
+  for (Eigen::Index step = 0;; ++step) {
+    Vector next = apply(basis.col(step));
+    alpha[step] = next.dot(basis.col(step));
+    for (int pass = 0; pass < 2; ++pass) // twice is enough (Kahan)
+      next -= basis.leftCols(step + 1) * (basis.leftCols(step + 1).transpose() * next);
+    beta[step] = next.norm();
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(alpha.head(step + 1), beta.head(step));
+    const double largest = ritz.eigenvalues()[step];
+    const Vector weights = ritz.eigenvectors().col(step);
+    // |A x - theta x| = beta |last weight|
+    const bool converged = beta[step] * std::abs(weights[step]) <= 1e-6 * std::abs(largest);
+    if (converged || step + 1 == max_steps)
+      return {largest, (basis.leftCols(step + 1) * weights).normalized()};
+    basis.col(step + 1) = next / beta[step];
+  }
+}
+
 /// Calls action(point, component, place in a vector): free degrees of freedom, and then, if supports move,
 /// constrained ones.
 template<class Action>
@@ -101,7 +131,7 @@ class DirectSystem : public SpringSystem {
       shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
     const auto apply = [&](const Vector& v) -> Vector { return factorisation_.solve(v); };
     const OneThread one;
-    mechanics::LargestMode mode = mechanics::largest_mode(apply, tangent_.n_free());
+    const Mode mode = largest_mode(apply, tangent_.n_free());
     return Mode{1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
 
