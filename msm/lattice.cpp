@@ -11,16 +11,6 @@ namespace {
 
 using cases::index;
 
-template<class Pairs>
-void add_links(const std::array<int, 8>& cell, const Pairs& pairs, double stiffness,
-               std::vector<Link>& links) {
-  if (stiffness == 0) return;
-  for (const auto& pair : pairs) {
-    const auto [i, j] = std::minmax(cell[index(pair[0])], cell[index(pair[1])]);
-    links.push_back({i, j, {stiffness, 0}});
-  }
-}
-
 /// Links between the same two points become one with the sum of their stiffnesses.
 std::vector<Link> merge(std::vector<Link> links) {
   const auto points = [](const Link& link) { return std::pair(link.i, link.j); };
@@ -49,9 +39,10 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
   lattice.rest = mesh.nodes;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
-    add_links(mesh.cells[c], cases::cell_edges, k.edge, lattice.links);
-    add_links(mesh.cells[c], cases::cell_face_diagonals, k.face_diagonal, lattice.links);
-    add_links(mesh.cells[c], cases::cell_internal_diagonals, k.internal_diagonal, lattice.links);
+    for_each_spring(k, [&](int v, int w, double of_spring) {
+      const auto [i, j] = std::minmax(mesh.cells[c][index(v)], mesh.cells[c][index(w)]);
+      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0}});
+    });
     if (k.volume != 0)
       lattice.volume_cells.push_back(
           {mesh.cells[c], k.volume, cases::cell_volume(cases::cell_vertices(mesh, c))});

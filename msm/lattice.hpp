@@ -17,6 +17,14 @@ struct CellStiffness {
   double volume = 0;            ///< k_v, MPa
 };
 
+/// Calls action(vertex, vertex, stiffness) for the springs of a cell.
+template<class Action>
+void for_each_spring(const CellStiffness& stiffness, const Action& action) {
+  for (const auto& [v, w] : cases::cell_edges) action(v, w, stiffness.edge);
+  for (const auto& [v, w] : cases::cell_face_diagonals) action(v, w, stiffness.face_diagonal);
+  for (const auto& [v, w] : cases::cell_internal_diagonals) action(v, w, stiffness.internal_diagonal);
+}
+
 /// Two points joined by a spring. Springs that cells share are one link with the sum of the cells'
 /// stiffnesses.
 struct Link {

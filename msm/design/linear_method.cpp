@@ -6,18 +6,6 @@ namespace springproof::msm {
 
 namespace {
 
-template<class Pairs>
-void add_springs(CellMatrix& matrix, const CellVertices& vertices, const Pairs& springs, double stiffness) {
-  for (const auto& [i, j] : springs) {
-    const Eigen::Vector3d d = vertices[static_cast<std::size_t>(j)] - vertices[static_cast<std::size_t>(i)];
-    const Eigen::Matrix3d block = stiffness / d.squaredNorm() * d * d.transpose();
-    matrix.block<3, 3>(3 * i, 3 * i) += block;
-    matrix.block<3, 3>(3 * j, 3 * j) += block;
-    matrix.block<3, 3>(3 * i, 3 * j) -= block;
-    matrix.block<3, 3>(3 * j, 3 * i) -= block;
-  }
-}
-
 void add_volume_term(CellMatrix& matrix, const CellVertices& vertices, double stiffness) {
   const auto by_vertex = trilinear_volume_gradient(vertices);
   Eigen::Matrix<double, 24, 1> gradient;
@@ -29,9 +17,14 @@ void add_volume_term(CellMatrix& matrix, const CellVertices& vertices, double st
 
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness) {
   CellMatrix matrix = CellMatrix::Zero();
-  add_springs(matrix, vertices, cases::cell_edges, stiffness.edge);
-  add_springs(matrix, vertices, cases::cell_face_diagonals, stiffness.face_diagonal);
-  add_springs(matrix, vertices, cases::cell_internal_diagonals, stiffness.internal_diagonal);
+  for_each_spring(stiffness, [&](int i, int j, double of_spring) {
+    const Eigen::Vector3d d = vertices[static_cast<std::size_t>(j)] - vertices[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d block = of_spring / d.squaredNorm() * d * d.transpose();
+    matrix.block<3, 3>(3 * i, 3 * i) += block;
+    matrix.block<3, 3>(3 * j, 3 * j) += block;
+    matrix.block<3, 3>(3 * i, 3 * j) -= block;
+    matrix.block<3, 3>(3 * j, 3 * i) -= block;
+  });
   if (stiffness.volume != 0) add_volume_term(matrix, vertices, stiffness.volume);
   return matrix;
 }
