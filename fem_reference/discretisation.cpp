@@ -1,16 +1,89 @@
 #include "fem_reference/discretisation.hpp"
 
 #include "cases/case/index.hpp"
-#include "fem_reference/loads.hpp"
 #include "fem_reference/space.hpp"
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/sparsity_tools.h>
+#include <set>
 
 namespace springproof::fem_reference {
+
+using cases::index;
+using Eigen::Vector3d;
+
+namespace {
+
+void add(Vec load, int local_node, const Vector3d& force) {
+  check(VecSetValuesBlockedLocal(load, 1, &local_node, force.data(), ADD_VALUES));
+}
+
+void add_point_forces(const cases::Scene& scene, const Nodes& nodes, Vec load) {
+  const std::vector<Vector3d> forces = cases::point_forces(scene);
+  for (int node = 0; node < nodes.n_owned; ++node)
+    if (nodes.mesh_node[index(node)] >= 0) add(load, node, forces[index(nodes.mesh_node[index(node)])]);
+}
+
+/// Integrates a traction or torque over the faces of its region with the element's own shape functions.
+void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& applied, const Space& space,
+                  const Nodes& nodes, Vec load) {
+  const double moment =
+      applied.load.kind == cases::LoadKind::torque ? cases::polar_moment(scene.mesh, applied) : 1;
+  std::set<std::set<int>> faces; // by their vertices
+  for (const auto& face : applied.selection.faces) faces.emplace(face.begin(), face.end());
+  const dealii::QGauss<2> quadrature(space.node_element.degree + 2);
+  dealii::FEFaceValues<3> values(space.mapping, space.node_element, quadrature,
+                                 dealii::update_values | dealii::update_quadrature_points |
+                                     dealii::update_JxW_values);
+  const int* node = nodes.of_cell.data();
+  for (const auto& cell : space.own_cells()) {
+    for (const auto& face : cell->face_iterators()) {
+      std::set<int> vertices;
+      for (unsigned v = 0; v < 4; ++v) vertices.insert(static_cast<int>(face->vertex_index(v)));
+      if (!face->at_boundary() || faces.count(vertices) == 0) continue;
+      values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
+      for (const unsigned q : values.quadrature_point_indices()) {
+        const auto& at = values.quadrature_point(q);
+        const Vector3d traction = cases::surface_traction(applied, {at[0], at[1], at[2]}, moment);
+        for (const unsigned a : values.dof_indices())
+          add(load, node[a], values.JxW(q) * values.shape_value(a, q) * traction);
+      }
+    }
+    node += nodes.per_cell;
+  }
+}
+
+void add_body_force(const Nodes& nodes, const Geometry& geometry, const Prescribed& prescribed, Vec load) {
+  for (int cell = 0; cell < nodes.n_cells; ++cell)
+    for (int q = 0; q < geometry.n_points; ++q) {
+      const Vector3d force = geometry.of(cell).weights[q] * prescribed.body_force(geometry.point(cell, q));
+      for (int a = 0; a < nodes.per_cell; ++a)
+        add(load, nodes.of_cell[index(cell * nodes.per_cell + a)],
+            geometry.shape_values[index(q * nodes.per_cell + a)] * force);
+    }
+}
+
+/// Point forces, tractions, torques and the body force at full load, N per owned degree of freedom.
+std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
+                                   const Geometry& geometry, const Prescribed& prescribed) {
+  const Vector load = nodes.make_vector(space.mesh.get_communicator());
+  add_point_forces(scene, nodes, load.get());
+  for (const auto& applied : scene.loads)
+    if (applied.load.kind == cases::LoadKind::traction || applied.load.kind == cases::LoadKind::torque)
+      add_traction(scene, applied, space, nodes, load.get());
+  if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
+  check(VecAssemblyBegin(load.get()));
+  check(VecAssemblyEnd(load.get()));
+  const ReadEntries values(load.get());
+  return {values.data(), values.data() + 3 * nodes.n_owned};
+}
+
+} // namespace
 
 Discretisation::Discretisation(const cases::Scene& scene, const ElementType& type,
                                const Prescribed& prescribed, MPI_Comm all_ranks)
@@ -19,8 +92,7 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& typ
       constraints(scene, nodes, prescribed, communicator),
       load(assemble_loads(scene, *space_, nodes, geometry, prescribed)) {
   if (!scene.material_of_cell.empty())
-    for (const int cell : nodes.mesh_cell)
-      material_of_cell.push_back(scene.material_of_cell[cases::index(cell)]);
+    for (const int cell : nodes.mesh_cell) material_of_cell.push_back(scene.material_of_cell[index(cell)]);
 }
 
 Discretisation::~Discretisation() = default;
