@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/nodes.hpp"
+#include "fem_reference/geometry.hpp"
 
 #include <functional>
 

@@ -1,9 +1,40 @@
 #pragma once
 
+#include "cases/scene/scene.hpp"
 #include "fem_reference/element.hpp"
-#include "fem_reference/nodes.hpp"
+#include "mechanics/petsc/handles.hpp"
+
+#include <vector>
 
 namespace springproof::fem_reference {
+
+using mechanics::petsc::check;
+using mechanics::petsc::get;
+using mechanics::petsc::Matrix;
+using mechanics::petsc::ReadEntries;
+using mechanics::petsc::Vector;
+using mechanics::petsc::WriteEntries;
+
+struct Space;
+
+/// The nodes of one rank's cells under local numbers, the owned before the ghosts. The three degrees of
+/// freedom of local node k are 3*k + component, as in a vector of PETSc with ghosts.
+struct Nodes {
+  Nodes(const Space& space, const cases::Scene& scene);
+
+  int n_owned = 0;
+  int n_cells = 0; ///< owned by this rank
+  int per_cell = 0;
+  std::vector<PetscInt> global;       ///< number of each local node among all ranks'
+  std::vector<int> of_cell;           ///< local nodes, per_cell for each cell
+  std::vector<int> mesh_cell;         ///< number of each cell in the scene's mesh
+  std::vector<int> mesh_node;         ///< number of each local node in the scene's mesh, -1 where it has none
+  std::vector<Eigen::Vector3d> point; ///< rest position of each local node, mm
+  std::vector<std::vector<int>> between; ///< for each node of a cell: the cell's vertices whose mean it is
+
+  /// A vector of displacements or forces with ghosts, zero.
+  Vector make_vector(MPI_Comm communicator) const;
+};
 
 /// Shape functions, gradients, weights and pressure modes at the quadrature points of a rank's cells at rest.
 class Geometry {
