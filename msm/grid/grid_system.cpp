@@ -127,6 +127,8 @@ class GridSystem : public SpringSystem {
     return mode_;
   }
 
+  bool moves_supports() const override { return bool(problem_.supports); }
+
   int n_inverted(const Vector& displacement) override {
     const Body& body = problem_.body;
     int n = 0;
@@ -145,10 +147,6 @@ class GridSystem : public SpringSystem {
           if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++n;
         }
     return n;
-  }
-
-  bool moves_supports() const override {
-    return bool(problem_.supports);
   }
 
   void move_supports(Vector& displacement, double load_factor) const override {
@@ -253,7 +251,6 @@ class GridSystem : public SpringSystem {
 } // namespace
 
 GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness) {
-
   const cases::Grid& grid = *problem.mesh.grid;
   GridProblem result;
   Body& body = result.body;
