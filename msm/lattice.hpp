@@ -1,12 +1,12 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "msm/cell_volume.hpp"
 #include "msm/spring.hpp"
 
 namespace springproof::msm {
 
 using Points = std::vector<Eigen::Vector3d>;
+using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j + 4k
 
 /// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
 /// diagonals, and the volume term (k_v/2) V0 (V/V0 - 1)².
@@ -45,6 +45,19 @@ struct Lattice {
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
 };
+
+/// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
+///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
+/// with T constant and antisymmetric, so that all three are exact. The volume under a bilinear face a, b, c,
+/// d, anticlockwise from outside, is the mean of what its two triangulations give: it adds (b x c + c x d + b
+/// x d) / 12 to the derivative with respect to a.
+double trilinear_volume(const CellPositions& x);
+
+/// dV/dx_a, mm².
+std::array<Eigen::Vector3d, 8> trilinear_volume_gradient(const CellPositions& x);
+
+/// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
+std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x);
 
 /// Positions of the cell's vertices, mm.
 CellPositions cell_positions(const VolumeCell& cell, const Points& positions);

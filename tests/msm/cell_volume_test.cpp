@@ -1,6 +1,5 @@
-#include "msm/cell_volume.hpp"
+#include "msm/lattice.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <algorithm>
