@@ -2,7 +2,7 @@
 
 #include "compare/solve/answers.hpp"
 
-/// Displacements that another simulator computed, read from a file, in place of our springs'.
+/// Displacements that another simulator computed, as they stand in a file and in place of our springs'.
 namespace springproof::compare {
 
 /// One node of the other program.
