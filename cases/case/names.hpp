@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 /// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike.
@@ -25,36 +24,25 @@ char between_words(Enum) {
 /// The enumerators of a list separated by commas.
 std::vector<std::string> split_enumerators(const char* list, char between_words);
 
-/// Names of a SPRINGPROOF_ENUMERATION, in the order in which messages list them.
+/// Every name of a SPRINGPROOF_ENUMERATION, in the order in which messages list them.
 template<class Enum>
-const std::vector<std::pair<Enum, std::string>>& names() {
-  static const auto table = [] {
-    std::vector<std::pair<Enum, std::string>> all;
-    for (const std::string& name : split_enumerators(enumerators(Enum{}), between_words(Enum{})))
-      all.emplace_back(static_cast<Enum>(all.size()), name);
-    return all;
-  }();
-  return table;
+const std::vector<std::string>& all_names() {
+  static const auto names = split_enumerators(enumerators(Enum{}), between_words(Enum{}));
+  return names;
 }
 
 /// Name of an enumerator.
 template<class Enum>
 std::string name_of(Enum value) {
-  return names<Enum>().at(static_cast<std::size_t>(value)).second;
+  return all_names<Enum>().at(static_cast<std::size_t>(value));
 }
 
 /// Enumerator of that name, if there is one.
 template<class Enum>
 std::optional<Enum> value_of(const std::string& name) {
-  for (const auto& [value, known] : names<Enum>())
-    if (known == name) return value;
+  for (std::size_t n = 0; n < all_names<Enum>().size(); ++n)
+    if (all_names<Enum>()[n] == name) return static_cast<Enum>(n);
   return std::nullopt;
-}
-
-/// Every name of an enumeration, in order.
-template<class Enum>
-std::vector<std::string> all_names() {
-  return split_enumerators(enumerators(Enum{}), between_words(Enum{}));
 }
 
 /// The words of a list as a message shows them: "a" | "b" | "c".

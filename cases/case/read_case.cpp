@@ -121,14 +121,14 @@ Expectation read_expectation(Table& table, const std::vector<std::string>& measu
   expectation.measure = table.required("measure", read_text);
   table.entry("measure").word(measures);
   int n_quantities = 0;
-  for (const auto& [quantity, key] : names<Quantity>()) {
+  for (const std::string& key : all_names<Quantity>()) {
     const auto interval = table.optional(key, Numbers{"an interval [lower, upper] of two finite numbers", 2});
     if (!interval) continue;
     if (++n_quantities > 1)
       table.entry(key).refuse("left out: an expectation bounds one quantity, give each its own");
     if (!((*interval)[0] <= (*interval)[1]))
       table.entry(key).refuse("an interval [lower, upper] with lower <= upper");
-    expectation.quantity = quantity;
+    expectation.quantity = *value_of<Quantity>(key);
     const std::vector<Entry> ends = table.entry(key).elements("");
     expectation.ends_where = {ends[0].where, ends[1].where};
     expectation.interval = {(*interval)[0], (*interval)[1]};

@@ -196,7 +196,7 @@ std::vector<LoadPath> read_paths(const Entry& entry) {
 /// What the designs that are fitted to curves are fitted to.
 void read_fit(Table& table, Msm& msm) {
   msm.paths = table.optional("paths", read_paths).value_or(std::vector<LoadPath>{});
-  const std::size_t n_paths = msm.paths.empty() ? names<LoadPath>().size() : msm.paths.size();
+  const std::size_t n_paths = msm.paths.empty() ? all_names<LoadPath>().size() : msm.paths.size();
   const std::string per_path = fmt::format("{} numbers, none below 0 and not all 0: one per path", n_paths);
   if (const auto weights = table.optional("weights", Numbers{per_path, n_paths, is_not_negative})) {
     if (std::all_of(weights->begin(), weights->end(), [](double w) { return w == 0; }))

@@ -24,11 +24,11 @@ struct GateCount {
 /// Of the kinds that occur, in the order of their table.
 std::vector<GateCount> count_by_kind(const std::vector<Comparison>& cases) {
   std::vector<GateCount> counts;
-  for (const auto& [kind, name] : cases::names<cases::ReferenceKind>()) {
-    GateCount count{kind};
+  for (const std::string& name : cases::all_names<cases::ReferenceKind>()) {
+    GateCount count{*cases::value_of<cases::ReferenceKind>(name)};
     for (const Comparison& judged : cases)
       for (const Gate& gate : judged.gates) {
-        if (gate.expectation.reference != kind) continue;
+        if (gate.expectation.reference != count.kind) continue;
         ++count.all;
         if (gate.met()) ++count.met;
       }

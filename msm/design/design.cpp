@@ -129,7 +129,8 @@ Designed from_multi_load(const DesignRequest& request) {
   MultiLoadSettings settings;
   settings.paths = options.paths;
   if (settings.paths.empty())
-    for (const auto& [path, name] : cases::names<cases::LoadPath>()) settings.paths.push_back(path);
+    for (const std::string& name : cases::all_names<cases::LoadPath>())
+      settings.paths.push_back(*cases::value_of<cases::LoadPath>(name));
   settings.weights = options.weights;
   if (settings.weights.empty()) settings.weights.assign(settings.paths.size(), 1);
   const auto range = options.strain_range.value_or(by_material(request, ogden_range, linear_range));

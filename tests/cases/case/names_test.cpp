@@ -14,7 +14,7 @@ namespace {
 /// The names of an enumeration whose enumerators are 0, 1, ... n - 1: each has one, and it leads back.
 template<class Enum>
 void check_names(int n) {
-  CHECK(names<Enum>().size() == static_cast<std::size_t>(n));
+  CHECK(all_names<Enum>().size() == static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const Enum value = static_cast<Enum>(i);
     CHECK(name_of(value) != "?");
