@@ -45,6 +45,9 @@ extern const std::array<std::array<int, 2>, 12> cell_face_diagonals;
 extern const std::array<std::array<int, 2>, 4> cell_internal_diagonals;
 extern const std::array<std::array<int, 4>, 6> cell_faces; ///< x-, x+, y-, y+, z-, z+
 
+/// A cell's vertices as gmsh, VTK and CalculiX number them: around its bottom, then around its top.
+constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
+
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
 HexMesh make_grid_mesh(const Grid& grid);
 

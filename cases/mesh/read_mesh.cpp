@@ -24,9 +24,6 @@ using Tags = std::vector<std::size_t>;
 /// gmsh's numbers of element types.
 enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
 
-/// gmsh's vertices of a hexahedron go around its bottom, then around its top; ours are numbered i + 2j + 4k.
-constexpr std::array<std::size_t, 8> gmsh_vertex{0, 1, 3, 2, 4, 5, 7, 6};
-
 /// Elements of one type on one entity or dimension.
 struct Elements {
   int type;
@@ -87,7 +84,7 @@ class Builder {
         cell_tags_.push_back(elements.tags[e]);
         std::array<int, 8>& cell = mesh_.cells.emplace_back();
         for (std::size_t v = 0; v < 8; ++v) {
-          const std::size_t tag = elements.nodes[e][gmsh_vertex[v]];
+          const std::size_t tag = elements.nodes[e][around_cell[v]];
           if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
           cell[v] = static_cast<int>(tag);
         }

@@ -50,9 +50,6 @@ vtkStandardNewMacro(FirstError)
   if (!error->text.empty()) throw std::runtime_error(error->text);
 }
 
-/// VTK's order of a hexahedron's vertices in terms of v = i + 2j + 4k.
-constexpr std::array<std::size_t, 8> vtk_order{0, 1, 3, 2, 4, 5, 7, 6};
-
 /// An array of numbers or vectors.
 template<class Value>
 vtkNew<vtkDoubleArray> array_of(const std::string& name, const std::vector<Value>& values) {
@@ -78,7 +75,7 @@ std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<Point
   grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
   for (const std::array<int, 8>& cell : mesh.cells) {
     std::array<vtkIdType, 8> nodes;
-    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[vtk_order[v]];
+    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
     grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
   }
   for (const PointField& field : point_fields)

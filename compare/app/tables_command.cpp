@@ -1,6 +1,5 @@
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/stopwatch.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/thesis/write_files.hpp"

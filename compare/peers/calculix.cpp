@@ -20,9 +20,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// C3D8 goes around the bottom of a cell, then around its top; our vertex v = i + 2j + 4k.
-constexpr std::array<std::size_t, 8> c3d8_vertex{0, 1, 3, 2, 4, 5, 7, 6};
-
 /// CalculiX takes a residual below 1e-6 for zero, in whatever unit. Forces in millionths of a newton (and
 /// moduli likewise) put that far below what its convergence is controlled by; displacements do not change.
 constexpr double force_unit = 1e6;
@@ -52,7 +49,7 @@ void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
   fmt::print(out, "*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     fmt::print(out, "{}", c + 1);
-    for (const std::size_t v : c3d8_vertex) fmt::print(out, ", {}", mesh.cells[c][v] + 1);
+    for (const std::size_t v : cases::around_cell) fmt::print(out, ", {}", mesh.cells[c][v] + 1);
     fmt::print(out, "\n");
   }
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -36,5 +38,18 @@ bool blas_is_openblas();
 
 /// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
 void use_one_blas_thread();
+
+class Stopwatch {
+ public:
+  /// Wall-clock seconds since construction or the last lap().
+  double seconds() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    return elapsed.count();
+  }
+  double lap() { return std::exchange(*this, Stopwatch()).seconds(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 } // namespace springproof::compare

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/provenance/stopwatch.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/solve/answers.hpp"
 
 namespace springproof::compare {

@@ -2,7 +2,6 @@
 
 #include "compare/peers/calculix.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/stopwatch.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve.hpp"

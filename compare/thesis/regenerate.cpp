@@ -3,7 +3,6 @@
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/stopwatch.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
