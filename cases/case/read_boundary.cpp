@@ -70,16 +70,6 @@ void check_has_area(const Load& load, const Body& body) {
             name_of(load.kind)));
 }
 
-} // namespace
-
-Region read_region_text(const Entry& entry, const Body& body) {
-  const std::string text = read_text(entry);
-  const std::vector<std::string> words = words_of(text);
-  if (words.front() == "near") return {"", read_near_words(entry, text), entry.where};
-  if (!std::holds_alternative<MeshFile>(body)) check_box_region(entry, words);
-  return {text, std::nullopt, entry.where};
-}
-
 Region read_region(Table& table, const Body& body) {
   if (!table.has("near")) {
     Region region = read_region_text(table.entry("region"), body);
@@ -97,8 +87,6 @@ Region read_region(Table& table, const Body& body) {
                               region.near->z());
   return region;
 }
-
-namespace {
 
 Fixed read_fixed(Table& table, const Body& body) {
   Fixed fixed;
@@ -159,6 +147,14 @@ bool is_zero(const Load& load) {
 }
 
 } // namespace
+
+Region read_region_text(const Entry& entry, const Body& body) {
+  const std::string text = read_text(entry);
+  const std::vector<std::string> words = words_of(text);
+  if (words.front() == "near") return {"", read_near_words(entry, text), entry.where};
+  if (!std::holds_alternative<MeshFile>(body)) check_box_region(entry, words);
+  return {text, std::nullopt, entry.where};
+}
 
 void read_boundary(Table& root, Case& result) {
   const auto with_body = [&](auto read) {

@@ -49,6 +49,88 @@ std::optional<double> finite_number(const toml::node* node) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+std::string text_of(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  // A folder opens, but cannot be read.
+  if (!file || !(text << file.rdbuf())) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
+    throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);
+  }
+  return text.str();
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Steps "name" or "name[3]" joined by points.
+toml::path parse_path(const std::string& path, const Where& where) {
+  static const std::regex form(R"([\w-]+(\[\d{1,6}\])?(\.[\w-]+(\[\d{1,6}\])?)*)");
+  constexpr std::size_t longest = 1000; // std::regex needs stack for every character
+  if (path.size() > longest || !std::regex_match(path, form))
+    throw InputError(where, "is not a key, must be like fem.refine or load[0].value");
+  return toml::path(path);
+}
+
+/// One line of UTF-8 without control characters.
+bool is_line_of_text(const std::string& text) {
+  try {
+    return toml::parse("#" + text).empty(); // what TOML allows in a comment
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
+/// The value as a table {value = ...}: parsed as TOML, or else the text itself.
+toml::table parse_value(const std::string& text, const Where& where) {
+  try {
+    toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {
+    // a bare word
+  }
+  if (!is_line_of_text(text)) throw InputError(where, "is not one line of UTF-8 text");
+  return toml::table{{"value", text}};
+}
+
+/// Puts a setting into a document.
+void apply_override(toml::table& document, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const Where where{"", 0, 0, trimmed(setting.substr(0, equals))};
+  if (equals == std::string::npos) throw InputError(where, "is not KEY=VALUE");
+  const std::string text = trimmed(setting.substr(equals + 1));
+  if (text.empty()) throw InputError(where, "has no value, must be KEY=VALUE");
+
+  const toml::path path = parse_path(where.key, where);
+  toml::table parsed = parse_value(text, where);
+  toml::node* node = &document;
+  std::string key; // the last one on the way
+  for (std::size_t s = 0; s < path.size(); ++s) {
+    const bool is_last = s + 1 == path.size();
+    if (path[s].type() == toml::path_component_type::key) {
+      toml::table* const table = node->as_table();
+      if (!table) throw InputError(where, fmt::format("{} is not a table", key));
+      key = path[s].key();
+      if (is_last)
+        table->insert_or_assign(key, std::move(*parsed.get("value")));
+      else
+        node = &table->emplace<toml::table>(key).first->second;
+    } else {
+      toml::array* const array = node->as_array();
+      const std::size_t i = path[s].index(), size = array ? array->size() : 0;
+      if (i >= size)
+        throw InputError(where, fmt::format("there is no {}[{}], {} has {} elements", key, i, key, size));
+      if (is_last)
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(i), std::move(*parsed.get("value")));
+      else
+        node = array->get(i);
+    }
+  }
+}
+
 } // namespace
 
 void Entry::refuse(const std::string& allowed) const {
@@ -154,92 +236,6 @@ void Table::refuse_unknown_keys() const {
     refuse_key(key, value, problem);
   }
 }
-
-namespace {
-
-std::string text_of(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  // A folder opens, but cannot be read.
-  if (!file || !(text << file.rdbuf())) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
-    throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);
-  }
-  return text.str();
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// Steps "name" or "name[3]" joined by points.
-toml::path parse_path(const std::string& path, const Where& where) {
-  static const std::regex form(R"([\w-]+(\[\d{1,6}\])?(\.[\w-]+(\[\d{1,6}\])?)*)");
-  constexpr std::size_t longest = 1000; // std::regex needs stack for every character
-  if (path.size() > longest || !std::regex_match(path, form))
-    throw InputError(where, "is not a key, must be like fem.refine or load[0].value");
-  return toml::path(path);
-}
-
-/// One line of UTF-8 without control characters.
-bool is_line_of_text(const std::string& text) {
-  try {
-    return toml::parse("#" + text).empty(); // what TOML allows in a comment
-  } catch (const toml::parse_error&) {
-    return false;
-  }
-}
-
-/// The value as a table {value = ...}: parsed as TOML, or else the text itself.
-toml::table parse_value(const std::string& text, const Where& where) {
-  try {
-    toml::table parsed = toml::parse("value = " + text);
-    if (parsed.size() == 1) return parsed;
-  } catch (const toml::parse_error&) {
-    // a bare word
-  }
-  if (!is_line_of_text(text)) throw InputError(where, "is not one line of UTF-8 text");
-  return toml::table{{"value", text}};
-}
-
-/// Puts a setting into a document.
-void apply_override(toml::table& document, const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  const Where where{"", 0, 0, trimmed(setting.substr(0, equals))};
-  if (equals == std::string::npos) throw InputError(where, "is not KEY=VALUE");
-  const std::string text = trimmed(setting.substr(equals + 1));
-  if (text.empty()) throw InputError(where, "has no value, must be KEY=VALUE");
-
-  const toml::path path = parse_path(where.key, where);
-  toml::table parsed = parse_value(text, where);
-  toml::node* node = &document;
-  std::string key; // the last one on the way
-  for (std::size_t s = 0; s < path.size(); ++s) {
-    const bool is_last = s + 1 == path.size();
-    if (path[s].type() == toml::path_component_type::key) {
-      toml::table* const table = node->as_table();
-      if (!table) throw InputError(where, fmt::format("{} is not a table", key));
-      key = path[s].key();
-      if (is_last)
-        table->insert_or_assign(key, std::move(*parsed.get("value")));
-      else
-        node = &table->emplace<toml::table>(key).first->second;
-    } else {
-      toml::array* const array = node->as_array();
-      const std::size_t i = path[s].index(), size = array ? array->size() : 0;
-      if (i >= size)
-        throw InputError(where, fmt::format("there is no {}[{}], {} has {} elements", key, i, key, size));
-      if (is_last)
-        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(i), std::move(*parsed.get("value")));
-      else
-        node = array->get(i);
-    }
-  }
-}
-
-} // namespace
 
 toml::table parse_document(const std::string& text, const std::string& path) {
   try {

@@ -38,6 +38,89 @@ std::size_t number_of(int i, int j, int k, const std::array<int, 3>& counts) {
   return index(i) + index(counts[0]) * (index(j) + index(counts[1]) * index(k));
 }
 
+/// A position in steps of a spacing, if it is a whole number of them in each direction. It may be off by 1e-8
+/// of the spacing.
+std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vector3d& spacing) {
+  std::array<int, 3> whole{};
+  for (int a = 0; a < 3; ++a) {
+    const double ratio = from_origin[a] / spacing[a];
+    const double nearest = std::round(ratio);
+    if (!(std::abs(ratio - nearest) <= 1e-8 * std::max(1.0, nearest)) || !(nearest < 1e6))
+      return std::nullopt;
+    whole[index(a)] = static_cast<int>(nearest);
+  }
+  return whole;
+}
+
+template<class Points>
+Eigen::AlignedBox3d bounding_box(const Points& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points) box.extend(point);
+  return box;
+}
+
+/// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid of that spacing.
+std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t cell, const Vector3d& spacing) {
+  const auto vertices = cell_vertices(mesh, cell);
+  const Vector3d lower = bounding_box(vertices).min();
+  std::array<int, 8> ordered;
+  ordered.fill(-1);
+  for (std::size_t v = 0; v < 8; ++v) {
+    const auto corner = steps(vertices[v] - lower, spacing);
+    if (!corner || sorted(*corner).back() > 1) return std::nullopt;
+    ordered[number_of((*corner)[0], (*corner)[1], (*corner)[2], {2, 2, 2})] = mesh.cells[cell][v];
+  }
+  if (sorted(ordered).front() < 0) return std::nullopt;
+  return ordered;
+}
+
+/// Numbers the midpoints of edges, faces and cells, each made once.
+class Midpoints {
+ public:
+  explicit Midpoints(std::vector<Vector3d>& nodes) : nodes_(nodes) {}
+
+  /// @param vertices  1 (its own midpoint), 2, 4 or 8
+  int of(const std::vector<int>& vertices) {
+    if (vertices.size() == 1) return vertices[0];
+    std::array<int, 8> key;
+    key.fill(-1);
+    std::copy(vertices.begin(), vertices.end(), key.begin());
+    const auto [found, is_new] = numbers_.try_emplace(sorted(key), static_cast<int>(nodes_.size()));
+    if (is_new) {
+      Vector3d sum = Vector3d::Zero();
+      for (int v : vertices) sum += nodes_[index(v)];
+      nodes_.push_back(sum / static_cast<double>(vertices.size()));
+    }
+    return found->second;
+  }
+
+ private:
+  std::vector<Vector3d>& nodes_;
+  std::map<std::array<int, 8>, int> numbers_;
+};
+
+Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
+  Selection fine;
+  fine.nodes = coarse.nodes;
+  for (const auto& edge : coarse.edges) {
+    const int middle = midpoints.of({edge[0], edge[1]});
+    fine.nodes.push_back(middle);
+    for (int end : edge) fine.edges.push_back(sorted(std::array<int, 2>{end, middle}));
+  }
+  for (const auto& face : coarse.faces) {
+    const int middle = midpoints.of({face.begin(), face.end()});
+    fine.nodes.push_back(middle);
+    for (std::size_t v = 0; v < 4; ++v) {
+      const int next = midpoints.of({face[v], face[(v + 1) % 4]});
+      const int previous = midpoints.of({face[v], face[(v + 3) % 4]});
+      fine.faces.push_back({face[v], next, middle, previous});
+      fine.edges.push_back(sorted(std::array<int, 2>{next, middle}));
+      fine.nodes.push_back(next);
+    }
+  }
+  return fine;
+}
+
 } // namespace
 
 std::size_t Grid::n_lattice_cells() const {
@@ -88,46 +171,6 @@ HexMesh make_box_mesh(const Vector3d& size, const std::array<int, 3>& cells) {
   return mesh;
 }
 
-namespace {
-
-/// A position in steps of a spacing, if it is a whole number of them in each direction. It may be off by 1e-8
-/// of the spacing.
-std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vector3d& spacing) {
-  std::array<int, 3> whole{};
-  for (int a = 0; a < 3; ++a) {
-    const double ratio = from_origin[a] / spacing[a];
-    const double nearest = std::round(ratio);
-    if (!(std::abs(ratio - nearest) <= 1e-8 * std::max(1.0, nearest)) || !(nearest < 1e6))
-      return std::nullopt;
-    whole[index(a)] = static_cast<int>(nearest);
-  }
-  return whole;
-}
-
-template<class Points>
-Eigen::AlignedBox3d bounding_box(const Points& points) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& point : points) box.extend(point);
-  return box;
-}
-
-/// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid of that spacing.
-std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t cell, const Vector3d& spacing) {
-  const auto vertices = cell_vertices(mesh, cell);
-  const Vector3d lower = bounding_box(vertices).min();
-  std::array<int, 8> ordered;
-  ordered.fill(-1);
-  for (std::size_t v = 0; v < 8; ++v) {
-    const auto corner = steps(vertices[v] - lower, spacing);
-    if (!corner || sorted(*corner).back() > 1) return std::nullopt;
-    ordered[number_of((*corner)[0], (*corner)[1], (*corner)[2], {2, 2, 2})] = mesh.cells[cell][v];
-  }
-  if (sorted(ordered).front() < 0) return std::nullopt;
-  return ordered;
-}
-
-} // namespace
-
 bool find_grid(HexMesh& mesh) {
   const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
   Grid grid;
@@ -162,57 +205,6 @@ bool find_grid(HexMesh& mesh) {
   mesh.grid = grid;
   return true;
 }
-
-namespace {
-
-/// Numbers the midpoints of edges, faces and cells, each made once.
-class Midpoints {
- public:
-  explicit Midpoints(std::vector<Vector3d>& nodes) : nodes_(nodes) {}
-
-  /// @param vertices  1 (its own midpoint), 2, 4 or 8
-  int of(const std::vector<int>& vertices) {
-    if (vertices.size() == 1) return vertices[0];
-    std::array<int, 8> key;
-    key.fill(-1);
-    std::copy(vertices.begin(), vertices.end(), key.begin());
-    const auto [found, is_new] = numbers_.try_emplace(sorted(key), static_cast<int>(nodes_.size()));
-    if (is_new) {
-      Vector3d sum = Vector3d::Zero();
-      for (int v : vertices) sum += nodes_[index(v)];
-      nodes_.push_back(sum / static_cast<double>(vertices.size()));
-    }
-    return found->second;
-  }
-
- private:
-  std::vector<Vector3d>& nodes_;
-  std::map<std::array<int, 8>, int> numbers_;
-};
-
-Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
-  Selection fine;
-  fine.nodes = coarse.nodes;
-  for (const auto& edge : coarse.edges) {
-    const int middle = midpoints.of({edge[0], edge[1]});
-    fine.nodes.push_back(middle);
-    for (int end : edge) fine.edges.push_back(sorted(std::array<int, 2>{end, middle}));
-  }
-  for (const auto& face : coarse.faces) {
-    const int middle = midpoints.of({face.begin(), face.end()});
-    fine.nodes.push_back(middle);
-    for (std::size_t v = 0; v < 4; ++v) {
-      const int next = midpoints.of({face[v], face[(v + 1) % 4]});
-      const int previous = midpoints.of({face[v], face[(v + 3) % 4]});
-      fine.faces.push_back({face[v], next, middle, previous});
-      fine.edges.push_back(sorted(std::array<int, 2>{next, middle}));
-      fine.nodes.push_back(next);
-    }
-  }
-  return fine;
-}
-
-} // namespace
 
 HexMesh refine(const HexMesh& mesh) {
   HexMesh fine;
