@@ -15,8 +15,8 @@ enum class BlasWarning { give, withhold };
 
 int run_action(const compare::Action& action, BlasWarning warning) {
   const fem_reference::Session session;
-  compare::use_one_blas_thread();
-  if (session.rank() == 0 && warning == BlasWarning::give && !compare::blas_is_openblas())
+  const bool is_openblas = compare::use_one_blas_thread();
+  if (session.rank() == 0 && warning == BlasWarning::give && !is_openblas)
     std::cerr
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";

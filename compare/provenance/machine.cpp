@@ -45,12 +45,10 @@ std::optional<double> peak_resident_megabytes() {
   return kibibytes ? std::optional(std::stod(*kibibytes) * 1024e-6) : std::nullopt;
 }
 
-bool blas_is_openblas() {
-  return find_function<char*()>("openblas_get_config") != nullptr;
-}
-
-void use_one_blas_thread() {
-  if (auto* set_threads = find_function<void(int)>("openblas_set_num_threads")) set_threads(1);
+bool use_one_blas_thread() {
+  auto* const set_threads = find_function<void(int)>("openblas_set_num_threads");
+  if (set_threads) set_threads(1);
+  return set_threads != nullptr;
 }
 
 Machine describe_machine() {

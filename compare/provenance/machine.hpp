@@ -33,11 +33,9 @@ Machine describe_machine();
 /// not report it.
 std::optional<double> peak_resident_megabytes();
 
-/// Whether the BLAS that this process loaded is OpenBLAS.
-bool blas_is_openblas();
-
 /// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
-void use_one_blas_thread();
+/// @return whether the BLAS that this process loaded is OpenBLAS, the only one that is told
+bool use_one_blas_thread();
 
 class Stopwatch {
  public:
