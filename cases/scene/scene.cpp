@@ -1,7 +1,6 @@
 #include "cases/scene/scene.hpp"
 
 #include "cases/case/index.hpp"
-#include "cases/case/names.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 

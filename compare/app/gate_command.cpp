@@ -7,7 +7,6 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/finished.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"

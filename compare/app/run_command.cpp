@@ -5,8 +5,6 @@
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/solve/finished.hpp"
-#include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 

@@ -5,7 +5,6 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/solve.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write_stress.hpp"
 

@@ -1,6 +1,5 @@
 #include "compare/solve/solve.hpp"
 
-#include "compare/provenance/machine.hpp"
 #include "compare/solve/springs.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/snes/snes.hpp"

@@ -4,7 +4,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/solve/solve.hpp"
 
 #include <algorithm>
 #include <cmath>
