@@ -1,7 +1,5 @@
 #include "fem_reference/assembly.hpp"
 
-#include "cases/case/index.hpp"
-
 #include <algorithm>
 
 namespace springproof::fem_reference {

@@ -1,7 +1,5 @@
 #include "fem_reference/constraints.hpp"
 
-#include "cases/case/index.hpp"
-
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -1,6 +1,5 @@
 #include "fem_reference/discretisation.hpp"
 
-#include "cases/case/index.hpp"
 #include "fem_reference/space.hpp"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,6 +1,5 @@
 #include "fem_reference/geometry.hpp"
 
-#include "cases/case/index.hpp"
 #include "fem_reference/space.hpp"
 
 #include <cmath>

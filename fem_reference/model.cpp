@@ -1,6 +1,5 @@
 #include "fem_reference/model.hpp"
 
-#include "cases/case/index.hpp"
 #include "fem_reference/equations.hpp"
 
 #include <deal.II/base/mpi.h>

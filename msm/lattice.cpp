@@ -1,7 +1,5 @@
 #include "msm/lattice.hpp"
 
-#include "cases/case/index.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>

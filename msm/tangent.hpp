@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cases/case/index.hpp"
 #include "msm/lattice.hpp"
 
 #include <Eigen/SparseCore>

@@ -1,6 +1,5 @@
 #include "cases/mesh/hex_mesh.hpp"
 
-#include "cases/case/index.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/Geometry>

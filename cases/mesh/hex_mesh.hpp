@@ -10,6 +10,11 @@
 
 namespace springproof::cases {
 
+/// A number of a node, a cell, ..., which is not negative, as the standard library's containers want it.
+inline std::size_t index(std::ptrdiff_t i) {
+  return static_cast<std::size_t>(i);
+}
+
 /// What a region of a mesh selects. Faces and edges are given by their vertices, so that an element with
 /// nodes on them (a quadratic one) can constrain those too. Nodes are sorted and unique.
 struct Selection {
@@ -81,7 +86,7 @@ std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t ce
 template<std::size_t N>
 std::array<int, N> pick(const std::array<int, 8>& cell, const std::array<int, N>& vertices) {
   std::array<int, N> nodes;
-  for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[static_cast<std::size_t>(vertices[v])];
+  for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[index(vertices[v])];
   return nodes;
 }
 
@@ -103,8 +108,7 @@ void make_set(std::vector<Value>& list) {
 template<class Nodes>
 Eigen::Vector3d centre_of(const HexMesh& mesh, const Nodes& nodes) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const int node : nodes)
-    centre += mesh.nodes[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
+  for (const int node : nodes) centre += mesh.nodes[index(node)] / static_cast<double>(nodes.size());
   return centre;
 }
 

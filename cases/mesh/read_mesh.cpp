@@ -1,6 +1,5 @@
 #include "cases/mesh/read_mesh.hpp"
 
-#include "cases/case/index.hpp"
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
 

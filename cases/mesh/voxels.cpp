@@ -1,6 +1,5 @@
 #include "cases/mesh/voxels.hpp"
 
-#include "cases/case/index.hpp"
 #include "cases/mesh/vtk.hpp"
 
 #include <Eigen/Geometry>

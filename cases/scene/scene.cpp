@@ -1,6 +1,5 @@
 #include "cases/scene/scene.hpp"
 
-#include "cases/case/index.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 

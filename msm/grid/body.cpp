@@ -1,6 +1,6 @@
 #include "msm/grid/body.hpp"
 
-#include "cases/case/index.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 namespace springproof::msm::grid {
 

@@ -1,7 +1,6 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/index.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <Eigen/Eigenvalues>

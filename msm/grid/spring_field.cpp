@@ -1,6 +1,6 @@
 #include "msm/grid/spring_field.hpp"
 
-#include "cases/case/index.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 #include <Eigen/LU>
 

@@ -1,6 +1,5 @@
 #include "msm/snes/snes.hpp"
 
-#include "cases/case/index.hpp"
 #include "mechanics/equilibrium/newton.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "mechanics/petsc/handles.hpp"
