@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/solve/solve.hpp"
-#include "msm/cell_volume.hpp"
+#include "msm/lattice.hpp"
 #include "msm/problem.hpp"
 
 #include <algorithm>
