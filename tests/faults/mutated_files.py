@@ -1,0 +1,236 @@
+"""Damaged files of every kind that the program reads, each given to the program.
+
+usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
+
+Kinds: case, msh, stl, vtu, displacements, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s, with a line on standard
+error unless it is 0; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that is
+named. The damage is the same in every run. Only Python's standard library is used.
+"""
+
+import json
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
+LIMIT_SECONDS = 5
+UNTHOUGHT = [b"0", b"-1", b"nan", b"-inf", b"1e308", b"1e-320", b"2147483648", b"9223372036854775807", b"18446744073709551616",
+             b"0x1p-1074", b"1e", b"", b"%s%n", b"\xff\xfe", b"'", b"../../x"]
+
+CASE = """schema = 1
+name = "damaged"
+description = "x"
+{body}
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.3
+poissons_ratio = 0.3
+[[fixed]]
+region = "z-"
+[[load]]
+region = "z+"
+kind = "traction"
+value = [0, 0.002, 0]
+[[measure]]
+name = "{measure}"
+kind = "volume"
+"""
+BOX = '[body]\nshape = "box"\nsize = [2, 2, 2]\ncells = [2, 2, 2]'
+
+
+def damaged(content, chance):
+    """One of eight kinds of damage."""
+    data = bytearray(content)
+    kind = chance.randrange(8)
+    if kind == 0:  # bits
+        for _ in range(chance.randint(1, 8)):
+            data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
+    elif kind == 1:  # cut short
+        del data[chance.randrange(len(data)):]
+    elif kind == 2:  # a piece lost
+        at = chance.randrange(len(data))
+        del data[at:at + chance.randint(1, 200)]
+    elif kind == 3:  # a piece twice
+        at = chance.randrange(len(data))
+        data[at:at] = data[at:at + chance.randint(1, 200)]
+    elif kind == 4:  # noise
+        at = chance.randrange(len(data))
+        data[at:at + 16] = chance.randbytes(16)
+    else:  # words, or lines, replaced or exchanged
+        separator = b"\n" if kind == 5 else b" "
+        words = bytes(data).split(separator)
+        if kind == 7:
+            words[chance.randrange(len(words))] = chance.choice(UNTHOUGHT)
+        else:
+            a, b = chance.randrange(len(words)), chance.randrange(len(words))
+            words[a], words[b] = words[b], words[a]
+        data = separator.join(words)
+    return bytes(data)
+
+
+def springproof(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_SECONDS)
+
+
+def cube_stl():
+    corners = [(float(i & 1) * 3, float(i >> 1 & 1) * 3, float(i >> 2) * 3) for i in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    lines = ["solid cube"]
+    for q in quads:
+        for triangle in ((q[0], q[1], q[2]), (q[0], q[2], q[3])):
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += ["vertex {} {} {}".format(*corners[v]) for v in triangle]
+            lines += ["endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid cube", ""]).encode()
+
+
+def cube_msh():
+    """2 x 1 x 1 hexahedra with the groups z- and z+."""
+    nodes = {1 + i + 3 * j + 6 * k: (i, j, k) for k in range(2) for j in range(2) for i in range(3)}
+    cell = lambda i: [1 + i, 2 + i, 5 + i, 4 + i, 7 + i, 8 + i, 11 + i, 10 + i]
+    side = lambda i, k: [1 + i + 6 * k, 2 + i + 6 * k, 5 + i + 6 * k, 4 + i + 6 * k]
+    lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '2 1 "z-"', '2 2 "z+"', '3 3 "all"', "$EndPhysicalNames",
+             "$Entities", "0 0 2 1", "1 0 0 0 2 1 0 1 1 0", "2 0 0 1 2 1 1 1 2 0", "1 0 0 0 2 1 1 1 3 2 1 2", "$EndEntities",
+             "$Nodes", f"1 {len(nodes)} 1 {len(nodes)}", f"3 1 0 {len(nodes)}", *map(str, nodes),
+             *(f"{x} {y} {z}" for x, y, z in nodes.values()), "$EndNodes", "$Elements", "3 6 1 6"]
+    number = 0
+    for dimension, entity, kind, elements in ((2, 1, 3, [side(i, 0) for i in range(2)]), (2, 2, 3, [side(i, 1) for i in range(2)]),
+                                              (3, 1, 5, [cell(i) for i in range(2)])):
+        lines.append(f"{dimension} {entity} {kind} 2")
+        for element in elements:
+            number += 1
+            lines.append(" ".join(map(str, [number, *element])))
+    return "\n".join(lines + ["$EndElements", ""]).encode()
+
+
+class Kind:
+    """How a kind of file is made whole, and given to the program in a folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def case(self, body=BOX):
+        path = self.folder / "case.toml"
+        path.write_text(CASE.format(body=body, measure="volume"))
+        return path
+
+
+class CaseFile(Kind):
+    whole = property(lambda self: self.case().read_bytes())
+
+    def given(self, content):
+        (self.folder / "case.toml").write_bytes(content)
+        return springproof("run", "--only", "msm", self.folder / "case.toml")
+
+
+class Msh(Kind):
+    whole = cube_msh()
+
+    def given(self, content):
+        (self.folder / "body.msh").write_bytes(content)
+        return springproof("run", "--only", "msm", self.case('[body]\nshape = "mesh"\nfile = "body.msh"'))
+
+
+class Stl(Kind):
+    whole = cube_stl()
+
+    def given(self, content):
+        (self.folder / "body.stl").write_bytes(content)
+        return springproof("run", "--only", "msm", self.case('[body]\nshape = "voxels"\nsurface = "body.stl"\nedge = 1'))
+
+
+class Displacements(Kind):
+    name = "given.csv"
+
+    @property
+    def whole(self):
+        rows = [f"{i},{j},{k},0,{0.01 * k},0" for k in range(3) for j in range(3) for i in range(3)]
+        return "\n".join(["x,y,z,ux,uy,uz", *rows, ""]).encode()
+
+    def given(self, content):
+        (self.folder / self.name).write_bytes(content)
+        return springproof("run", "--msm-displacements", self.folder / self.name, self.case())
+
+
+class Vtu(Displacements):
+    name = "given.vtu"
+
+    @property
+    def whole(self):
+        out = self.folder / "whole"
+        if not out.exists():
+            assert springproof("run", self.case(), "--out", out).returncode == 0
+        return next(out.glob("*.vtu")).read_bytes()
+
+
+class Curve(Kind):
+    whole = "\n".join(["stretch,stress", *(f"{1 + 0.02 * i},{0.012 * i}" for i in range(20)), ""]).encode()
+
+    def given(self, content):
+        (self.folder / "curve.csv").write_bytes(content)
+        return springproof("design", "--curve", self.folder / "curve.csv", "--method", "nonlinear_method")
+
+
+class Kept(Kind):
+    """What --out keeps of a finished case. The measures must come out as they were."""
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        assert springproof("run", self.case(), "--out", folder / "out").returncode == 0
+        self.kept = folder / "out/solved/damaged"
+        self.whole, self.measures = self.kept.read_bytes(), self.measured()
+
+    def measured(self):
+        return json.loads((self.folder / "out/results.json").read_text())["cases"][0]["measures"]
+
+    def given(self, content):
+        self.kept.write_bytes(content)
+        done = springproof("run", self.case(), "--out", self.folder / "out")
+        if done.returncode != 0 or self.measured() != self.measures:
+            done.returncode = f"{done.returncode}, or other numbers"
+        return done
+
+
+KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "displacements": Displacements, "curve": Curve, "kept": Kept}
+
+
+def try_out(kind, count, keep):
+    """Number of offenders among so many damaged files, and the count of each exit status."""
+    statuses, offenders = {}, 0
+    chance = random.Random(20261122)
+    with tempfile.TemporaryDirectory() as name:
+        subject = KINDS[kind](Path(name))
+        whole = subject.whole
+        sound = subject.given(whole)
+        assert sound.returncode == 0, (kind, sound)
+        for n in range(count):
+            content = damaged(whole, chance)
+            try:
+                done = subject.given(content)
+                status, said = done.returncode, done.stderr
+            except subprocess.TimeoutExpired:
+                status, said = f"above {LIMIT_SECONDS} s", b""
+            statuses[status] = statuses.get(status, 0) + 1
+            if status == 0 or (status in (1, 2) and (said or status == 1)):
+                continue
+            offenders += 1
+            left = keep / f"{kind}_{n}"
+            left.write_bytes(content)
+            print(f"{left}: exit {status}: {said[:300]!r}")
+    print(f"{kind}: {count} files, exit statuses {statuses}", flush=True)
+    return offenders
+
+
+def main():
+    count = int(sys.argv[3]) if len(sys.argv) > 3 else 500
+    keep = Path(tempfile.mkdtemp(prefix="damaged_"))
+    offenders = sum(try_out(kind, count, keep) for kind in sys.argv[4:] or KINDS)
+    if not offenders:
+        shutil.rmtree(keep)
+    sys.exit(1 if offenders else 0)
+
+
+main()
