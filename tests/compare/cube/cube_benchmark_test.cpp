@@ -10,14 +10,14 @@ using namespace springproof;
 
 namespace {
 
-constexpr double poissons_ratio = 0.45;
+constexpr double benchmark_poissons_ratio = 0.45;
 
 /// As `design --young E --edge L0 --poisson 0.45 --method hybrid --measure`.
 compare::CubeErrors measured_by_design(double youngs_modulus, double edge) {
   cases::Msm options;
   options.design = cases::Design::hybrid;
-  const msm::DesignRequest request =
-      compare::design_request(cases::LinearElastic{youngs_modulus, poissons_ratio}, msm::cube(edge), options);
+  const msm::DesignRequest request = compare::design_request(
+      cases::LinearElastic{youngs_modulus, benchmark_poissons_ratio}, msm::cube(edge), options);
   std::vector<compare::DesignAttempt> attempts{compare::attempt_one(request)};
   compare::measure_on_cube(attempts, request);
   return *attempts.front().cube;
@@ -25,7 +25,7 @@ compare::CubeErrors measured_by_design(double youngs_modulus, double edge) {
 
 /// As the advice of `tables` has it, for which the case files' E = 0.3 MPa is solved.
 compare::Advice advised() {
-  const compare::AdviceQuestion question{poissons_ratio, "hybrid"};
+  const compare::AdviceQuestion question{benchmark_poissons_ratio, "hybrid"};
   compare::Solutions solutions;
   std::vector<compare::SolveJob> jobs;
   for (const auto& [fem, msm] : compare::advice_jobs(question)) jobs.insert(jobs.end(), {fem, msm});
