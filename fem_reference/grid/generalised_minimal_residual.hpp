@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fem_reference/grid/conjugate_gradients.hpp"
+
+#include <Eigen/QR>
+#include <utility>
+#include <vector>
+
+namespace springproof::fem_reference::grid {
+
+/// Flexible GMRES (Saad 1993), for what conjugate gradients cannot solve: an operator that is not symmetric,
+/// or of either sign. It keeps two vectors an iteration until it restarts.
+template<class Operator, class Preconditioner>
+ConjugateGradients generalised_minimal_residual(const Operator& apply, const Preconditioner& precondition,
+                                                const Field<double>& right_side, double target,
+                                                int max_iterations, int restart, int n_threads) {
+  ConjugateGradients result;
+  const std::ptrdiff_t n = right_side.size();
+  result.solution.setZero(n);
+  Field<double> residual = right_side;
+  double norm = std::sqrt(dot(residual, residual, n_threads));
+  while (!(norm <= target) && result.iterations < max_iterations) {
+    std::vector<Field<double>> basis{residual / norm}, images; // images: preconditioned
+    Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(restart + 1, restart);
+    Eigen::VectorXd weights;
+    for (int j = 0; j < restart && result.iterations < max_iterations; ++j) {
+      ++result.iterations;
+      images.push_back(Field<double>::Zero(n));
+      precondition(basis.back(), images.back());
+      Field<double> next = Field<double>::Zero(n);
+      apply(images.back(), next);
+      for (int i = 0; i <= j; ++i) {
+        const auto& v = basis[static_cast<std::size_t>(i)];
+        hessenberg(i, j) = dot(v, next, n_threads);
+        add(next, -hessenberg(i, j), v, n_threads);
+      }
+      const double length = hessenberg(j + 1, j) = std::sqrt(dot(next, next, n_threads));
+      Eigen::VectorXd first = Eigen::VectorXd::Zero(j + 2);
+      first[0] = norm;
+      const auto small = hessenberg.topLeftCorner(j + 2, j + 1);
+      weights = small.colPivHouseholderQr().solve(first);
+      result.converged = (first - small * weights).norm() <= target;
+      if (result.converged || !(length > 0)) break;
+      basis.push_back(next / length);
+    }
+    for (Eigen::Index j = 0; j < weights.size(); ++j)
+      add(result.solution, weights[j], images[static_cast<std::size_t>(j)], n_threads);
+    if (result.converged) return result;
+    apply(result.solution, residual);
+    residual = right_side - residual;
+    const double before = std::exchange(norm, std::sqrt(dot(residual, residual, n_threads)));
+    if (!(norm < 0.9 * before)) return result; // no use in going on
+  }
+  result.converged = norm <= target;
+  return result;
+}
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,193 @@
+#include "fem_reference/grid/grid_equations.hpp"
+
+#include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/grid/generalised_minimal_residual.hpp"
+#include "fem_reference/grid/negative_eigenvalues.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+using cases::index;
+
+constexpr double volume_tolerance = 1e-12; ///< as of the assembled equations
+constexpr int max_linear_iterations = 500;
+/// Of GMRES; twice as many vectors are kept.
+constexpr int max_unsymmetric_iterations = 400, max_indefinite_iterations = 80;
+constexpr int restart_of(std::ptrdiff_t n) {
+  return n < 1000000 ? 80 : 30;
+}
+
+} // namespace
+
+GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
+                             QuadraticElements* quadratic)
+    : body_(body), supported_(supported), n_threads_(n_threads), quadratic_(quadratic),
+      multigrid_(body, n_threads),
+      load_norm_(std::sqrt(grid::dot(supported.load, supported.load, n_threads))) {}
+
+/// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
+/// admissible
+bool GridEquations::add_force(const Vector& at, Field<double>& force) {
+  volume_mismatch_ = 0;
+  if (quadratic_) {
+    const bool is_valid = quadratic_->add_force(at.data(), force.data(), nullptr);
+    condensed_ = force;
+    return is_valid;
+  }
+  condensed_.setZero(body_.has_modes ? n_displacements() : 0);
+  const ForceFields fields{at.data(), at.data() + n_displacements(), force.data(),
+                           body_.has_modes ? condensed_.data() : nullptr, nullptr};
+  const Cells view = body_.view();
+  std::vector<Checks> checks(index(body_.cells[2]));
+  for_each_layer(body_.cells[2], n_threads_,
+                 [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
+  bool is_valid = true;
+  for (const Checks& layer : checks) {
+    is_valid = is_valid && layer.valid;
+    volume_mismatch_ = std::max(volume_mismatch_, layer.volume_mismatch);
+  }
+  if (!body_.has_modes) condensed_ = force;
+  return is_valid;
+}
+
+void GridEquations::linearise(const Vector& at) {
+  multigrid_.linearise(at.data(), at.data() + n_displacements());
+  if (quadratic_) quadratic_->linearise(at.data());
+}
+
+void GridEquations::product(const Field<double>& field, Field<double>& product) const {
+  if (!quadratic_) return multigrid_.product(field, product);
+  quadratic_->product(field, product);
+  product.array() *= body_.free.cast<double>().array();
+}
+
+GridEquations::Vector GridEquations::residual(const Vector& at, double load_factor, mechanics::Expect) {
+  ++work_.force_evaluations;
+  gap_.clear();
+  largest_gap_ = 0;
+  if (!supported_.moved.empty()) {
+    gap_ = supported_.prescribed(load_factor);
+    for (std::size_t i = 0; i < gap_.size(); ++i) {
+      gap_[i] -= at[supported_.moved[i]];
+      largest_gap_ = std::max(largest_gap_, std::abs(gap_[i]));
+    }
+  }
+  Field<double> force = Field<double>::Zero(n_displacements());
+  is_valid_ = add_force(at, force);
+  if (!is_valid_) return Vector::Constant(at.size(), std::numeric_limits<double>::quiet_NaN());
+  double reaction = 0;
+  Vector residual = Vector::Zero(at.size());
+  for (Eigen::Index i = 0; i < n_displacements(); ++i) {
+    const bool is_free = body_.free[i] > 0;
+    residual[i] = is_free ? load_factor * supported_.load[i] - force[i] : 0;
+    condensed_[i] = is_free ? load_factor * supported_.load[i] - condensed_[i] : 0;
+    if (!is_free) reaction += force[i] * force[i];
+  }
+  reaction_ = std::sqrt(reaction);
+  return residual;
+}
+
+GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
+  if (!is_valid_) return {std::numeric_limits<double>::quiet_NaN(), false};
+  // a body moved by prescribed displacements alone is measured against its reactions
+  const double imbalance = residual.norm(), scale = load_norm_ > 0 ? load_norm_ : reaction_;
+  return {imbalance == 0 ? 0 : imbalance / scale,
+          volume_mismatch_ <= volume_tolerance && largest_gap_ <= 1e-12};
+}
+
+/// Close to the solution the last tangent serves as long as each step gains much.
+bool GridEquations::may_keep_tangent(double norm) const {
+  if (!has_tangent_) return false;
+  return is_linear() ||
+         (norm <= 0.01 * (load_norm_ > 0 ? load_norm_ : reaction_) && norm <= 0.2 * norm_before_);
+}
+
+std::optional<Field<double>> GridEquations::solve(const Field<double>& right_side, double target) {
+  const auto times = [&](const Field<double>& x, Field<double>& y) { product(x, y); };
+  const auto precondition = [&](const Field<double>& x, Field<double>& y) { multigrid_.apply(x, y); };
+  const auto minimise = [&](int max_iterations) {
+    auto found = generalised_minimal_residual(times, precondition, right_side, target, max_iterations,
+                                              restart_of(right_side.size()), n_threads_);
+    work_.linear_iterations += found.iterations;
+    return found;
+  };
+  if (body_.law == Law::log_strain) { // the unsymmetric one
+    auto found = minimise(max_unsymmetric_iterations);
+    return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
+  }
+  auto found =
+      conjugate_gradients(times, precondition, right_side, target, max_linear_iterations, n_threads_);
+  work_.linear_iterations += found.iterations;
+  if (!found.converged && found.met_negative_curvature) found = minimise(max_indefinite_iterations);
+  if (!found.converged) return std::nullopt;
+  return std::move(found.solution);
+}
+
+std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, const Vector&, double,
+                                                              double forcing, mechanics::Convexity) {
+  const double imbalance = std::sqrt(grid::dot(condensed_, condensed_, n_threads_));
+  if (!may_keep_tangent(imbalance)) {
+    linearise(at);
+  } else if (!is_linear()) {
+    forcing = std::max(forcing, 0.01); // a tangent of another state gains no more than that a step
+  }
+  has_tangent_ = true;
+  norm_before_ = imbalance;
+  Field<double> right_side = condensed_;
+  if (largest_gap_ > 0) {
+    Field<double> gap = Field<double>::Zero(n_displacements()), pull = gap;
+    for (std::size_t i = 0; i < gap_.size(); ++i) gap[supported_.moved[i]] = gap_[i];
+    product(gap, pull);
+    add(right_side, -1.0, pull, n_threads_);
+  }
+  const double norm = std::sqrt(grid::dot(right_side, right_side, n_threads_));
+  const auto solution = solve(right_side, forcing * norm);
+  if (!solution) {
+    has_tangent_ = false;
+    return std::nullopt;
+  }
+  Vector step = Vector::Zero(at.size());
+  step.head(n_displacements()) = *solution;
+  for (std::size_t i = 0; i < gap_.size(); ++i) step[supported_.moved[i]] = gap_[i];
+  if (body_.has_modes) {
+    const Cells view = body_.view();
+    const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, nullptr};
+    for_each_plane(body_.cells[2], n_threads_, [&](int k) {
+      kernels().pressure_change(view, fields, step.data(), step.data() + n_displacements(), k);
+    });
+  }
+  return step;
+}
+
+mechanics::Merit GridEquations::merit() const {
+  return body_.has_modes || is_linear() || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
+}
+
+std::optional<bool> GridEquations::is_stable(const Vector&) {
+  if (!has_tangent_) return std::nullopt;
+  negative_eigenvalues_ = count_negative_eigenvalues(
+      body_, [&](const Field<double>& x, Field<double>& y) { product(x, y); }, multigrid_,
+      work_.linear_iterations);
+  return *negative_eigenvalues_ == 0;
+}
+
+std::vector<double> GridEquations::cell_volumes(const Vector& at) const {
+  if (quadratic_) {
+    std::vector<double> volumes(index(quadratic_->cells().layout.n_cell_entries() + 16));
+    quadratic_->add_force(at.data(), nullptr, volumes.data());
+    return volumes;
+  }
+  std::vector<double> volumes(index(body_.layout.n_cell_entries() + 16));
+  const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, volumes.data()};
+  const Cells view = body_.view();
+  std::vector<Checks> checks(index(body_.cells[2]));
+  for_each_plane(body_.cells[2], n_threads_,
+                 [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
+  return volumes;
+}
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "fem_reference/grid/multigrid.hpp"
+#include "fem_reference/grid/quadratic_elements.hpp"
+#include "mechanics/equilibrium/nonlinear_problem.hpp"
+
+#include <functional>
+
+namespace springproof::fem_reference::grid {
+
+/// What acts on a body.
+struct Supported {
+  Field<double> load;                ///< N at full load; 0 on constrained entries
+  std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
+  /// Their displacement (mm) at a load factor; empty when there are none.
+  std::function<std::vector<double>(double load_factor)> prescribed;
+};
+
+/// The equilibrium equations of a body on a grid, without a factorisation. A state is the displacement of the
+/// nodes (mm), then the pressures of the cells (MPa), where they have one. Supports are part of the
+/// equations, as in EquilibriumEquations.
+class GridEquations : public mechanics::NonlinearProblem {
+ public:
+  /// @param body, supported  must outlive this
+  /// @param quadratic  elements on the body's nodes in place of its own, or null; must outlive this
+  GridEquations(const Body& body, const Supported& supported, int n_threads,
+                QuadraticElements* quadratic = nullptr);
+
+  using Vector = mechanics::Vector;
+  Vector rest() const { return Vector::Zero(n_displacements() + n_pressures()); }
+  Eigen::Index n_displacements() const { return 3 * body_.layout.size; }
+  Eigen::Index n_pressures() const { return body_.has_modes ? body_.layout.n_cell_entries() + 16 : 0; }
+
+  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override;
+  Size size(const Vector& residual, const Vector& at) override;
+  std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
+                                  double forcing, mechanics::Convexity convexity) override;
+  mechanics::Merit merit() const override;
+  std::optional<bool> is_stable(const Vector& at) override;
+  Work work() const override { return work_; }
+
+  /// Negative eigenvalues that is_stable() counted.
+  std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
+  /// Deformed volumes, mm³, per cell entry of the elements.
+  std::vector<double> cell_volumes(const Vector& at) const;
+
+ private:
+  const Body& body_;
+  const Supported& supported_;
+  int n_threads_;
+  QuadraticElements* quadratic_;
+  Multigrid multigrid_;
+  double load_norm_;
+  Work work_;
+  bool has_tangent_ = false;
+  double norm_before_ = 0;  ///< of the right side that the tangent was last used for, N
+  Field<double> condensed_; ///< of the state last evaluated: force with the pressures' imbalance, N
+  std::vector<double> gap_; ///< of the moved entries there, mm
+  double largest_gap_ = 0, reaction_ = 0, volume_mismatch_ = 0;
+  bool is_valid_ = false;
+  std::optional<int> negative_eigenvalues_;
+
+  bool add_force(const Vector& at, Field<double>& force);
+  void linearise(const Vector& at);
+  void product(const Field<double>& field, Field<double>& product) const;
+  bool may_keep_tangent(double norm) const;
+  std::optional<Field<double>> solve(const Field<double>& right_side, double target);
+  bool is_linear() const { return body_.law == Law::small_strain; }
+};
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,340 @@
+#include "fem_reference/grid/grid_model.hpp"
+
+#include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/grid/coarse_guess.hpp"
+#include "mechanics/elastic_moduli.hpp"
+#include "mechanics/laws/ogden.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+using cases::index;
+using mechanics::Vector;
+
+constexpr std::size_t most_terms = 8; ///< of Ogden's law
+
+Law law_of(cases::Formulation formulation) {
+  switch (formulation) {
+  case cases::Formulation::small_strain:
+    return Law::small_strain;
+  case cases::Formulation::saint_venant_kirchhoff:
+    return Law::saint_venant_kirchhoff;
+  case cases::Formulation::log_strain:
+    return Law::log_strain;
+  default:
+    return Law::ogden;
+  }
+}
+
+/// In the order that Cells asks for.
+std::vector<double> parameters_of(const cases::Material& material) {
+  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material)) {
+    const auto moduli = mechanics::elastic_moduli(*elastic);
+    return {moduli.mu, moduli.kappa};
+  }
+  const auto& ogden = std::get<cases::Ogden>(material);
+  std::vector<double> values{
+      ogden.bulk_modulus.value_or(mechanics::nearly_incompressible_ratio * mechanics::shear_modulus(ogden))};
+  for (std::size_t t = 0; t < ogden.mu.size(); ++t) {
+    values.push_back(ogden.mu[t]);
+    values.push_back(ogden.alpha[t]);
+  }
+  return values;
+}
+
+bool is_quadratic(const cases::Scene& scene) {
+  return scene.definition.fem.element == cases::Element::q2;
+}
+
+using Place = Eigen::Vector3i; ///< of a node in its grid
+
+/// Integrals of a traction times the nine shape functions of a rectangle. Vertices anticlockwise, mm; node
+/// (a, b) is a halves of the first edge and b of the last one from the first vertex.
+using NineForces = std::array<Eigen::Vector3d, 9>;
+NineForces traction_on(const cases::Scene::AppliedLoad& applied,
+                       const std::array<Eigen::Vector3d, 4>& vertices, double moment) {
+  // Gauss's four points on the unit interval: exact for a quadratic shape times a linear traction
+  const double inner = std::sqrt(3. / 7 - 2. / 7 * std::sqrt(1.2)),
+               outer = std::sqrt(3. / 7 + 2. / 7 * std::sqrt(1.2));
+  const double at[4] = {(1 - outer) / 2, (1 - inner) / 2, (1 + inner) / 2, (1 + outer) / 2};
+  const double light = (18 - std::sqrt(30.)) / 72, heavy = (18 + std::sqrt(30.)) / 72;
+  const double weight[4] = {light, heavy, heavy, light};
+  const auto shape = [](double x) {
+    return Eigen::Vector3d((1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1));
+  };
+  const Eigen::Vector3d u = vertices[1] - vertices[0], v = vertices[3] - vertices[0];
+  const double area = u.cross(v).norm();
+  NineForces forces;
+  forces.fill(Eigen::Vector3d::Zero());
+  for (int p = 0; p < 4; ++p)
+    for (int q = 0; q < 4; ++q) {
+      const Eigen::Vector3d traction =
+          cases::surface_traction(applied, vertices[0] + at[p] * u + at[q] * v, moment);
+      for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
+          forces[index(a + 3 * b)] +=
+              area * weight[p] * weight[q] * shape(at[p])[a] * shape(at[q])[b] * traction;
+    }
+  return forces;
+}
+
+} // namespace
+
+bool is_on_grid(const cases::Scene& scene) {
+  const cases::Fem& fem = scene.definition.fem;
+  if (!scene.mesh.grid) return false;
+  if (fem.element == cases::Element::q2_p1) return false;
+  std::size_t n_parameters = 0;
+  for (const cases::Material& material : cases::materials_of(scene.definition)) {
+    if (std::holds_alternative<cases::Ogden>(material) !=
+        (fem.formulation == cases::Formulation::hyperelastic))
+      return false; // the other backend has the message
+    const std::size_t n = parameters_of(material).size();
+    if (n > 1 + 2 * most_terms || (n_parameters > 0 && n != n_parameters)) return false;
+    n_parameters = n;
+  }
+  return fem.formulation != cases::Formulation::saint_venant_kirchhoff || fem.element == cases::Element::q1 ||
+         fem.element == cases::Element::q2;
+}
+
+double bulk_over_shear(const cases::Scene& scene) {
+  double largest = 0;
+  for (const cases::Material& material : cases::materials_of(scene.definition)) {
+    const std::vector<double> values = parameters_of(material);
+    const auto* ogden = std::get_if<cases::Ogden>(&material);
+    largest = std::max(largest, ogden ? values[0] / mechanics::shear_modulus(*ogden) : values[1] / values[0]);
+  }
+  return largest;
+}
+
+struct GridModel::Implementation {
+  Implementation(const cases::Scene& the_scene, int threads)
+      : scene(the_scene), n_threads(threads), fine(cases::refine(scene, scene.definition.fem.refine)),
+        cell_factor(1 << scene.definition.fem.refine), factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
+        body(make_body(factor)), supported(make_supported()),
+        quadratic(is_quadratic(scene)
+                      ? std::make_unique<QuadraticElements>(body, make_body(cell_factor), n_threads)
+                      : nullptr),
+        equations(body, supported, n_threads, quadratic.get()), last(equations.rest()) {}
+
+  cases::Scene scene; ///< on the body's own mesh
+  int n_threads;
+  cases::Scene fine; ///< refined
+  int cell_factor;   ///< elements along an edge of the body's own cells
+  int factor;        ///< the same of the grid of nodes
+  Body body;
+  Supported supported;
+  std::unique_ptr<QuadraticElements> quadratic;
+  GridEquations equations;
+  Vector last;
+  double last_load_factor = 0;
+
+  Eigen::Vector3d spacing() const { return scene.mesh.grid->spacing / factor; }
+  Place place_of(std::size_t node) const {
+    const Eigen::Vector3d at = (fine.mesh.nodes[node] - scene.mesh.grid->origin).cwiseQuotient(spacing());
+    return at.array().round().cast<int>();
+  }
+  std::ptrdiff_t entry_of(const Place& at) const { return body.layout.at(at.x(), at.y(), at.z()); }
+  const Layout& cell_layout() const { return quadratic ? quadratic->cells().layout : body.layout; }
+  /// Calls action(place) for the nodes of the elements.
+  template<class Action>
+  void for_each_node(const Action& action) const {
+    for (int k = 0; k <= body.cells[2]; ++k)
+      for (int j = 0; j <= body.cells[1]; ++j)
+        for (int i = 0; i <= body.cells[0]; ++i)
+          if (has_cell(body, i, j, k)) action(Place(i, j, k));
+  }
+  Body make_body(int cells_along_edge) const;
+  std::vector<Place> places_on(const cases::Selection& selection) const;
+  void add_loads(Field<double>& load) const;
+  Supported make_supported();
+};
+
+Body GridModel::Implementation::make_body(int along) const {
+  const cases::Grid& grid = *scene.mesh.grid;
+  const cases::Element element = scene.definition.fem.element;
+  std::array<int, 3> cells = grid.cells;
+  for (int& n : cells) n *= along;
+  const auto materials = cases::materials_of(scene.definition);
+  Body made(cells, grid.spacing / along, law_of(scene.definition.fem.formulation),
+            element == cases::Element::q1_bbar || element == cases::Element::q1_p0);
+  const bool is_uniform = scene.material_of_cell.empty();
+  made.parameters = parameters_of(materials.front());
+  made.n_parameters = static_cast<int>(made.parameters.size());
+  const auto n_entries = index(made.layout.n_cell_entries());
+  if (!is_uniform) made.parameters.assign(index(made.n_parameters) * n_entries + 16, 0.);
+  std::vector<std::vector<double>> values;
+  for (const auto& material : materials) values.push_back(parameters_of(material));
+  std::size_t cell = 0;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        if (!grid.has(i, j, k)) continue;
+        const auto material = is_uniform ? 0 : index(scene.material_of_cell[cell]);
+        ++cell;
+        for (int c = 0; c < along; ++c)
+          for (int b = 0; b < along; ++b)
+            for (int a = 0; a < along; ++a) {
+              const auto entry = index(made.layout.cell(along * i + a, along * j + b, along * k + c));
+              made.weight[entry] = 1;
+              if (is_uniform) continue;
+              for (std::size_t p = 0; p < index(made.n_parameters); ++p)
+                made.parameters[p * n_entries + entry] = values[material][p];
+            }
+      }
+  return made;
+}
+
+/// Nodes on a selection's vertices and, of quadratic elements, on its edges and faces.
+std::vector<Place> GridModel::Implementation::places_on(const cases::Selection& selection) const {
+  std::vector<Place> places;
+  for (const int node : selection.nodes) places.push_back(place_of(index(node)));
+  if (!is_quadratic(scene)) return places;
+  const auto add_middle = [&](int a, int b) {
+    places.push_back((place_of(index(a)) + place_of(index(b))) / 2);
+  };
+  for (const auto& edge : selection.edges) add_middle(edge[0], edge[1]);
+  for (const auto& face : selection.faces) {
+    for (std::size_t v = 0; v < 4; ++v) add_middle(face[v], face[(v + 1) % 4]);
+    add_middle(face[0], face[2]);
+  }
+  const auto is_before = [](const Place& a, const Place& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::sort(places.begin(), places.end(), is_before);
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+void GridModel::Implementation::add_loads(Field<double>& load) const {
+  const auto add_force = [&](const Place& at, const Eigen::Vector3d& force) {
+    for (int c = 0; c < 3; ++c) load[c * body.layout.size + entry_of(at)] += force[c];
+  };
+  const std::vector<Eigen::Vector3d> forces =
+      is_quadratic(scene) ? cases::point_forces(fine) : cases::nodal_forces(fine);
+  for (std::size_t n = 0; n < forces.size(); ++n) add_force(place_of(n), forces[n]);
+  if (!is_quadratic(scene)) return;
+  for (const auto& applied : fine.loads) {
+    const bool is_torque = applied.load.kind == cases::LoadKind::torque;
+    if (!is_torque && applied.load.kind != cases::LoadKind::traction) continue;
+    const double moment = is_torque ? cases::polar_moment(fine.mesh, applied) : 1;
+    for (const auto& face : applied.selection.faces) {
+      std::array<Eigen::Vector3d, 4> vertices;
+      std::array<Place, 4> places;
+      for (std::size_t v = 0; v < 4; ++v) {
+        vertices[v] = fine.mesh.nodes[index(face[v])];
+        places[v] = place_of(index(face[v]));
+      }
+      const NineForces nine = traction_on(applied, vertices, moment);
+      for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
+          add_force(places[0] + (a * (places[1] - places[0]) + b * (places[3] - places[0])) / 2,
+                    nine[index(a + 3 * b)]);
+    }
+  }
+}
+
+Supported GridModel::Implementation::make_supported() {
+  for_each_node([&](const Place& at) {
+    for (int c = 0; c < 3; ++c) body.free[c * body.layout.size + entry_of(at)] = 1;
+  });
+  for (const auto& fixed : fine.constrained)
+    for (const Place& at : places_on(fixed.selection))
+      for (int c = 0; c < 3; ++c)
+        if (fixed.components[index(c)]) body.free[c * body.layout.size + entry_of(at)] = 0;
+  Supported made;
+  made.load.setZero(3 * body.layout.size);
+  add_loads(made.load);
+  made.load.array() *= body.free.cast<double>().array();
+  struct MovedNode {
+    Eigen::Vector3d rest;
+    cases::Moved motion;
+  };
+  std::vector<MovedNode> nodes;
+  for (const auto& [selection, motion] : fine.moved)
+    for (const Place& at : places_on(selection)) {
+      nodes.push_back({scene.mesh.grid->origin + at.cast<double>().cwiseProduct(spacing()), motion});
+      for (int c = 0; c < 3; ++c)
+        if (motion.components[index(c)]) made.moved.push_back(c * body.layout.size + entry_of(at));
+    }
+  if (!nodes.empty())
+    made.prescribed = [nodes](double load_factor) {
+      std::vector<double> values;
+      for (const auto& [rest, motion] : nodes) {
+        const Eigen::Vector3d by = cases::moved_by(motion, rest, load_factor);
+        for (std::size_t c = 0; c < 3; ++c)
+          if (motion.components[c]) values.push_back(by[static_cast<int>(c)]);
+      }
+      return values;
+    };
+  return made;
+}
+
+GridModel::GridModel(const cases::Scene& scene, int n_threads)
+    : implementation_(std::make_unique<Implementation>(scene, n_threads)) {}
+GridModel::~GridModel() = default;
+
+void GridModel::back_to_rest() {
+  implementation_->last = implementation_->equations.rest();
+  implementation_->last_load_factor = 0;
+}
+
+cases::Solution GridModel::solve(double load_factor, const mechanics::EquilibriumSettings& given) {
+  Implementation& m = *implementation_;
+  mechanics::EquilibriumSettings settings = given;
+  settings.from = m.last_load_factor;
+  settings.to = load_factor;
+  if (settings.from == 0 && settings.first_load_step == 1 && m.body.law != Law::small_strain)
+    settings.guess = coarse_guess(m.body, m.supported, load_factor, m.n_threads);
+  const auto equilibrium = mechanics::find_equilibrium(m.equations, m.last, "finite elements", settings);
+  m.last = equilibrium.state;
+  m.last_load_factor = load_factor;
+  cases::Solution solution = mechanics::to_solution(equilibrium);
+  const auto displacement_at = [&](const Place& at) {
+    const std::ptrdiff_t entry = m.entry_of(at), size = m.body.layout.size;
+    return Eigen::Vector3d(m.last[entry], m.last[entry + size], m.last[entry + 2 * size]);
+  };
+  solution.displacement.resize(m.scene.mesh.nodes.size());
+  for (std::size_t n = 0; n < solution.displacement.size(); ++n)
+    solution.displacement[n] =
+        displacement_at(m.place_of(n)); // the refined mesh begins with the body's own nodes
+  const std::vector<double> volumes = m.equations.cell_volumes(m.last);
+  const cases::Grid& grid = *m.scene.mesh.grid;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        if (!grid.has(i, j, k)) continue;
+        double volume = 0;
+        const int n = m.cell_factor;
+        for (int c = 0; c < n; ++c)
+          for (int b = 0; b < n; ++b)
+            for (int a = 0; a < n; ++a)
+              volume += volumes[index(m.cell_layout().cell(n * i + a, n * j + b, n * k + c))];
+        solution.cell_volume.push_back(volume);
+      }
+  solution.unknowns = static_cast<std::size_t>((m.body.free.array() > 0).count());
+  if (settings.stability != mechanics::Stability::ignore)
+    solution.negative_eigenvalues = m.equations.negative_eigenvalues();
+  for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
+    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
+          0))
+      ++solution.inverted_cells;
+  return solution;
+}
+
+std::vector<GridModel::NodeValue> GridModel::node_displacements() const {
+  const Implementation& m = *implementation_;
+  std::vector<NodeValue> values;
+  m.for_each_node([&](const Place& at) {
+    const std::ptrdiff_t entry = m.entry_of(at), size = m.body.layout.size;
+    values.push_back({m.scene.mesh.grid->origin + at.cast<double>().cwiseProduct(m.spacing()),
+                      {m.last[entry], m.last[entry + size], m.last[entry + 2 * size]}});
+  });
+  return values;
+}
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+#include <memory>
+
+namespace springproof::fem_reference::grid {
+
+/// Whether a scene's body is a grid of cells and its element one of those that the kernels know.
+bool is_on_grid(const cases::Scene& scene);
+
+/// The largest ratio of a material's bulk modulus to its shear modulus.
+double bulk_over_shear(const cases::Scene& scene);
+
+/// Finite elements of a scene on a grid: matrix-vector products and multigrid in place of a factorisation.
+class GridModel {
+ public:
+  /// @param scene  as of Model, is_on_grid(); definition.fem.refine is applied here
+  GridModel(const cases::Scene& scene, int n_threads);
+  ~GridModel();
+
+  /// As of Model.
+  cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings);
+  void back_to_rest();
+  struct NodeValue {
+    Eigen::Vector3d rest, displacement; ///< mm
+  };
+  std::vector<NodeValue> node_displacements() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace springproof::fem_reference::grid

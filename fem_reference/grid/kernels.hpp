@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+
+/// Internal forces, tangents and products of trilinear elements on a grid of equal cuboids, several cells at
+/// a time. The kernels see plain arrays only, so that one source can be compiled for several instruction
+/// sets; which one runs is decided when the program starts.
+namespace springproof::fem_reference::grid {
+
+/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k). Rows are padded to whole
+/// packs; a plane and a row of ghosts lie before the first node and after the last. A field of vectors is
+/// three such arrays, x, y and z, one after the other; ghosts are numbers, and 0 in what is summed over. Cell
+/// (i, j, k) has index cell(i, j, k): rows of the same length.
+struct Layout {
+  int nodes[3] = {0, 0, 0};
+  std::ptrdiff_t row = 0;   ///< from one row to the next
+  std::ptrdiff_t plane = 0; ///< from one plane to the next
+  std::ptrdiff_t lead = 0;  ///< ghosts before the first node
+  std::ptrdiff_t size = 0;  ///< entries of one array
+  std::ptrdiff_t at(int i, int j, int k) const { return lead + i + row * j + plane * k; }
+  std::ptrdiff_t cell(int i, int j, int k) const { return i + row * (j + std::ptrdiff_t{nodes[1] - 1} * k); }
+  std::ptrdiff_t n_cell_entries() const { return row * (nodes[1] - 1) * (nodes[2] - 1); }
+  /// Row (j, k) of nodes among all.
+  std::ptrdiff_t node_row(int j, int k) const { return j + std::ptrdiff_t{nodes[1]} * k; }
+};
+
+/// A matrix of 3x3 blocks between each node and its 27 neighbours: of every row of nodes (j, k) the entries
+/// [(9*neighbour + 3*c + d)][i], neighbour = (dx+1) + 3(dy+1) + 9(dz+1). Rows begin stencil_row(layout)
+/// apart.
+constexpr int n_stencil = 27 * 9;
+inline std::ptrdiff_t stencil_row(const Layout& layout) {
+  return n_stencil * layout.row + 16;
+}
+
+/// Cell matrices: the upper triangle of 24x24, row 3*corner + component. Of every row of cells (j, k) the
+/// entries [upper(r, s)][i].
+constexpr int n_upper = 300;
+constexpr int upper(int r, int s) {
+  return r <= s ? 24 * r - r * (r - 1) / 2 + s - r : 24 * s - s * (s - 1) / 2 + r - s;
+}
+
+enum class Law { small_strain, saint_venant_kirchhoff, log_strain, ogden };
+
+/// What the kernels know of a body.
+struct Cells {
+  Layout layout;
+  Law law;
+  bool has_modes;                ///< a constant pressure of its own in every cell; otherwise pointwise
+  double gradients[8][8][3];     ///< dN_a/dX at Gauss point q: [q][a], 1/mm
+  double point_volume;           ///< of one Gauss point, mm³
+  const float* weight;           ///< per cell: 1, 0 where there is none, between on coarser grids
+  int n_parameters;              ///< of the law: mu, kappa; Ogden's: kappa, then mu and alpha of every term
+  const double* parameters;      ///< of all cells; or null
+  const double* cell_parameters; ///< [parameter][cell]
+};
+
+/// Triquadratic elements; without pressures of their own.
+struct Quadratic {
+  Cells cells;                 ///< the elements; of these the layout's cells, weights and parameters are used
+  Layout nodes;                ///< the grid of their nodes: of cells of half the edge
+  double gradients[27][27][3]; ///< dN_a/dX at Gauss point q: [q][a], 1/mm
+  double weights[27];          ///< of the Gauss points, mm³
+};
+
+/// Results of a layer of cells.
+struct Checks {
+  bool valid = true;          ///< false: J <= 0 or not a number at a Gauss point of some cell
+  double volume_mismatch = 0; ///< largest relative one of a cell's pressure
+};
+
+struct ForceFields {
+  const double* displacement;
+  const double* pressure; ///< per cell; with modes
+  double* force;          ///< added to: internal force, N
+  double* condensed;      ///< added to: the same with the pressures' imbalance; or null
+  double* volume;         ///< per cell: deformed volume, mm³; or null
+};
+
+struct TangentFields {
+  const double* displacement;
+  const double* pressure;
+  const float* free; ///< field: 0 where constrained, else 1; null when there is no coarser level
+  float* stencil;    ///< added to
+  float* coarse;     ///< added to: cell matrices of the coarser grid; or null
+};
+
+/// A grid in cells twice as large along some axes.
+struct Coarsening {
+  Layout layout; ///< of the coarser grid
+  bool axes[3];
+};
+
+struct Kernels {
+  /// Layer k of cells: adds to the planes k and k + 1 of nodes.
+  void (*force)(const Cells&, const ForceFields&, int layer, Checks&);
+  /// Change of the cells' pressures with a step: C^-1 (R + B step), to first order. The state is `fields`'.
+  void (*pressure_change)(const Cells&, const ForceFields& fields, const double* step, double* change,
+                          int layer);
+  /// The tangent; its symmetric part for the coarser grid.
+  void (*tangent)(const Cells&, const TangentFields&, const Coarsening&, int layer);
+  /// Matrix of a coarser grid from its cell matrices, and cell matrices of the next one.
+  void (*deposit)(const Layout&, const float* cells, float* stencil, float* coarse, const Coarsening&,
+                  int layer);
+  /// product = stencil * field in plane k of nodes, times free where that is given.
+  void (*product)(const Layout&, const float* stencil, const double* field, const float* free,
+                  double* product, int plane);
+  void (*product_float)(const Layout&, const float* stencil, const float* field, const float* free,
+                        float* product, int plane);
+  /// As force, for the planes 2 k to 2 k + 2 of nodes.
+  void (*quadratic_force)(const Quadratic&, const ForceFields&, int layer, Checks&);
+  /// Weighted moduli of every row of cells: [point][entry of dP/dF][i].
+  void (*quadratic_moduli)(const Quadratic&, const double* displacement, float* moduli, int layer);
+  /// Adds the tangent's product with a field.
+  void (*quadratic_product)(const Quadratic&, const float* moduli, const double* field, double* product,
+                            int layer);
+};
+
+/// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
+/// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
+const Kernels& kernels();
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,2 @@
+#define SPRINGPROOF_ISA baseline
+#include "fem_reference/grid/kernels_source.hpp"

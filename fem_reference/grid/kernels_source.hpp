@@ -1,0 +1,31 @@
+// The kernels' one source, compiled once per instruction set with SPRINGPROOF_ISA as the name of the set.
+// It must include nothing that defines functions others share: the linker might keep the copy compiled for
+// instructions that the machine lacks.
+#include "fem_reference/grid/kernels.hpp"
+
+#include <immintrin.h> // intrinsics are always inlined: no shared functions
+
+#define SPRINGPROOF_INLINE inline __attribute__((always_inline))
+
+namespace springproof::fem_reference::grid::SPRINGPROOF_ISA {
+
+namespace {
+
+#include "fem_reference/grid/kernels_packs.hpp"
+
+#include "fem_reference/grid/kernels_laws.hpp"
+
+#include "fem_reference/grid/kernels_stencil.hpp"
+
+#include "fem_reference/grid/kernels_cells.hpp"
+
+#include "fem_reference/grid/kernels_quadratic.hpp"
+
+} // namespace
+
+extern const Kernels the_kernels;
+const Kernels the_kernels{force,           pressure_change,       tangent,
+                          deposit_layer,   product_plane<double>, product_plane<float>,
+                          quadratic_force, quadratic_moduli,      quadratic_product};
+
+} // namespace springproof::fem_reference::grid::SPRINGPROOF_ISA

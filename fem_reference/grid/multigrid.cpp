@@ -1,0 +1,277 @@
+#include "fem_reference/grid/multigrid.hpp"
+
+#include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/grid/transfer.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+using cases::index;
+
+constexpr std::ptrdiff_t most_coarsest_nodes = 125;
+constexpr int smoothing_degree = 2;
+constexpr double smoothed_part = 8; ///< the smoother works on eigenvalues down to that part of the largest
+
+std::ptrdiff_t n_nodes(const Layout& l) {
+  return std::ptrdiff_t{l.nodes[0]} * l.nodes[1] * l.nodes[2];
+}
+
+} // namespace
+
+Multigrid::Multigrid(const Body& body, int n_threads) : body_(body), n_threads_(n_threads) {
+  std::array<int, 3> cells = body.cells;
+  Eigen::Vector3d spacing = body.spacing;
+  for (;;) {
+    Level& level = levels_.emplace_back();
+    level.cells = cells;
+    level.layout = make_layout(cells);
+    const Layout& layout = level.layout;
+    level.stencil.resize(index(stencil_row(layout) * layout.nodes[1] * layout.nodes[2]));
+    level.inverse_diagonal.resize(index(6 * layout.size));
+    for (Field<float>* field : {&level.solution, &level.residual, &level.correction, &level.product})
+      field->setZero(3 * layout.size);
+    if (levels_.size() > 1) level.cell_matrices.resize(index(n_upper * layout.n_cell_entries() + 16));
+    const std::array<bool, 3> axes = axes_to_coarsen(cells, spacing);
+    if (n_nodes(layout) <= most_coarsest_nodes || !(axes[0] || axes[1] || axes[2])) break;
+    level.axes = axes;
+    for (std::size_t a = 0; a < 3; ++a) {
+      level.coarsening.axes[a] = axes[a];
+      if (!axes[a]) continue;
+      cells[a] = (cells[a] + 1) / 2;
+      spacing[static_cast<int>(a)] *= 2;
+    }
+    level.coarsening.layout = make_layout(cells);
+    level.rough.setZero(3 * layout.size);
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < layout.nodes[2]; ++k)
+        for (int j = 0; j < layout.nodes[1]; ++j)
+          for (int i = 0; i < layout.nodes[0]; ++i)
+            level.rough[c * layout.size + layout.at(i, j, k)] = uniform(generator);
+  }
+}
+
+void Multigrid::linearise(const double* displacement, const double* pressure) {
+  const Cells view = body_.view();
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    Level* const coarser = l + 1 < levels_.size() ? &levels_[l + 1] : nullptr;
+    for (std::vector<float>* zeroed : {&level.stencil, coarser ? &coarser->cell_matrices : nullptr})
+      if (zeroed)
+        for_each_piece(
+            static_cast<std::ptrdiff_t>(zeroed->size()), n_threads_,
+            [&](std::ptrdiff_t first, std::ptrdiff_t n) { std::fill_n(zeroed->begin() + first, n, 0.0f); });
+    const TangentFields fields{displacement, pressure, body_.free.data(), level.stencil.data(),
+                               coarser ? coarser->cell_matrices.data() : nullptr};
+    for_each_layer(level.cells[2], n_threads_, [&](int k) {
+      if (l == 0)
+        kernels().tangent(view, fields, level.coarsening, k);
+      else
+        kernels().deposit(level.layout, level.cell_matrices.data(), fields.stencil, fields.coarse,
+                          level.coarsening, k);
+    });
+    invert_diagonal(level);
+    if (coarser) estimate_largest_eigenvalue(level);
+  }
+  factorise_coarsest();
+}
+
+void Multigrid::product(const Field<double>& field, Field<double>& product, Rows rows) const {
+  const Level& level = levels_.front();
+  for_each_plane(level.layout.nodes[2], n_threads_, [&](int k) {
+    kernels().product(level.layout, level.stencil.data(), field.data(),
+                      rows == Rows::free ? body_.free.data() : nullptr, product.data(), k);
+  });
+}
+
+void Multigrid::product(const Level& level, const Field<float>& field, Field<float>& product) const {
+  for_each_plane(level.layout.nodes[2], n_threads_, [&](int k) {
+    kernels().product_float(level.layout, level.stencil.data(), field.data(),
+                            is_finest(level) ? body_.free.data() : nullptr, product.data(), k);
+  });
+}
+
+/// Of the blocks without constrained entries; those, and entries without a cell, become 0.
+void Multigrid::invert_diagonal(Level& level) const {
+  const Layout& layout = level.layout;
+  constexpr std::ptrdiff_t centre = 9 * 13;
+  for_each_plane(layout.nodes[2], n_threads_, [&](int k) {
+    for (int j = 0; j < layout.nodes[1]; ++j)
+      for (int i = 0; i < layout.nodes[0]; ++i) {
+        const float* entry = level.stencil.data() + stencil_row(layout) * layout.node_row(j, k) + i;
+        const std::ptrdiff_t at = layout.at(i, j, k);
+        Eigen::Matrix3d block;
+        bool is_free[3];
+        for (int c = 0; c < 3; ++c)
+          for (int d = 0; d < 3; ++d)
+            block(c, d) = static_cast<double>(entry[(centre + 3 * c + d) * layout.row]);
+        for (int c = 0; c < 3; ++c) {
+          is_free[c] = block(c, c) != 0 && (!is_finest(level) || body_.free[c * layout.size + at] > 0);
+          if (is_free[c]) continue;
+          block.row(c).setZero();
+          block.col(c).setZero();
+          block(c, c) = 1;
+        }
+        Eigen::Matrix3d inverse = block.inverse();
+        // positive definite: otherwise the sizes of the diagonal must do
+        const Eigen::LLT<Eigen::Matrix3d> factor(block);
+        if (factor.info() != Eigen::Success || !(block.determinant() > 1e-9 * block.diagonal().prod()))
+          inverse = block.diagonal().cwiseAbs().cwiseInverse().asDiagonal();
+        for (int c = 0; c < 3; ++c)
+          if (!is_free[c]) inverse(c, c) = 0;
+        const double six[6] = {inverse(0, 0), inverse(1, 1), inverse(2, 2),
+                               inverse(1, 2), inverse(0, 2), inverse(0, 1)};
+        for (int e = 0; e < 6; ++e)
+          level.inverse_diagonal[index(e * layout.size + at)] = static_cast<float>(six[e]);
+      }
+  });
+}
+
+/// out = keep * out + factor * (inverse diagonal blocks) in
+void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
+                                       float keep, float factor) const {
+  const std::ptrdiff_t n = level.layout.size;
+  const float* const d = level.inverse_diagonal.data();
+  for_each_piece(n, n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
+    const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
+    float *u = out.data() + first, *v = u + n, *w = v + n;
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
+      const float xx = block[i], yy = block[i + n], zz = block[i + 2 * n], yz = block[i + 3 * n],
+                  xz = block[i + 4 * n], xy = block[i + 5 * n];
+      u[i] = keep * u[i] + factor * (xx * x[i] + xy * y[i] + xz * z[i]);
+      v[i] = keep * v[i] + factor * (xy * x[i] + yy * y[i] + yz * z[i]);
+      w[i] = keep * w[i] + factor * (xz * x[i] + yz * y[i] + zz * z[i]);
+    }
+  });
+}
+
+/// Of the inverse diagonal times the matrix, by the power method; its vector is kept for the next time.
+void Multigrid::estimate_largest_eigenvalue(Level& level) const {
+  const int n_steps = level.largest_eigenvalue > 0 ? 2 : 8;
+  for (int step = 0; step < n_steps; ++step) {
+    const double norm = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    product(level, level.rough, level.product);
+    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / norm));
+    level.largest_eigenvalue = std::sqrt(dot(level.rough, level.rough, n_threads_));
+  }
+}
+
+void Multigrid::factorise_coarsest() {
+  const Level& level = levels_.back();
+  const Layout& layout = level.layout;
+  std::vector<int> number(index(3 * layout.size), -1);
+  coarsest_unknowns_.clear();
+  const auto for_each_node = [&](const auto& action) {
+    for (int k = 0; k < layout.nodes[2]; ++k)
+      for (int j = 0; j < layout.nodes[1]; ++j)
+        for (int i = 0; i < layout.nodes[0]; ++i) action(i, j, k);
+  };
+  for_each_node([&](int i, int j, int k) {
+    for (int c = 0; c < 3; ++c) {
+      const std::ptrdiff_t entry = c * layout.size + layout.at(i, j, k);
+      if (level.inverse_diagonal[index(entry)] == 0) continue;
+      number[index(entry)] = static_cast<int>(coarsest_unknowns_.size());
+      coarsest_unknowns_.push_back(entry);
+    }
+  });
+  const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for_each_node([&](int i, int j, int k) {
+    const float* entry = level.stencil.data() + stencil_row(layout) * layout.node_row(j, k) + i;
+    for (int e = 0; e < n_stencil; ++e, entry += layout.row) {
+      const int neighbour = e / 9, c = e % 9 / 3, d = e % 3;
+      const std::ptrdiff_t at = layout.at(i, j, k), other = at + neighbour % 3 - 1 +
+                                                            (neighbour / 3 % 3 - 1) * layout.row +
+                                                            (neighbour / 9 - 1) * layout.plane;
+      const int row = number[index(c * layout.size + at)];
+      if (row < 0 || *entry == 0) continue;
+      const int column = number[index(d * layout.size + other)];
+      if (column >= 0) matrix(row, column) = static_cast<double>(*entry);
+    }
+  });
+  matrix = 0.5 * (matrix + matrix.transpose()).eval();
+  // Single precision leaves the matrix uncertain by about 1e-7 of its diagonal; a preconditioner may be that
+  // stiff.
+  const double shift = n > 0 ? 1e-6 * matrix.diagonal().cwiseAbs().maxCoeff() : 0;
+  matrix.diagonal().array() += shift;
+  coarsest_.compute(matrix);
+  if (coarsest_.info() == Eigen::Success) return;
+  // A preconditioner has to be positive: sizes of eigenvalues in place of eigenvalues.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrix);
+  const Eigen::VectorXd sizes = modes.eigenvalues().cwiseAbs().cwiseMax(shift);
+  coarsest_.compute(modes.eigenvectors() * sizes.asDiagonal() * modes.eigenvectors().transpose());
+}
+
+/// Chebyshev's iteration from the level's solution and residual, both of which it updates; the residual of
+/// the last step only when it is wanted.
+void Multigrid::smooth(Level& level, bool keeps_residual) const {
+  const double upper = 1.1 * level.largest_eigenvalue; // the power method comes from below
+  const double lower = upper / smoothed_part;
+  const double centre = (upper + lower) / 2, half_width = (upper - lower) / 2;
+  const double sigma = centre / half_width;
+  double rho = 1 / sigma;
+  apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
+  for (int step = 1;; ++step) {
+    add(level.solution, 1.0f, level.correction, n_threads_);
+    if (step == smoothing_degree && !keeps_residual) return;
+    product(level, level.correction, level.product);
+    add(level.residual, -1.0f, level.product, n_threads_);
+    if (step == smoothing_degree) return;
+    const double next = 1 / (2 * sigma - rho);
+    apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
+                           static_cast<float>(2 * next / half_width));
+    rho = next;
+  }
+}
+
+/// Solves for the residual of level l; the level's solution is the answer.
+void Multigrid::cycle(std::size_t l) {
+  Level& level = levels_[l];
+  level.solution.setZero();
+  if (l + 1 == levels_.size()) {
+    const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      right[i] = static_cast<double>(level.residual[coarsest_unknowns_[index(i)]]);
+    const Eigen::VectorXd solution = coarsest_.solve(right);
+    for (Eigen::Index i = 0; i < n; ++i)
+      level.solution[coarsest_unknowns_[index(i)]] = static_cast<float>(solution[i]);
+    return;
+  }
+  Level& coarser = levels_[l + 1];
+  smooth(level, true);
+  restrict(level.layout, coarser.layout, level.axes, level.residual, coarser.residual, n_threads_);
+  cycle(l + 1);
+  prolong(coarser.layout, level.layout, level.axes, coarser.solution, level.correction, n_threads_);
+  if (is_finest(level)) level.correction.array() *= body_.free.array();
+  add(level.solution, 1.0f, level.correction, n_threads_);
+  product(level, level.correction, level.product);
+  add(level.residual, -1.0f, level.product, n_threads_);
+  smooth(level, false);
+}
+
+void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
+  Level& level = levels_.front();
+  const double norm = std::sqrt(dot(right_side, right_side, n_threads_)); // keeps single precision in range
+  if (!(norm > 0)) {
+    solution.setZero();
+    return;
+  }
+  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    level.residual.segment(first, n) = (right_side.segment(first, n) / norm).cast<float>();
+  });
+  cycle(0);
+  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    solution.segment(first, n) = norm * level.solution.segment(first, n).cast<double>();
+  });
+}
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fem_reference/grid/body.hpp"
+
+#include <Eigen/Cholesky>
+#include <deque>
+
+namespace springproof::fem_reference::grid {
+
+/// The tangent of a body and an approximate inverse of it: one V-cycle in single precision. Coarse matrices
+/// are Galerkin's, made cell by cell, which is exact because the grids are nested; the smoother is
+/// Chebyshev's iteration on the block Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before and
+/// after, so that the cycle is symmetric, if the tangent is; of another one the coarse matrices are the
+/// symmetric part.
+class Multigrid {
+ public:
+  Multigrid(const Body& body, int n_threads);
+
+  /// Assembles the tangent at a state and prepares the cycle.
+  void linearise(const double* displacement, const double* pressure);
+
+  /// product = tangent * field; 0 on constrained entries when they are left out.
+  enum class Rows { free, all };
+  void product(const Field<double>& field, Field<double>& product, Rows rows = Rows::free) const;
+
+  /// solution = cycle(right_side).
+  void apply(const Field<double>& right_side, Field<double>& solution);
+
+  int n_threads() const { return n_threads_; }
+
+ private:
+  struct Level {
+    std::array<int, 3> cells;
+    Layout layout;
+    std::array<bool, 3> axes{}; ///< along which the next level is coarser
+    Coarsening coarsening{};
+    std::vector<float> stencil, cell_matrices, inverse_diagonal; ///< the last: xx, yy, zz, yz, xz, xy
+    Field<float> solution, residual, correction, product;
+    Field<float> rough; ///< guess of the mode of the largest eigenvalue
+    double largest_eigenvalue = 0;
+  };
+
+  const Body& body_;
+  int n_threads_;
+  std::deque<Level> levels_;
+  std::vector<std::ptrdiff_t> coarsest_unknowns_;
+  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+
+  bool is_finest(const Level& level) const { return &level == &levels_.front(); }
+  void product(const Level& level, const Field<float>& field, Field<float>& product) const;
+  void invert_diagonal(Level& level) const;
+  void estimate_largest_eigenvalue(Level& level) const;
+  void factorise_coarsest();
+  void apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out, float keep,
+                              float factor) const;
+  void smooth(Level& level, bool keeps_residual) const;
+  void cycle(std::size_t l);
+};
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "fem_reference/grid/multigrid.hpp"
+
+namespace springproof::fem_reference::grid {
+
+/// Number of negative eigenvalues of the symmetric part of the tangent last linearised, on the free degrees
+/// of freedom, by Lanczos' method on the preconditioned tangent: its spectrum is a cluster about 1 and
+/// whatever the cycle cannot invert, so that few steps find a negative end of it. By Sylvester's law of
+/// inertia it has as many negative eigenvalues as the tangent. Runs are repeated, deflated by what was found,
+/// until one finds none: a multiple eigenvalue shows once in each.
+/// @param linear_iterations  added to: products with the tangent
+/// @param product  with the tangent; of the free degrees of freedom
+int count_negative_eigenvalues(const Body& body,
+                               const std::function<void(const Field<double>&, Field<double>&)>& product,
+                               Multigrid& multigrid, long& linear_iterations);
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "fem_reference/grid/body.hpp"
+
+namespace springproof::fem_reference::grid {
+
+/// Triquadratic elements (pointwise pressure) on the nodes of a body whose cells are the eighths of theirs.
+/// Their tangent is applied from the moduli at the 27 Gauss points; the body's trilinear tangent in the same
+/// state, which is spectrally equivalent to it (Orszag 1980), preconditions it.
+class QuadraticElements {
+ public:
+  /// @param nodes  of the body of eighths; every size even   @param cells  the elements
+  QuadraticElements(const Body& nodes, Body cells, int n_threads);
+
+  /// Adds the internal force.  @return Checks::valid
+  bool add_force(const double* displacement, double* force, double* cell_volumes) const;
+  void linearise(const double* displacement);
+  /// product = tangent * field, on all entries; of the tangent last linearised.
+  void product(const Field<double>& field, Field<double>& product) const;
+
+  const Body& cells() const { return cells_; }
+
+ private:
+  Body cells_;
+  Layout nodes_;
+  int n_threads_;
+  std::vector<float> moduli_;
+  Quadratic view() const;
+};
+
+} // namespace springproof::fem_reference::grid
