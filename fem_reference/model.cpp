@@ -1,6 +1,7 @@
 #include "fem_reference/model.hpp"
 
 #include "fem_reference/equations.hpp"
+#include "fem_reference/grid/grid_model.hpp"
 
 #include <deal.II/base/mpi.h>
 
@@ -22,6 +23,19 @@ void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
   MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, communicator);
 }
 
+/// Nodes from which the grid's backend is the faster one, and the bulk modulus over the shear modulus above
+/// which its iterations are too many, for bodies that can be factorised.
+constexpr std::size_t grid_from = 500;
+constexpr double most_incompressible = 300;
+
+Backend choose_backend(const cases::Scene& scene) {
+  if (!grid::is_on_grid(scene)) return Backend::assembled;
+  const std::size_t n_nodes = scene.mesh.nodes.size() << 3 * scene.definition.fem.refine;
+  const bool can_factorise = 3 * n_nodes <= static_cast<std::size_t>(direct_solver_limit);
+  const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible && can_factorise;
+  return n_nodes >= grid_from && !is_hard ? Backend::grid : Backend::assembled;
+}
+
 } // namespace
 
 mechanics::EquilibriumSettings default_settings() {
@@ -37,7 +51,14 @@ mechanics::EquilibriumSettings default_settings() {
 }
 
 struct Model::Implementation {
-  Implementation(const cases::Scene& the_scene, MPI_Comm communicator)
+  virtual ~Implementation() = default;
+  virtual cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) = 0;
+  virtual void back_to_rest() = 0;
+  virtual std::vector<NodeDisplacement> node_displacements() const = 0;
+};
+
+struct Model::Assembled : Model::Implementation {
+  Assembled(const cases::Scene& the_scene, MPI_Comm communicator)
       : scene(the_scene), formulations(formulations_of(scene)),
         discretisation(cases::refine(scene, scene.definition.fem.refine),
                        element_type(scene.definition.fem, formulations.front()), {}, communicator),
@@ -45,7 +66,12 @@ struct Model::Implementation {
 
   std::vector<Eigen::Vector3d> body_displacement() const;
   std::vector<double> body_cell_volumes();
-  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings);
+  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
+  void back_to_rest() override {
+    last = equations.rest();
+    last_load_factor = 0;
+  }
+  std::vector<NodeDisplacement> node_displacements() const override;
 
   cases::Scene scene;                    ///< on the body's own mesh
   std::vector<Formulation> formulations; ///< one for each of the scene's materials
@@ -56,7 +82,7 @@ struct Model::Implementation {
 };
 
 /// The nodes of the body's mesh are the first of the refined mesh.
-std::vector<Eigen::Vector3d> Model::Implementation::body_displacement() const {
+std::vector<Eigen::Vector3d> Model::Assembled::body_displacement() const {
   std::vector<Eigen::Vector3d> displacement(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
   for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
     const int number = discretisation.nodes.mesh_node[index(node)];
@@ -68,7 +94,7 @@ std::vector<Eigen::Vector3d> Model::Implementation::body_displacement() const {
 }
 
 /// Each cell of the body is its 8^refine descendants.
-std::vector<double> Model::Implementation::body_cell_volumes() {
+std::vector<double> Model::Assembled::body_cell_volumes() {
   std::vector<double> volumes(scene.mesh.cells.size(), 0.);
   const std::vector<double> own = equations.cell_volumes(last);
   const int shift = 3 * scene.definition.fem.refine;
@@ -78,23 +104,44 @@ std::vector<double> Model::Implementation::body_cell_volumes() {
   return volumes;
 }
 
-Model::Model(const cases::Scene& scene, MPI_Comm communicator)
-    : implementation_(std::make_unique<Implementation>(scene, communicator)) {}
+struct Model::OnGrid : Model::Implementation {
+  OnGrid(const cases::Scene& scene, int n_threads) : model(scene, n_threads) {}
+  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override {
+    return model.solve(load_factor, settings);
+  }
+  void back_to_rest() override { model.back_to_rest(); }
+  std::vector<NodeDisplacement> node_displacements() const override {
+    std::vector<NodeDisplacement> nodes;
+    for (const auto& [rest, displacement] : model.node_displacements()) nodes.push_back({rest, displacement});
+    return nodes;
+  }
+
+  grid::GridModel model;
+};
+
+Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) {
+  if (backend == Backend::automatic) backend = choose_backend(scene);
+  if (backend == Backend::grid && !grid::is_on_grid(scene))
+    throw cases::InputError(scene.definition.fem.where,
+                            "the grid's backend needs a body that is a grid of cells, and no q2_p1");
+  if (backend == Backend::grid)
+    implementation_ = std::make_unique<OnGrid>(scene, 1); // every rank solves all of it
+  else
+    implementation_ = std::make_unique<Assembled>(scene, communicator);
+}
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
 cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings) {
-  Implementation& m = *implementation_;
-  m.last = m.equations.rest();
-  m.last_load_factor = 0;
-  return m.solve(1, settings);
+  implementation_->back_to_rest();
+  return implementation_->solve(1, settings);
 }
 
 cases::Solution Model::solve_again(double load_factor, const mechanics::EquilibriumSettings& settings) {
   return implementation_->solve(load_factor, settings);
 }
 
-cases::Solution Model::Implementation::solve(double load_factor, mechanics::EquilibriumSettings settings) {
+cases::Solution Model::Assembled::solve(double load_factor, mechanics::EquilibriumSettings settings) {
   settings.from = last_load_factor;
   settings.to = load_factor;
   const auto equilibrium = mechanics::find_equilibrium(equations, last, "finite elements", settings);
@@ -113,9 +160,13 @@ cases::Solution Model::Implementation::solve(double load_factor, mechanics::Equi
 }
 
 std::vector<NodeDisplacement> Model::node_displacements() const {
-  const Discretisation& d = implementation_->discretisation;
+  return implementation_->node_displacements();
+}
+
+std::vector<NodeDisplacement> Model::Assembled::node_displacements() const {
+  const Discretisation& d = discretisation;
   std::vector<double> own;
-  const double* displacement = implementation_->last.data();
+  const double* displacement = last.data();
   for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node, displacement += 3) {
     own.insert(own.end(), d.nodes.point[node].begin(), d.nodes.point[node].end());
     own.insert(own.end(), displacement, displacement + 3);

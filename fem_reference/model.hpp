@@ -17,13 +17,19 @@ struct NodeDisplacement {
 /// with Stability::report negative eigenvalues are counted, which may cost a factorisation.
 mechanics::EquilibriumSettings default_settings();
 
+enum class Backend {
+  automatic, ///< grid where the body is one and the element is known to it, else assembled
+  assembled, ///< any mesh: assembled tangent; a sparse factorisation, or algebraic multigrid for large bodies
+  grid       ///< grids of equal cuboids: geometric multigrid, no factorisation
+};
+
 /// A finite-element model of a scene, distributed over the ranks of a communicator: mesh, degrees of freedom,
 /// sparsity. Every member function is collective; every rank gets the whole answer.
 class Model {
  public:
   /// @param scene  the body's scene; definition.fem.refine is applied here
   /// @throws InputError for a combination of material, formulation and element that has no meaning
-  Model(const cases::Scene& scene, MPI_Comm communicator);
+  Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend = Backend::automatic);
   ~Model();
   Model(Model&&) noexcept;
 
@@ -42,6 +48,8 @@ class Model {
 
  private:
   struct Implementation;
+  struct Assembled;
+  struct OnGrid;
   std::unique_ptr<Implementation> implementation_;
 };
 
