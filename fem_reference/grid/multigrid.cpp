@@ -15,8 +15,8 @@ namespace {
 using cases::index;
 
 constexpr std::ptrdiff_t most_coarsest_nodes = 125;
-constexpr int smoothing_degree = 2;
-constexpr double smoothed_part = 8; ///< the smoother works on eigenvalues down to that part of the largest
+constexpr int smoothing_degree = 3;
+constexpr double smoothed_part = 12; ///< the smoother works on eigenvalues down to that part of the largest
 
 std::ptrdiff_t n_nodes(const Layout& l) {
   return std::ptrdiff_t{l.nodes[0]} * l.nodes[1] * l.nodes[2];
