@@ -1,0 +1,199 @@
+// The two backends of the finite elements are the same equations: their answers agree to 1e-8.
+
+#include "fem_reference/model.hpp"
+
+#include "tests/fem_reference/scenes.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace springproof;
+
+using cases::Element;
+using Eigen::Vector3d;
+using fem_reference::Backend;
+using scenes::LoadSet;
+using scenes::Test;
+
+namespace two_backends {
+
+namespace {
+
+constexpr double usual_residual = 1e-10; ///< of the load
+
+cases::Solution solve(const cases::Scene& scene, Backend backend, double residual = usual_residual) {
+  auto settings = fem_reference::default_settings();
+  settings.tolerance = residual;
+  return fem_reference::Model(scene, MPI_COMM_SELF, backend).solve(settings);
+}
+
+/// Tolerance: both stop at a residual that the soft modes of these bodies amplify by less than 1e-8 / residual.
+void agree(const cases::Scene& scene, double residual = usual_residual) {
+  const cases::Solution assembled = solve(scene, Backend::assembled, residual),
+                        grid = solve(scene, Backend::grid, residual);
+  REQUIRE(grid.displacement.size() == assembled.displacement.size());
+  double largest = 0, difference = 0;
+  for (std::size_t n = 0; n < assembled.displacement.size(); ++n) {
+    largest = std::max(largest, assembled.displacement[n].norm());
+    difference = std::max(difference, (assembled.displacement[n] - grid.displacement[n]).norm());
+  }
+  CAPTURE(largest, difference, assembled.newton_iterations, grid.newton_iterations, grid.linear_iterations);
+  CHECK(largest > 0);
+  CHECK(difference <= 1e-8 * largest);
+  CHECK(grid.unknowns == assembled.unknowns);
+  CHECK(grid.negative_eigenvalues == assembled.negative_eigenvalues);
+  CHECK(grid.inverted_cells == assembled.inverted_cells);
+  CHECK(grid.factorisations == 0);
+  REQUIRE(grid.cell_volume.size() == assembled.cell_volume.size());
+  for (std::size_t c = 0; c < grid.cell_volume.size(); ++c)
+    CHECK(std::abs(grid.cell_volume[c] - assembled.cell_volume[c]) <= 1e-7 * assembled.cell_volume[c]);
+}
+
+cases::Case cube(cases::Formulation formulation, Element element, Test test = Test::shear,
+                 LoadSet set = LoadSet::large) {
+  cases::Material material = scenes::thesis_elastic();
+  if (formulation == cases::Formulation::hyperelastic) {
+    cases::Ogden ogden = scenes::thesis_ogden();
+    ogden.bulk_modulus = 0.5;
+    material = ogden;
+  }
+  auto definition = scenes::cube(test, set, material, formulation, element, 5);
+  // on fewer nodes; point forces on the vertices of quadratic elements tear a body that has no energy
+  for (auto& load : definition.loads) load.value *= 121. / 36 / (element == Element::q2 ? 4 : 2);
+  return definition;
+}
+
+cases::Load traction(const std::string& where, const Vector3d& value) {
+  cases::Load load;
+  load.region.name = where;
+  load.kind = cases::LoadKind::traction;
+  load.value = value;
+  return load;
+}
+
+} // namespace
+
+TEST_CASE("both backends find the same equilibrium, whatever the law, the element and the load",
+          "[verification]") {
+  for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::saint_venant_kirchhoff,
+                                 cases::Formulation::log_strain, cases::Formulation::hyperelastic})
+    for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_p0, Element::q2})
+      for (const auto test : {Test::tensile, Test::shear, Test::torsion}) {
+        if (formulation == cases::Formulation::saint_venant_kirchhoff && element != Element::q1 &&
+            element != Element::q2)
+          continue;
+        CAPTURE(cases::name_of(formulation), cases::name_of(element), int(test));
+        agree(cases::make_scene(cube(formulation, element, test)));
+      }
+}
+
+TEST_CASE("both backends agree on flat cells, tractions, torques, symmetry and supports of one component",
+          "[verification]") {
+  const auto element = GENERATE(Element::q1_bbar, Element::q2);
+  CAPTURE(cases::name_of(element));
+  auto definition = cube(cases::Formulation::log_strain, element);
+  definition.body = cases::Box{Vector3d(10, 6, 4), {7, 6, 9}};
+  definition.fixed.clear();
+  for (const char* face : {"x-", "y-", "z-"}) {
+    cases::Fixed fixed;
+    fixed.region.name = face;
+    fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
+    definition.fixed.push_back(fixed);
+  }
+  definition.loads = {traction("x+", {0.02, 0.003, -0.002})};
+  agree(cases::make_scene(definition));
+
+  definition.symmetry = {definition.fixed.front()};
+  definition.fixed.erase(definition.fixed.begin());
+  agree(cases::make_scene(definition));
+
+  auto twisted = cube(cases::Formulation::hyperelastic, element == Element::q2 ? element : Element::q1);
+  cases::Load torque;
+  torque.region.name = "z+";
+  torque.kind = cases::LoadKind::torque;
+  torque.moment = 3;
+  torque.centre = Vector3d(5, 5, 10);
+  twisted.loads = {torque};
+  agree(cases::make_scene(twisted));
+}
+
+TEST_CASE("both backends agree where supports move and turn", "[verification]") {
+  const int motion = GENERATE(0, 1, 2);
+  for (const auto element : {Element::q1, Element::q1_bbar, Element::q2}) {
+    auto definition = cube(cases::Formulation::log_strain, element);
+    CAPTURE(motion, cases::name_of(element));
+    cases::Moved moved;
+    moved.region.name = "z+";
+    if (motion == 0) moved.displacement = Vector3d(2, 0.5, -1);
+    if (motion == 1) {
+      moved.angle = 30;
+      moved.centre = Vector3d(5, 5, 10);
+    }
+    if (motion == 2) { // pressed, and free to slide
+      moved.components = {false, false, true};
+      moved.displacement = Vector3d(0, 0, -2);
+    }
+    definition.moved = {moved};
+    definition.loads.clear();
+    agree(cases::make_scene(definition));
+  }
+}
+
+TEST_CASE("both backends agree on a body with holes, of two materials, and refined", "[verification]") {
+  const auto element = GENERATE(Element::q1_bbar, Element::q2);
+  CAPTURE(cases::name_of(element));
+  auto definition = cube(cases::Formulation::log_strain, element);
+  cases::RegionMaterial stiff;
+  stiff.material = cases::LinearElastic{3, 0.2};
+  stiff.lower = Vector3d(2, -INFINITY, 4);
+  stiff.upper = Vector3d(6, INFINITY, INFINITY);
+  definition.region_materials = {stiff};
+  definition.loads = {traction("z+", {0.01, 0, -0.01})};
+  agree(cases::make_scene(definition));
+  definition.fem.refine = 1;
+  agree(cases::make_scene(definition));
+
+  cases::Scene scene = cases::make_scene(
+      cube(cases::Formulation::hyperelastic, element == Element::q2 ? element : Element::q1_p0));
+  cases::Grid grid = *scene.mesh.grid;
+  grid.present.assign(grid.n_lattice_cells(), true);
+  for (const std::size_t hole : {31u, 32u, 36u, 57u, 62u, 124u, 119u}) grid.present[hole] = false;
+  scene.mesh = cases::make_grid_mesh(grid);
+  cases::Region bottom, top;
+  bottom.name = "z-";
+  top.name = "z+";
+  scene.constrained = {{cases::select(scene.mesh, bottom), {true, true, true}}};
+  scene.loads = {{cases::select(scene.mesh, top), traction("z+", {0.002, 0.001, 0})}};
+  agree(scene);
+}
+
+TEST_CASE("both backends count the negative eigenvalues of a column pressed beyond its Euler load",
+          "[verification]") {
+  const double euler = std::acos(-1.) * std::acos(-1.) / 12 / 400; // N, at E = 1 MPa
+  for (const double fraction : {0.8, 1.6}) {
+    auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar);
+    definition.body = cases::Box{Vector3d(1, 1, 10), {3, 3, 30}};
+    definition.material = cases::LinearElastic{1, 0};
+    definition.loads = {traction("z+", {0, 0, -fraction * euler})};
+    const cases::Scene scene = cases::make_scene(definition);
+    agree(scene, 1e-12); // the column bends 400 times as easily as it is pressed
+    CHECK(solve(scene, Backend::grid).negative_eigenvalues == (fraction < 1 ? 0 : 2));
+  }
+}
+
+TEST_CASE("a load that cannot be carried is refused by both backends, at the same load") {
+  auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar, Test::tensile);
+  for (auto& load : definition.loads) load.value *= 10;
+  const cases::Scene scene = cases::make_scene(definition);
+  double reached[2] = {0, 1};
+  for (const auto backend : {Backend::assembled, Backend::grid}) try {
+      solve(scene, backend);
+      FAIL("was carried");
+    } catch (const cases::SolveError& error) {
+      reached[backend == Backend::grid] = error.load_reached();
+    }
+  CAPTURE(reached[0], reached[1]);
+  CHECK(std::abs(reached[0] - reached[1]) <= 2. / 512); // two of the smallest load steps
+}
+
+} // namespace two_backends
