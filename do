@@ -3,6 +3,7 @@
 #   ./do tables [ARGS]   regenerate the thesis's tables      ./do test    build and run every test
 #   ./do build           build/springproof                   ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
+#   ./do packages        install what is missing
 set -eu
 cd "$(dirname "$0")"
 
@@ -39,6 +40,7 @@ case $command in
   tables) build springproof; exec build/springproof tables "$@" ;;
   run)    build springproof; exec build/springproof run "$@" ;;
   build)  build ;;
+  packages) install_missing ;;
   test)
     install_missing tests
     build
@@ -48,5 +50,5 @@ case $command in
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;
   bench)  build; exec build/springproof_bench "$@" ;;
-  *) sed -n '2,5s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
+  *) sed -n '2,6s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
 esac

@@ -2,12 +2,12 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"
 
@@ -30,6 +30,7 @@ struct GateOptions {
   std::string junit, out;
   int workers = 0; ///< one per core
   bool json = false, annotate = false, converge = false;
+  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
 };
 
 /// Every case is read, and its mesh and regions looked up, before any is solved. The reference's own error
@@ -81,12 +82,21 @@ void write(const GateOptions& options, const std::vector<Comparison>& judged) {
     write_file(options.junit, [&](std::ostream& out) { write_gates_junit(out, judged); });
 }
 
+/// Answers to all questions, solved now or by the shards that are merged.
+std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vector<Question>& questions) {
+  if (options.shards->folders.empty())
+    return answer_all(questions, FinishedCases(options.out, questions), solve_fem, {options.workers});
+  claim_folder(options.out);
+  return answers_of(read_shards(options.shards->folders), questions, FileNames::of_cases);
+}
+
 int gate(const GateOptions& options) {
   std::vector<Question> questions = read_all(options);
   check_blessing(options, questions);
   const auto external = read_external(questions, options.displacements);
-  std::vector<Answers> answers =
-      answer_all(questions, FinishedCases(options.out, questions), solve_fem, {options.workers});
+  if (!options.shards->part.empty())
+    return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});
+  std::vector<Answers> answers = solved_or_merged(options, questions);
   if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {
@@ -114,17 +124,20 @@ void add_gate_command(CLI::App& program, Action& chosen) {
   command->add_flag(
       "--converge", options->converge,
       "the reference's own error bar for every case, not only where one is expected \"converged\"");
-  command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->add_flag("--annotate", options->annotate,
-                    "GitHub's annotations too; with --json they go to standard error");
-  command
-      ->add_option("--bless", options->bless,
-                   "names of cases whose missed regression intervals are moved to the values of now")
-      ->allow_extra_args(false);
-  command->add_option("--out", options->out,
-                      "folder for results.json, comparison.csv and fields as .vtu; cases "
-                      "that it holds already are not solved again");
+  CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
+  CLI::Option* json = command->add_flag("--json", options->json,
+                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* annotate = command->add_flag(
+      "--annotate", options->annotate, "GitHub's annotations too; with --json they go to standard error");
+  CLI::Option* bless =
+      command
+          ->add_option("--bless", options->bless,
+                       "names of cases whose missed regression intervals are moved to the values of now")
+          ->allow_extra_args(false);
+  CLI::Option* out = command->add_option("--out", options->out,
+                                         "folder for results.json, comparison.csv and fields as .vtu; cases "
+                                         "that it holds already are not solved again");
+  bless->excludes(add_shard_options(*command, options->shards, out, {junit, json, annotate, bless}));
   command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
       ->check(CLI::Range(1, 1024));
   command->callback([options, &chosen] { chosen = [options] { return gate(*options); }; });

@@ -1,8 +1,10 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/instructions.hpp"
+#include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
 #include <algorithm>
@@ -19,6 +21,9 @@ namespace {
 struct SweepOptions {
   std::string file, out;
   bool json = false, quick = false, perf = false;
+  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  Extent extent() const { return quick ? Extent::quick : Extent::full; }
+  TimingRules rules() const { return quick ? TimingRules{5, 0.1} : TimingRules{}; }
 };
 
 /// What is finished is on disk before the next variant starts.
@@ -38,20 +43,40 @@ void write_files(const std::string& folder, const Sweep& sweep) {
   plot_sweep(folder, sweep);
 }
 
-int sweep(const SweepOptions& options) {
-  const bool speaks = mpi_rank() == 0;
-  const cases::Case definition = cases::read_case(options.file);
+int time_part(const SweepOptions& options) {
+  const Shard shard = shard_from(options.shards->part).value();
+  const Sweep whole = make_sweep(cases::read_case(options.file), options.extent(), options.rules());
+  const TimedPart part = time_shard(whole, shard, options.out, options.shards->command, "/proc/self/exe");
+  if (mpi_rank() == 0)
+    print_shard(shard, part.n_variants, whole.plan.variants.size(), part.n_failed, options.out);
+  return 0;
+}
+
+Sweep time_all(const SweepOptions& options) {
   claim_folder(options.out);
-  const TimingRules rules = options.quick ? TimingRules{5, 0.1} : TimingRules{};
-  const Sweep result = run_sweep(definition, options.quick ? Extent::quick : Extent::full, rules,
-                                 "/proc/self/exe", [&](const Sweep& so_far) {
-                                   if (speaks) show(so_far, options.out);
-                                 });
+  return run_sweep(cases::read_case(options.file), options.extent(), options.rules(), "/proc/self/exe",
+                   [&](const Sweep& so_far) {
+                     if (mpi_rank() == 0) show(so_far, options.out);
+                   });
+}
+
+Sweep merge_parts(const SweepOptions& options) {
+  Sweep merged = merged_sweep(make_sweep(cases::read_case(options.file), options.extent(), options.rules()),
+                              read_shards(options.shards->folders));
+  claim_folder(options.out);
+  if (!options.out.empty())
+    write_file(options.out + "/sweep.csv", [&](std::ostream& out) { write_sweep_csv(out, merged); });
+  return merged;
+}
+
+int sweep(const SweepOptions& options) {
+  if (!options.shards->part.empty()) return time_part(options);
+  const Sweep result = options.shards->folders.empty() ? time_all(options) : merge_parts(options);
   const bool failed =
       !result.reference || std::any_of(result.rows.begin(), result.rows.end(), [](const SweepRow& row) {
         return row.run.first.status == cases::Status::failed;
       });
-  if (!speaks) return failed;
+  if (mpi_rank() != 0) return failed;
   if (options.json)
     std::cout << sweep_to_json(result).dump(2) << '\n';
   else
@@ -87,11 +112,15 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   CLI::App* command =
       program.add_subcommand("sweep", "speed against error, of both models at many resolutions");
   command->add_option("case", options->file, "case file (TOML): a box under tractions");
-  command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  CLI::Option* out =
+      command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
+  CLI::Option* json = command->add_flag("--json", options->json,
+                                        "one JSON document on standard output, and nothing else there");
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
-  command->add_flag("--perf", options->perf,
-                    "count the instructions of the springs' kernels with valgrind instead; needs no case");
+  CLI::Option* perf = command->add_flag(
+      "--perf", options->perf,
+      "count the instructions of the springs' kernels with valgrind instead; needs no case");
+  add_shard_options(*command, options->shards, out, {json, perf});
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -1,4 +1,6 @@
 #include "compare/app/commands.hpp"
+#include "compare/app/shard_options.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
@@ -20,19 +22,43 @@ struct TablesOptions {
   std::string out;
   int workers = 0; ///< one per core
   bool json = false, trace = false;
+  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
 };
 
-int tables(const TablesOptions& options) {
-  const int rank = mpi_rank();
-  const bool is_on_terminal = rank == 0 && isatty(STDERR_FILENO);
-  claim_folder(options.out);
-  ThesisResults results = regenerate(options.tables, {options.workers}, [&](int done, int all) {
+/// By worker processes, with a line of progress on a terminal.
+ThesisResults solve_tables(const TablesOptions& options) {
+  const bool is_on_terminal = mpi_rank() == 0 && isatty(STDERR_FILENO);
+  const int n_workers = options.workers > 0 ? options.workers : cores();
+  const auto answer = [&](const std::vector<Question>& questions) {
     constexpr int width = 40;
-    if (is_on_terminal)
-      std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}", std::string(width * done / all, '#'), width,
-                               done, all, done == all ? "\n" : "");
-  });
-  if (rank != 0) return 0; // the springs' side is on rank 0 alone
+    int done = 0, all = static_cast<int>(questions.size());
+    return answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers}, [&](auto, auto&) {
+      ++done;
+      if (is_on_terminal)
+        std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}", std::string(width * done / all, '#'), width,
+                                 done, all, done == all ? "\n" : "");
+    });
+  };
+  return regenerate(options.tables, answer, std::to_string(n_workers));
+}
+
+ThesisResults merge_tables(const TablesOptions& options) {
+  const Shards shards = read_shards(options.shards->folders);
+  return regenerate(
+      options.tables,
+      [&](const std::vector<Question>& questions) {
+        return answers_of(shards, questions, FileNames::of_questions);
+      },
+      fmt::format("{} shards", shards.folders.size()));
+}
+
+int tables(const TablesOptions& options) {
+  if (!options.shards->part.empty())
+    return solve_shard(*options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
+                       options.out, {options.workers});
+  claim_folder(options.out);
+  ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
+  if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   bool failed = false;
   for (const TableEntry& entry : results.entries)
     for (const ComputedFigure& computed : entry.computed) failed = failed || !computed.value;
@@ -62,13 +88,15 @@ void add_tables_command(CLI::App& program, Action& chosen) {
       program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
   command->add_option("table", options->tables,
                       "numbers of tables; without any: all, designs and advice too");
-  command->add_option(
+  CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
   command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--trace", options->trace, "the command that repeats it under every number");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = command->add_flag("--json", options->json,
+                                        "one JSON document on standard output, and nothing else there");
+  add_shard_options(*command, options->shards, out, {json});
   command->callback([options, &chosen] { chosen = [options] { return tables(*options); }; });
 }
 

@@ -183,7 +183,7 @@ Json report_to_json(const ThesisResults& results, const std::vector<Figure>& fig
   document["cases"] = cases_to_json(results);
   document["views"] = views_to_json(body_views(results));
   document["provenance"] = provenance();
-  document["workers"] = results.n_workers;
+  document["workers"] = results.workers;
   document["licence"] = page_file("three_licence.txt");
   return document;
 }

@@ -4,10 +4,9 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"
+#include "compare/solve/kept.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <mpi.h>
@@ -17,36 +16,19 @@ namespace springproof::compare {
 
 namespace {
 
-/// First line of a kept file; a frame of identity and answers follows. To be counted up when the fields of
-/// compare/solve/fields.hpp change their meaning.
-const std::string heading = "springproof answers, format 1\n";
-
-/// The commit does not tell one build of uncommitted changes from another; the program's own bytes do.
-const std::string& this_program() {
-  static const std::string identity = program_commit() + " " + digest(read_file("/proc/self/exe"));
-  return identity;
+std::string identity(const Question& question) {
+  return identity_of(cases::to_bytes<cereal::BinaryOutputArchive>(question));
 }
 
-/// Of all that answers depend on. Meshes are in it as they were read, whatever files gmsh took them from; the
-/// names of files and the lines of the case file are not.
-std::string identity_of(const Question& question) {
-  const char* petsc = std::getenv("PETSC_OPTIONS");
-  return digest(cases::to_bytes<cereal::BinaryOutputArchive>(this_program(), std::string(petsc ? petsc : ""),
-                                                             question));
+std::string path_of(const std::string& folder, const Question& question, FileNames names) {
+  const std::string solved = folder + "/solved/";
+  return solved + (names == FileNames::of_cases ? question.scene.definition.name : identity(question));
 }
 
-/// The frame of answers in a file; empty if there is none for this question.
+/// The kept answers' bytes; empty if there are none for this question.
 std::string answers_in(const std::string& path, const std::string& identity) {
-  std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) return "";
   try {
-    std::string content = read_file(path);
-    if (content.compare(0, heading.size(), heading) != 0)
-      throw std::runtime_error("has another format than this program's");
-    content.erase(0, heading.size());
-    const std::optional<Frame> frame = take_frame(content);
-    if (!frame || !content.empty()) throw std::runtime_error("is damaged");
-    return frame->kind == identity ? frame->content : "";
+    return read_kept(path, identity);
   } catch (const std::exception& error) {
     std::cerr << path << ": " << error.what() << "; the case is solved again\n";
     return "";
@@ -66,13 +48,14 @@ std::string from_rank_0(std::string text) {
 
 } // namespace
 
-FinishedCases::FinishedCases(const std::string& folder, const std::vector<Question>& questions)
-    : folder_(folder) {
+FinishedCases::FinishedCases(const std::string& folder, const std::vector<Question>& questions,
+                             FileNames names)
+    : folder_(folder), names_(names) {
   if (folder.empty()) return;
-  std::set<std::string> names;
+  std::set<std::string> taken;
   for (const Question& question : questions) {
     const cases::Case& definition = question.scene.definition;
-    if (!names.insert(definition.name).second)
+    if (names == FileNames::of_cases && !taken.insert(definition.name).second)
       throw cases::InputError(
           fmt::format("{}: another case is named \"{}\" too, and --out has one file a name", definition.file,
                       definition.name));
@@ -81,27 +64,43 @@ FinishedCases::FinishedCases(const std::string& folder, const std::vector<Questi
   claim_folder(folder + "/solved");
 }
 
-std::string FinishedCases::path_of(const Question& question) const {
-  return folder_ + "/solved/" + question.scene.definition.name;
-}
-
 std::optional<Answers> FinishedCases::find(const Question& question) const {
   if (folder_.empty()) return std::nullopt;
-  const std::string bytes =
-      from_rank_0(mpi_rank() == 0 ? answers_in(path_of(question), identity_of(question)) : "");
+  const std::string bytes = from_rank_0(
+      mpi_rank() == 0 ? answers_in(path_of(folder_, question, names_), identity(question)) : "");
   if (bytes.empty()) return std::nullopt;
+  Answers answers;
+  cases::from_bytes(bytes, answers);
+  if (answers.failed()) return std::nullopt;
   if (mpi_rank() == 0)
     std::cerr << question.scene.definition.name
               << ": solved already, taken from the earlier results in the same folder\n";
+  return answers;
+}
+
+void FinishedCases::keep(const Question& question, const Answers& answers) const {
+  if (!folder_.empty())
+    write_kept(path_of(folder_, question, names_), identity(question), cases::to_bytes(answers));
+}
+
+Answers kept_answers(const std::string& folder, const Question& question, FileNames names) {
+  const std::string path = path_of(folder, question, names);
+  std::string bytes, reason = "has no answers to " + question.scene.definition.name;
+  try {
+    bytes = read_kept(path, identity(question));
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
+  if (bytes.empty()) throw cases::InputError(path + ": " + reason);
   Answers answers;
   cases::from_bytes(bytes, answers);
   return answers;
 }
 
-void FinishedCases::keep(const Question& question, const Answers& answers) const {
-  if (folder_.empty() || answers.failed()) return;
-  const std::string content = framed({identity_of(question), cases::to_bytes(answers)});
-  write_file(path_of(question), [&](std::ostream& out) { out << heading << content; });
+std::string digest_of(const std::vector<Question>& questions) {
+  std::string identities;
+  for (const Question& question : questions) identities += identity(question);
+  return digest(identities);
 }
 
 } // namespace springproof::compare

@@ -4,16 +4,24 @@
 
 namespace springproof::compare {
 
-/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a case. One is
+/// Names of the files in DIR/solved.
+enum class FileNames {
+  of_cases,    ///< for readers; one question a case
+  of_questions ///< digests, where many questions are of one case
+};
+
+/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question. One is
 /// taken up again only if all that its answers depend on is the same: this program, the case as it was parsed
 /// with the mesh that its files gave, the request and PETSC_OPTIONS. A file that is damaged or of another
-/// version counts as none, with a line on standard error. Failed solves are not kept.
+/// version counts as none, with a line on standard error. Failed solves are kept for `merge`, and tried again
+/// by a rerun.
 class FinishedCases {
  public:
   /// Claims the folder. Every rank calls it.
   /// @param folder  of `--out`; empty: nothing is kept, nothing found
   /// @throws InputError if the folder cannot be written, or two cases have one name and so one file
-  FinishedCases(const std::string& folder, const std::vector<Question>& questions);
+  FinishedCases(const std::string& folder, const std::vector<Question>& questions,
+                FileNames names = FileNames::of_cases);
 
   /// The answers of an earlier command, with a line that says so. Collective over MPI_COMM_WORLD: rank 0
   /// reads, all get them.
@@ -23,8 +31,15 @@ class FinishedCases {
   void keep(const Question& question, const Answers& answers) const;
 
  private:
-  std::string path_of(const Question& question) const;
   std::string folder_;
+  FileNames names_;
 };
+
+/// What FinishedCases::keep() has left in a folder, failed solves too.
+/// @throws InputError if there is nothing for this question, or it is damaged
+Answers kept_answers(const std::string& folder, const Question& question, FileNames names);
+
+/// Of all that the answers to these questions depend on.
+std::string digest_of(const std::vector<Question>& questions);
 
 } // namespace springproof::compare

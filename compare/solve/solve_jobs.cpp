@@ -2,11 +2,11 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <mpi.h>
 #include <thread>
 #include <tuple>
@@ -14,20 +14,6 @@
 namespace springproof::compare {
 
 namespace {
-
-/// Decides the order alone. Unknowns times the steps and the cost of an element, as measured on the thesis's
-/// cases.
-double estimated_cost(const Question& question) {
-  const auto& [scene, request] = question;
-  const double n_nodes = static_cast<double>(scene.mesh.nodes.size());
-  const cases::Fem& fem = scene.definition.fem;
-  double cost = 0;
-  const int refine = std::max(fem.refine, request.meshes - 1);
-  if (request.asks(cases::Side::fem))
-    cost += n_nodes * std::pow(8, refine) * (fem.formulation == cases::Formulation::small_strain ? 2 : 10);
-  if (request.asks(cases::Side::msm)) cost += n_nodes;
-  return cost;
-}
 
 /// When there are none: the sides that should have been solved have failed.
 Answers failed_answers(const Request& request, const std::exception& error) {
@@ -50,6 +36,29 @@ Answers answers_from(const JobAnswer& job, const Request& request) {
   Answers answers;
   cases::from_bytes(*job.bytes, answers);
   return answers;
+}
+
+/// Questions of jobs whose case can be read, and what the others have failed by.
+struct ReadJobs {
+  std::vector<Question> questions;
+  std::vector<std::size_t> job; ///< of each question
+  std::vector<std::pair<std::size_t, Answers>> failed;
+};
+
+ReadJobs read_jobs(const std::vector<SolveJob>& jobs) {
+  ReadJobs read;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    Request request;
+    request.only = jobs[j].only;
+    try {
+      read.questions.push_back(
+          {cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
+      read.job.push_back(j);
+    } catch (const cases::InputError& error) {
+      read.failed.emplace_back(j, failed_answers(request, error));
+    }
+  }
+  return read;
 }
 
 } // namespace
@@ -110,30 +119,17 @@ bool SolveJob::operator<(const SolveJob& other) const {
   return std::tie(case_file, settings, only) < std::tie(other.case_file, other.settings, other.only);
 }
 
-std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve_fem,
-                               const SolveOptions& options,
-                               const std::function<void(int done, int all)>& progress) {
+std::vector<Question> questions_of(const std::vector<SolveJob>& jobs) {
+  return read_jobs(jobs).questions;
+}
+
+std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, const AnswerQuestions& answer) {
   std::vector<Solved> solved(jobs.size());
-  std::vector<Question> questions;
-  std::vector<std::size_t> job_of_question;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    Request request;
-    request.only = jobs[j].only;
-    try {
-      questions.push_back(
-          {cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
-      job_of_question.push_back(j);
-    } catch (const cases::InputError& error) {
-      solved[j].answers = failed_answers(request, error);
-    }
-  }
-  int n_done = 0;
-  std::vector<Answers> answers =
-      answer_all(questions, FinishedCases("", {}), solve_fem, options, [&](std::size_t, const Answers&) {
-        progress(++n_done, static_cast<int>(questions.size()));
-      });
-  for (std::size_t q = 0; q < questions.size(); ++q)
-    solved[job_of_question[q]] = {std::move(questions[q].scene), std::move(answers[q])};
+  ReadJobs read = read_jobs(jobs);
+  for (auto& [job, failed] : read.failed) solved[job].answers = std::move(failed);
+  std::vector<Answers> answers = answer(read.questions);
+  for (std::size_t q = 0; q < answers.size(); ++q)
+    solved[read.job[q]] = {std::move(read.questions[q].scene), std::move(answers[q])};
   return solved;
 }
 

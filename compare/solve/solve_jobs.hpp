@@ -49,11 +49,14 @@ struct Solved {
   Answers answers;
 };
 
-/// Solves every job by answer_all(). A job whose case cannot be read has failed, with the reason.
-/// @param progress  called with the number of jobs done and in all
-std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, SolveFem solve_fem,
-                               const SolveOptions& options,
-                               const std::function<void(int done, int all)>& progress);
+/// The jobs' questions, without those whose case cannot be read.
+std::vector<Question> questions_of(const std::vector<SolveJob>& jobs);
+
+/// Where the answers to questions come from: answer_all(), or shards that have solved them.
+using AnswerQuestions = std::function<std::vector<Answers>(const std::vector<Question>&)>;
+
+/// Answers the jobs' questions. A job whose case cannot be read has failed, with the reason.
+std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, const AnswerQuestions& answer);
 
 int cores(); ///< of the machine, at least 1
 

@@ -237,6 +237,10 @@ std::string answer_timing_job(const std::string& job) {
     run.start_megabytes = before;
     run.peak_megabytes = peak_resident_megabytes();
   }
+  return bytes_of(run);
+}
+
+std::string bytes_of(const VariantRun& run) {
   return cases::to_bytes(run);
 }
 
@@ -246,10 +250,8 @@ VariantRun variant_run_from(const std::string& answer) {
   return run;
 }
 
-Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
-                const std::string& program, const std::function<void(const Sweep&)>& on_row) {
+Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules) {
   Sweep sweep;
-  const Stopwatch stopwatch;
   sweep.definition = definition;
   sweep.plan = plan_sweep(definition, extent);
   sweep.rules = rules;
@@ -259,19 +261,31 @@ Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules&
   if (const auto reason =
           reason_without_continuum_limit(scene_on(definition, field_cells(sweep.plan.reference[1]))))
     throw cases::InputError(definition.file + ": no reference to measure errors against: " + *reason);
+  return sweep;
+}
 
-  for (std::size_t v = 0; v < sweep.plan.variants.size(); ++v) {
-    const Variant& variant = sweep.plan.variants[v];
-    sweep.rows.push_back({variant, sweep.processes == Processes::this_one
-                                       ? run_here(sweep, variant)
-                                       : run_in_own_process(sweep, variant, program)});
-    const std::size_t n_reference = sweep.plan.reference.size();
-    if (v + 1 == n_reference) {
-      find_reference(sweep);
-      for (SweepRow& row : sweep.rows) finish(sweep, row);
-    } else if (v >= n_reference) {
-      finish(sweep, sweep.rows.back());
-    }
+VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program) {
+  return sweep.processes == Processes::this_one ? run_here(sweep, variant)
+                                                : run_in_own_process(sweep, variant, program);
+}
+
+void add_row(Sweep& sweep, const Variant& variant, VariantRun run) {
+  sweep.rows.push_back({variant, std::move(run)});
+  const std::size_t n_reference = sweep.plan.reference.size();
+  if (sweep.rows.size() == n_reference) {
+    find_reference(sweep);
+    for (SweepRow& row : sweep.rows) finish(sweep, row);
+  } else if (sweep.rows.size() > n_reference) {
+    finish(sweep, sweep.rows.back());
+  }
+}
+
+Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
+                const std::string& program, const std::function<void(const Sweep&)>& on_row) {
+  const Stopwatch stopwatch;
+  Sweep sweep = make_sweep(definition, extent, rules);
+  for (const Variant& variant : std::vector<Variant>(sweep.plan.variants)) {
+    add_row(sweep, variant, run_variant(sweep, variant, program));
     sweep.seconds = stopwatch.seconds();
     on_row(sweep);
   }

@@ -43,6 +43,7 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
 /// A job of a worker, and its answer with the memory of that process in it.
 std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
 std::string answer_timing_job(const std::string& job);
+std::string bytes_of(const VariantRun& run);
 /// @throws std::exception if the bytes are no answer
 VariantRun variant_run_from(const std::string& answer);
 
@@ -69,14 +70,25 @@ struct Sweep {
   double seconds = 0; ///< that the sweep took
 };
 
+/// A sweep without rows.
+/// @throws InputError for a case without a continuum limit, with another body than a box, or with measures
+/// that the reference's mesh does not have
+Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules);
+
+/// Solves and times one of the sweep's variants, in a process of its own or in this one (then collective).
+/// @param program  whose hidden command `worker` serves
+VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program);
+
+/// The next of the plan's variants. With the last mesh of the reference, all rows get their errors.
+void add_row(Sweep& sweep, const Variant& variant, VariantRun run);
+
 /// Solves and times the plan's variants one after the other, each in a process of its own, and holds them
 /// against the extrapolated reference. A variant that fails is a row with its reason. A quick sweep, and any
 /// under MPI, runs in this process, and then memory is not told (collective; rank 0 alone has the springs'
 /// rows).
 /// @param program  whose hidden command `worker` serves
-/// @param on_row   told the sweep as it is after every variant
-/// @throws InputError for a case without a continuum limit, with another body than a box, or with measures
-/// that the reference's mesh does not have
+/// @param on_row   called with the sweep as it is after every variant
+/// @throws InputError as make_sweep()
 Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
                 const std::string& program, const std::function<void(const Sweep&)>& on_row);
 

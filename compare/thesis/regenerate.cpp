@@ -1,7 +1,6 @@
 #include "compare/thesis/regenerate.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 
 #include <algorithm>
@@ -109,21 +108,24 @@ double seconds(const Solutions& solutions, cases::Side side) {
 
 } // namespace
 
-ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOptions& options,
-                         const std::function<void(int done, int all)>& progress) {
-  const bool is_everything = tables.empty();
+std::vector<SolveJob> jobs_of_tables(const std::vector<std::string>& tables) {
+  return jobs_for(figures_of(tables), tables.empty());
+}
+
+ThesisResults regenerate(const std::vector<std::string>& tables, const AnswerQuestions& answer,
+                         const std::string& workers) {
   const std::vector<PublishedFigure> figures = figures_of(tables);
   Stopwatch stopwatch;
-  const std::vector<SolveJob> jobs = jobs_for(figures, is_everything);
+  const std::vector<SolveJob> jobs = jobs_of_tables(tables);
   const double collecting = stopwatch.lap();
-  std::vector<Solved> solved = solve_jobs(jobs, solve_fem, options, progress);
+  std::vector<Solved> solved = solve_jobs(jobs, answer);
   const double solving = stopwatch.lap();
   Solutions solutions;
   for (std::size_t j = 0; j < jobs.size(); ++j)
     solutions[jobs[j]] = comparison_of(std::move(solved[j].scene), std::move(solved[j].answers));
-  ThesisResults results = tables_from(figures, is_everything, solutions);
-  results.n_workers = options.n_workers > 0 ? options.n_workers : cores();
-  results.times = {{fmt::format("{} solves on {} workers", jobs.size(), results.n_workers), solving},
+  ThesisResults results = tables_from(figures, tables.empty(), solutions);
+  results.workers = workers;
+  results.times = {{fmt::format("{} solves, workers: {}", jobs.size(), workers), solving},
                    {"  of which finite elements, all workers", seconds(solutions, cases::Side::fem)},
                    {"  of which springs, all workers", seconds(solutions, cases::Side::msm)},
                    {"tables", collecting + stopwatch.lap()}};

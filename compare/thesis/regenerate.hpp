@@ -5,8 +5,6 @@
 #include "compare/thesis/designs.hpp"
 #include "compare/thesis/volumes.hpp"
 
-#include <functional>
-
 namespace springproof::compare {
 
 struct PhaseTime {
@@ -30,15 +28,19 @@ struct ThesisResults {
   std::vector<DesignRow> designs;
   std::vector<Advice> advice;
   std::vector<PhaseTime> times; ///< the only part that differs from run to run
-  int n_workers = 1;
+  std::string workers;          ///< "2", or "2 shards"
 };
 
-/// Solves what the tables need, each solve once, and computes every number of ThesisResults.
-/// @param tables    numbers; empty: all of them, and the comparison of designs and the advice, which look at
-///                  every table
-/// @param progress  told the number of solves done and in all
+/// Every solve that the tables need, once.
+/// @param tables  numbers; empty: all of them, and the comparison of designs and the advice, which look at
+///                every table
 /// @throws InputError for an unknown table
-ThesisResults regenerate(const std::vector<std::string>& tables, const SolveOptions& options,
-                         const std::function<void(int done, int all)>& progress);
+std::vector<SolveJob> jobs_of_tables(const std::vector<std::string>& tables);
+
+/// Solves what the tables need, each solve once, and computes every number of ThesisResults.
+/// @param answer   answers all questions   @param workers  who does: "2", or "2 shards"
+/// @throws InputError for an unknown table
+ThesisResults regenerate(const std::vector<std::string>& tables, const AnswerQuestions& answer,
+                         const std::string& workers);
 
 } // namespace springproof::compare

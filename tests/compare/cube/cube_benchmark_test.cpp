@@ -31,7 +31,9 @@ compare::Advice advised() {
   for (const auto& [fem, msm] : compare::advice_jobs(question)) jobs.insert(jobs.end(), {fem, msm});
   compare::SolveOptions options;
   options.program = SPRINGPROOF_PROGRAM;
-  const auto solved = compare::solve_jobs(jobs, compare::solve_fem, options, [](int, int) {});
+  const auto solved = compare::solve_jobs(jobs, [&](const std::vector<compare::Question>& questions) {
+    return compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem, options);
+  });
   for (std::size_t j = 0; j < jobs.size(); ++j)
     solutions[jobs[j]] = compare::comparison_of(solved[j].scene, solved[j].answers);
   return compare::advise({question}, solutions).front();

@@ -27,14 +27,12 @@ SolveJob shear(std::optional<Side> only, std::vector<std::string> more = {}) {
   return {linear_elastic + "cube_shear_small.toml", more, only};
 }
 
-std::vector<Solved> solve(const std::vector<SolveJob>& jobs, int n_workers) {
-  int n_reports = 0;
-  auto solved =
-      compare::solve_jobs(jobs, compare::solve_fem, {n_workers, SPRINGPROOF_PROGRAM}, [&](int done, int all) {
-        CHECK(done == ++n_reports);
-        CHECK(all <= static_cast<int>(jobs.size()));
-      });
-  return solved;
+std::vector<Solved> solve(const std::vector<SolveJob>& jobs, int n_workers,
+                          const std::string& program = SPRINGPROOF_PROGRAM) {
+  return compare::solve_jobs(jobs, [&](const std::vector<compare::Question>& questions) {
+    return compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem,
+                               {n_workers, program});
+  });
 }
 
 bool is_same(const cases::Solution& a, const cases::Solution& b) {
@@ -118,8 +116,7 @@ TEST_CASE("workers read no file: what was parsed is what is solved") {
 }
 
 TEST_CASE("a worker that crashes is a failed side that says so") {
-  const auto solved =
-      compare::solve_jobs({shear(Side::msm)}, compare::solve_fem, {1, "false"}, [](int, int) {});
+  const auto solved = solve({shear(Side::msm)}, 1, "false");
   CHECK(solved[0].answers.msm.solution.status == cases::Status::failed);
   CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("status 1"));
 }
