@@ -27,11 +27,15 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
 
 } // namespace
 
+bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
+  return takes_multigrid(scene, stiffness, Path::automatic);
+}
+
 Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
              const ModelOptions& options)
     : solver_(scene.definition.msm.solver), n_threads_(options.n_threads), problem_(make_problem(scene)) {
   if (takes_multigrid(scene, stiffness, options.path)) {
-    grid_ = grid::make_grid_problem(problem_, stiffness);
+    grid_ = grid::make_grid_problem(problem_, stiffness, options.deal_out);
     system_ = grid::make_grid_system(*grid_, n_threads_);
   } else {
     problem_.lattice = make_lattice(scene.mesh, stiffness);
@@ -42,17 +46,16 @@ Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffn
 cases::Solution Model::solve(mechanics::EquilibriumSettings settings, const Points& start) {
   const Points rest(problem_.mesh.nodes.size(), Eigen::Vector3d::Zero());
   const Points& at = start.empty() ? rest : start;
-  Vector from = grid_ ? grid::to_field(problem_, grid_->body.layout, at) : to_vector(problem_, at);
+  Vector from = grid_ ? grid::to_field(problem_, grid_->body, at) : to_vector(problem_, at);
+  const bool is_newton = solver_ == cases::Solver::newton || solver_ == cases::Solver::snes;
   if (grid_) clear_constrained(grid_->body, from);
-  if (solver_ == cases::Solver::newton && grid_ && !grid_->supports && start.empty() &&
-      settings.first_load_step == 1)
+  if (is_newton && grid_ && !grid_->supports && start.empty() && settings.first_load_step == 1)
     settings.guess = grid::coarse_guess(*grid_, n_threads_);
   const mechanics::Equilibrium found =
-      solver_ == cases::Solver::newton
-          ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
-          : relax(*system_, from, solver_, settings);
+      is_newton ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
+                : relax(*system_, from, solver_, settings);
   return solution_of(problem_, found,
-                     grid_ ? grid::to_points(problem_, grid_->body.layout, found.state)
+                     grid_ ? grid::to_points(problem_, grid_->body, found.state)
                            : to_points(problem_, found.state));
 }
 

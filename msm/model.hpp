@@ -14,8 +14,13 @@ enum class Path {
 
 struct ModelOptions {
   Path path = Path::automatic;
-  int n_threads = 1; ///< of the multigrid path; results do not depend on it
+  int n_threads = 1;           ///< of the multigrid path; results do not depend on it
+  grid::DealOut deal_out = {}; ///< to the ranks, on the multigrid path; then solve() is collective, and every
+                               ///< rank gets the whole answer
 };
+
+/// Whether Path::automatic takes the multigrid path.
+bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness);
 
 /// A mass-spring model of a scene: its lattice, loads and supports, ready to be solved.
 class Model {

@@ -41,9 +41,9 @@ class SpringSystem : public mechanics::NonlinearProblem {
 
   mechanics::Merit merit() const override { return mechanics::Merit::energy; }
   Size size(const Vector& residual, const Vector& at) override {
-    const double load = this->load().norm();
+    const double load = std::sqrt(dot(this->load(), this->load()));
     const double scale = load > 0 ? load : reaction(at);
-    return {residual.norm() / (scale > 0 ? scale : 1.0)};
+    return {std::sqrt(dot(residual, residual)) / (scale > 0 ? scale : 1.0)};
   }
   std::optional<Vector> direction(const Vector& at, const Vector& residual, double, double forcing,
                                   mechanics::Convexity convexity) override {

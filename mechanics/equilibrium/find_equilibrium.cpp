@@ -81,7 +81,7 @@ class PathFollower {
     Vector there = trial;
     problem_.move_supports(there, at_load);
     const Vector gap = there - trial;
-    const double largest = gap.cwiseAbs().maxCoeff();
+    const double largest = problem_.largest(gap);
     if (!(largest > 0)) return there;
     constexpr double small = 1e-7; // mm: differences of forces then keep half of their digits
     const Vector pull = (largest / small) * (problem_.residual(trial + (small / largest) * gap, at_load) -
@@ -127,7 +127,7 @@ class PathFollower {
       result_.is_stable = true;
       if (!(mode->eigenvalue < 0)) return true;
       ++result_.escapes;
-      const double unit = 1 / mode->shape.cwiseAbs().maxCoeff(); // to 1 mm at most
+      const double unit = 1 / problem_.largest(mode->shape); // to 1 mm at most
       double lowest = problem_.energy(at, load_factor);
       Vector best;
       for (double size = 1e-3; size <= 10; size *= 2) {

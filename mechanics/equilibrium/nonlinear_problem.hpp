@@ -87,6 +87,7 @@ class NonlinearProblem {
 
   /// Over all ranks.
   virtual double dot(const Vector& left, const Vector& right) const { return left.dot(right); }
+  virtual double largest(const Vector& of) const { return of.cwiseAbs().maxCoeff(); } ///< magnitude
   virtual bool any_rank(bool here) const { return here; }
 
   struct Work {

@@ -21,6 +21,9 @@ class DistributedProblem : public NonlinearProblem {
   double dot(const mechanics::Vector& left, const mechanics::Vector& right) const override {
     return total(left.dot(right), MPI_SUM, communicator_);
   }
+  double largest(const mechanics::Vector& of) const override {
+    return total(of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0, MPI_MAX, communicator_);
+  }
   bool any_rank(bool here) const override { return total(here ? 1 : 0, MPI_MAX, communicator_) > 0; }
 
  protected:

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <exception>
 #include <memory>
+#include <petscsf.h>
 #include <petscsnes.h>
 #include <type_traits>
 #include <utility>
@@ -32,6 +33,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Object>, Destroy<Object, des
 
 using Vector = Owned<Vec, VecDestroy>;
 using Matrix = Owned<Mat, MatDestroy>;
+using StarForest = Owned<PetscSF, PetscSFDestroy>; ///< who sends which entries to whom
 using NullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 using LinearSolver = Owned<KSP, KSPDestroy>;
 using NonlinearSolver = Owned<SNES, SNESDestroy>;

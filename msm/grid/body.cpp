@@ -45,6 +45,7 @@ bool has_cell(const Body& body, int i, int j, int k) {
 }
 
 std::optional<Body> coarsen(const Body& fine) {
+  if (fine.part) return *fine.part->coarser;
   double smallest = INFINITY;
   for (std::size_t a = 0; a < 3; ++a)
     if (fine.cells[a] > 2) smallest = std::min(smallest, fine.spacing[static_cast<int>(a)]);

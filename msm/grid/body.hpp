@@ -1,11 +1,13 @@
 #pragma once
 
 #include "msm/grid/kernels.hpp"
+#include "msm/grid/part.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <random>
@@ -39,6 +41,7 @@ struct Body {
   Layout layout;
   std::vector<std::ptrdiff_t> constrained; ///< entries of a field that never change: constrained dofs, and
                                            ///< entries without a cell. Sorted.
+  std::optional<Part> part{};              ///< set when other ranks have the rest of the grid
 
   bool is_uniform() const { return springs.size() == 1; }
   const CellSprings& cell(int i, int j, int k) const;
@@ -49,13 +52,13 @@ Layout make_layout(const std::array<int, 3>& cells);
 /// Fills in layout and constrained.
 void set_layout(Body& body, const std::function<bool(int i, int j, int k, int component)>& is_constrained);
 
-/// Whether a node touches a cell.
+/// Whether a node touches a cell that is here.
 bool has_cell(const Body& body, int i, int j, int k);
 
 /// The same body in cells of twice the edge along those axes whose spacing is (almost) the smallest, so that
 /// cells tend to cubes; nothing when it is as coarse as it gets. A coarse spring has the energy of the fine
 /// ones in the same uniform strain; cells that are half outside have half the stiffness. A node is held where
-/// the fine node at its place is.
+/// the fine node at its place is. Of a part, the coarser body that it brings.
 std::optional<Body> coarsen(const Body& fine);
 
 /// Three arrays of a layout: a vector at every node of a grid. Ghosts and constrained entries are 0.
@@ -81,8 +84,29 @@ void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
   for (int k = 0; k < layout.nodes[2]; ++k) action(k);
 }
 
+namespace detail {
+
 template<class Real>
-double dot(const Field<Real>& a, const Field<Real>& b, int n_threads) {
+double dot_of_parts(const Body& body, const Field<Real>& a, const Field<Real>& b) {
+  const Part& part = *body.part;
+  const int n = part.own_last[0] - part.own_first[0];
+  double sum = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int k = part.own_first[2]; k < part.own_last[2]; ++k)
+      for (int j = part.own_first[1]; j < part.own_last[1]; ++j) {
+        const std::ptrdiff_t row = body.layout.at(part.own_first[0], j, k, c);
+        sum += static_cast<double>(a.segment(row, n).dot(b.segment(row, n)));
+      }
+  part.ranks->sum(&sum, 1);
+  return sum;
+}
+
+} // namespace detail
+
+/// Over the nodes of the whole grid.
+template<class Real>
+double dot(const Body& body, const Field<Real>& a, const Field<Real>& b, int n_threads) {
+  if (body.part) return detail::dot_of_parts(body, a, b);
   Eigen::VectorXd part((a.size() + piece - 1) / piece);
   for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
     part[first / piece] = static_cast<double>(a.segment(first, length).dot(b.segment(first, length)));
@@ -93,8 +117,21 @@ double dot(const Field<Real>& a, const Field<Real>& b, int n_threads) {
 }
 
 template<class Real>
-double norm(const Field<Real>& a, int n_threads) {
-  return std::sqrt(dot(a, a, n_threads));
+double norm(const Body& body, const Field<Real>& a, int n_threads) {
+  return std::sqrt(dot(body, a, a, n_threads));
+}
+
+/// Ghost nodes of a part get their owners' values.
+template<class Real>
+void update_ghosts(const Body& body, Field<Real>& field) {
+  if (body.part) body.part->ranks->update_ghosts(field.data());
+}
+
+/// Whether something holds on all ranks.
+inline bool on_all_ranks(const Body& body, bool here) {
+  double n_not = here ? 0 : 1;
+  if (body.part) body.part->ranks->sum(&n_not, 1);
+  return n_not == 0;
 }
 
 /// a += factor * b
@@ -110,15 +147,39 @@ void clear_constrained(const Body& body, Field<Real>& field) {
   for (const std::ptrdiff_t entry : body.constrained) field[entry] = 0;
 }
 
-/// Random numbers, the same ones every time: a field with a part in every motion of the body.
+/// A generator that is cheap to seed, as every row of a field is (Steele, Lea, Flood 2014).
+struct SplitMix {
+  using result_type = std::uint64_t;
+  std::uint64_t state;
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return ~result_type{0}; }
+  result_type operator()() {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+};
+
+/// Random numbers, the same ones every time and on any number of ranks: a field with a part in every motion
+/// of the body.
 template<class Real, class Distribution>
 Field<Real> random_field(const Body& body, unsigned seed, Distribution any_value) {
   Field<Real> field = Field<Real>::Zero(3 * body.layout.size);
-  std::mt19937 generator(seed);
+  const auto& [rows_x, rows_y, rows_z] = body.layout.nodes;
+  const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
   for (int c = 0; c < 3; ++c)
-    for_each_place(body.layout.nodes, [&](int i, int j, int k) {
-      field[body.layout.at(i, j, k, c)] = static_cast<Real>(any_value(generator));
-    });
+    for (int k = 0; k < rows_z; ++k)
+      for (int j = 0; j < rows_y; ++j) {
+        SplitMix generator{
+            (((seed * std::uint64_t{3} + std::uint64_t(c)) << 24 | std::uint64_t(first[2] + k)) << 24) |
+            std::uint64_t(first[1] + j)};
+        any_value.reset();
+        for (int i = -first[0]; i < rows_x; ++i) {
+          const auto value = static_cast<Real>(any_value(generator));
+          if (i >= 0) field[body.layout.at(i, j, k, c)] = value;
+        }
+      }
   clear_constrained(body, field);
   return field;
 }

@@ -19,14 +19,20 @@ CellSprings cell_springs(const CellStiffness& k) {
           k.volume};
 }
 
-/// Calls action(number of the mesh's node, component, entry of a field).
+/// Calls action(number of the mesh's node, its place here) for the nodes that are here.
 template<class Action>
-void for_each_entry(const Problem& problem, const Layout& layout, const Action& action) {
+void for_each_node(const Problem& problem, const Body& body, const Action& action) {
   const cases::Grid& grid = *problem.mesh.grid;
+  const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
   for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n) {
     const Eigen::Vector3d at = (problem.mesh.nodes[n] - grid.origin).cwiseQuotient(grid.spacing);
-    const auto place = [&](int axis) { return static_cast<int>(std::lround(at[axis])); };
-    for (int c = 0; c < 3; ++c) action(n, c, layout.at(place(0), place(1), place(2), c));
+    std::array<int, 3> place;
+    bool is_here = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      place[a] = static_cast<int>(std::lround(at[static_cast<int>(a)])) - first[a];
+      is_here = is_here && place[a] >= 0 && place[a] < body.layout.nodes[a];
+    }
+    if (is_here) action(n, place);
   }
 }
 
@@ -47,11 +53,20 @@ class GridSystem : public SpringSystem {
   }
 
   double energy(const Vector& displacement, double load_factor) override {
-    return springs_.energy(displacement) - load_factor * grid::dot(problem_.load, displacement, n_threads_);
+    return springs_.energy(displacement) - load_factor * dot(problem_.load, displacement);
   }
 
+  double dot(const Vector& left, const Vector& right) const override {
+    return grid::dot(problem_.body, left, right, n_threads_);
+  }
+  double largest(const Vector& of) const override {
+    return problem_.body.part ? problem_.body.part->ranks->largest(of.cwiseAbs().maxCoeff())
+                              : SpringSystem::largest(of);
+  }
+  bool any_rank(bool here) const override { return !on_all_ranks(problem_.body, !here); }
+
   std::optional<bool> is_stable(const Vector& displacement) override {
-    if (displacement.isZero(0)) return true; // a sum of squares
+    if (on_all_ranks(problem_.body, displacement.isZero(0))) return true; // a sum of squares
     return lowest_mode(displacement)->eigenvalue > 0;
   }
 
@@ -65,8 +80,8 @@ class GridSystem : public SpringSystem {
     if (!motion) return RestState::mechanism;
     Vector image = rest;
     springs_.product(Clamp::no, rest, probe(), image);
-    const double typical = probe_.dot(image) / probe_.squaredNorm();
-    const double lowest = motion->dot(probe_) / motion->squaredNorm();
+    const double typical = dot(probe_, image) / dot(probe_, probe_);
+    const double lowest = dot(*motion, probe_) / dot(*motion, *motion);
     // Rounding leaves 1e-16, the softest lattice seen 1e-8.
     return lowest > 1e-12 * typical ? RestState::sound : RestState::mechanism;
   }
@@ -74,19 +89,20 @@ class GridSystem : public SpringSystem {
   /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
   /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
-    if (mode_at_.size() > 0 && mode_at_ == displacement) return mode_;
+    if (mode_at_.size() > 0 && !any_rank(mode_at_ != displacement)) return mode_;
     multigrid_->linearise(displacement);
     const Eigen::Index size = problem_.load.size();
+    const Body& body = problem_.body;
     using Columns = std::array<Vector, 3>; // the vector, its preconditioned residual, the last step
     Columns basis, image;
     for (std::size_t c = 0; c < 3; ++c) basis[c] = image[c] = Vector::Zero(size);
     const auto examine = [&](std::size_t c, const Vector& right_side) {
       multigrid_->apply(right_side, basis[c]);
-      scale(basis[c], 1 / norm(basis[c], n_threads_));
+      scale(basis[c], 1 / norm(body, basis[c], n_threads_));
       springs_.product(Clamp::no, displacement, basis[c], image[c]);
     };
     examine(0, probe()); // rich in low modes
-    double eigenvalue = grid::dot(basis[0], image[0], n_threads_);
+    double eigenvalue = dot(basis[0], image[0]);
     int n = 2;
     for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
       Vector residual = image[0];
@@ -95,7 +111,7 @@ class GridSystem : public SpringSystem {
       const auto products = [&](const Columns& left, const Columns& right) {
         Eigen::MatrixXd all(n, n);
         for (int r = 0; r < n; ++r)
-          for (int c = 0; c < n; ++c) all(r, c) = grid::dot(left[index(r)], right[index(c)], n_threads_);
+          for (int c = 0; c < n; ++c) all(r, c) = dot(left[index(r)], right[index(c)]);
         return all;
       };
       const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
@@ -114,7 +130,8 @@ class GridSystem : public SpringSystem {
         scale(now, weights[0]);
         add(now, 1.0, step, n_threads_);
       }
-      const double to_unit = 1 / norm(basis[0], n_threads_), step_to_unit = 1 / norm(basis[2], n_threads_);
+      const double to_unit = 1 / norm(body, basis[0], n_threads_),
+                   step_to_unit = 1 / norm(body, basis[2], n_threads_);
       for (Columns* columns : {&basis, &image}) {
         scale((*columns)[0], to_unit);
         scale((*columns)[2], step_to_unit);
@@ -135,6 +152,7 @@ class GridSystem : public SpringSystem {
     for (int k = 0; k < body.cells[2]; ++k)
       for (int j = 0; j < body.cells[1]; ++j)
         for (int i = 0; i < body.cells[0]; ++i) {
+          if (body.part && !body.part->owns(i, j, k)) continue; // another rank counts it
           if (!body.is_uniform() && body.cell(i, j, k).is_empty()) continue;
           CellPositions vertices;
           for (int v = 0; v < 8; ++v) {
@@ -145,7 +163,9 @@ class GridSystem : public SpringSystem {
           }
           if (!(cases::smallest_corner_jacobian(vertices) > 0)) ++n;
         }
-    return n;
+    double all = n;
+    if (body.part) body.part->ranks->sum(&all, 1);
+    return static_cast<int>(all);
   }
 
   void move_supports(Vector& displacement, double load_factor) const override {
@@ -155,11 +175,10 @@ class GridSystem : public SpringSystem {
   }
 
   double reaction(const Vector& displacement) override {
-    Vector force = Vector::Zero(displacement.size());
+    Vector force = Vector::Zero(displacement.size()), on_supports = force;
     springs_.reactions(displacement, force);
-    double squared = 0;
-    for (const std::ptrdiff_t entry : problem_.body.constrained) squared += force[entry] * force[entry];
-    return std::sqrt(squared);
+    for (const std::ptrdiff_t entry : problem_.body.constrained) on_supports[entry] = force[entry];
+    return norm(problem_.body, on_supports, n_threads_);
   }
 
  private:
@@ -216,28 +235,27 @@ class GridSystem : public SpringSystem {
   /// mind.
   template<class Operator>
   ConjugateGradients conjugate_gradients(const Operator& apply, const Vector& right_side, double forcing) {
-    const auto product_of = [&](const Vector& a, const Vector& b) { return grid::dot(a, b, n_threads_); };
     ConjugateGradients result;
     result.solution.setZero(right_side.size());
     Vector residual = right_side, preconditioned(right_side.size()), product = result.solution;
     multigrid_->apply(residual, preconditioned);
     Vector direction = preconditioned;
-    double slope = product_of(residual, preconditioned);
-    const double target = forcing * norm(right_side, n_threads_);
+    double slope = dot(residual, preconditioned);
+    const double target = forcing * norm(problem_.body, right_side, n_threads_);
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
       apply(direction, product);
       ++work_.linear_iterations;
-      const double curvature = product_of(direction, product);
+      const double curvature = dot(direction, product);
       result.met_negative_curvature = curvature <= 0;
       if (!(curvature > 0) || !(slope > 0)) return result;
       const double length = slope / curvature;
       add(result.solution, length, direction, n_threads_);
       add(residual, -length, product, n_threads_);
-      result.converged = norm(residual, n_threads_) <= target;
+      result.converged = norm(problem_.body, residual, n_threads_) <= target;
       if (result.converged) return result;
-      const double crossed = product_of(residual, preconditioned);
+      const double crossed = dot(residual, preconditioned);
       multigrid_->apply(residual, preconditioned);
-      const double now = product_of(residual, preconditioned), keep = (now - crossed) / slope;
+      const double now = dot(residual, preconditioned), keep = (now - crossed) / slope;
       slope = now;
       for_each_piece(direction.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
         direction.segment(first, n) = preconditioned.segment(first, n) + keep * direction.segment(first, n);
@@ -249,7 +267,8 @@ class GridSystem : public SpringSystem {
 
 } // namespace
 
-GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness) {
+GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness,
+                              const DealOut& deal_out) {
   const cases::Grid& grid = *problem.mesh.grid;
   GridProblem result;
   Body& body = result.body;
@@ -265,17 +284,20 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
       body.springs.back() = cell_springs(stiffness[stiffness.size() == 1 ? 0 : next++]);
     });
   }
-  const Layout layout = make_layout(body.cells);
+  const Layout layout = body.layout = make_layout(body.cells);
   std::vector<bool> is_constrained(index(3 * layout.size));
-  for_each_entry(problem, layout, [&](std::size_t n, int c, std::ptrdiff_t entry) {
-    is_constrained[index(entry)] = problem.is_constrained[3 * n + index(c)];
+  for_each_node(problem, body, [&](std::size_t n, const std::array<int, 3>& at) {
+    for (int c = 0; c < 3; ++c)
+      is_constrained[index(layout.at(at[0], at[1], at[2], c))] = problem.is_constrained[3 * n + index(c)];
   });
   set_layout(body, [&](int i, int j, int k, int c) { return is_constrained[index(layout.at(i, j, k, c))]; });
-  result.load = to_field(problem, layout, problem.force);
+  if (deal_out) body = deal_out(std::move(body));
+  result.load = to_field(problem, body, problem.force);
   clear_constrained(body, result.load);
   if (problem.supports)
-    result.supports = [&problem, layout](double load_factor) {
-      return to_field(problem, layout, problem.supports(load_factor));
+    result.supports = [&problem, frame = Body{body.cells, body.spacing, {}, body.layout, {}, body.part}](
+                          double load_factor) {
+      return to_field(problem, frame, problem.supports(load_factor));
     };
   return result;
 }
@@ -289,7 +311,7 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   if (!body) return std::nullopt;
   GridProblem coarse{*body, {}, {}};
   const Layout& layout = coarse.body.layout;
-  if (layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
+  if (!body->part && layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
   const Transfer<double> transfer(problem.body, coarse.body, n_threads);
   coarse.load.setZero(3 * layout.size);
   transfer.restrict(problem.load, coarse.load);
@@ -300,27 +322,34 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   settings.max_convexified_per_step = 0; // nor may it leave the path from rest
   settings.stability = mechanics::Stability::ignore;
   settings.guess = coarse_guess(coarse, n_threads);
+  const Vector rest = Vector::Zero(coarse.load.size());
+  std::optional<Vector> found;
   try {
-    const Vector rest = Vector::Zero(coarse.load.size());
-    Vector guess = Vector::Zero(problem.load.size());
-    transfer.prolong(mechanics::find_equilibrium(*system, rest, "coarse lattice", settings).state, guess);
-    return guess;
-  } catch (const cases::SolveError&) {
-    return std::nullopt; // the fine lattice has to find its own way
+    found = mechanics::find_equilibrium(*system, rest, "coarse lattice", settings).state;
+  } catch (const cases::SolveError&) { // the fine lattice has to find its own way
   }
+  if (!on_all_ranks(problem.body, found.has_value())) return std::nullopt;
+  Vector guess = Vector::Zero(problem.load.size());
+  transfer.prolong(*found, guess);
+  update_ghosts(problem.body, guess); // a coarse answer that every rank found by itself is rounded by itself
+  return guess;
 }
 
-Points to_points(const Problem& problem, const Layout& layout, const Field<double>& field) {
-  Points points(problem.mesh.nodes.size());
-  for_each_entry(problem, layout,
-                 [&](std::size_t n, int c, std::ptrdiff_t entry) { points[n][c] = field[entry]; });
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field) {
+  Points points(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  for_each_node(problem, body, [&](std::size_t n, const std::array<int, 3>& at) {
+    if (body.part && !body.part->owns(at[0], at[1], at[2])) return;
+    for (int c = 0; c < 3; ++c) points[n][c] = field[body.layout.at(at[0], at[1], at[2], c)];
+  });
+  if (body.part) body.part->ranks->sum(points.front().data(), 3 * points.size());
   return points;
 }
 
-Field<double> to_field(const Problem& problem, const Layout& layout, const Points& points) {
-  Field<double> field = Field<double>::Zero(3 * layout.size);
-  for_each_entry(problem, layout,
-                 [&](std::size_t n, int c, std::ptrdiff_t entry) { field[entry] = points[n][c]; });
+Field<double> to_field(const Problem& problem, const Body& body, const Points& points) {
+  Field<double> field = Field<double>::Zero(3 * body.layout.size);
+  for_each_node(problem, body, [&](std::size_t n, const std::array<int, 3>& at) {
+    for (int c = 0; c < 3; ++c) field[body.layout.at(at[0], at[1], at[2], c)] = points[n][c];
+  });
   return field;
 }
 

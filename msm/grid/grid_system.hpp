@@ -15,11 +15,16 @@ struct GridProblem {
   std::function<Field<double>(double load_factor)> supports{};
 };
 
-/// @param problem  on a grid; must outlive what is returned, if its supports move
-GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness);
+/// This rank's part of a whole body (collective), or the whole of it, which every rank then solves by itself.
+using DealOut = std::function<Body(Body whole)>;
+
+/// @param problem   on a grid; must outlive what is returned, if its supports move
+/// @param deal_out  empty: the body stays whole
+GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness,
+                              const DealOut& deal_out = {});
 
 /// The lattice's equations without a matrix: conjugate gradients with the multigrid cycle.
-/// Vectors are fields of the layout.
+/// Vectors are fields of the layout. On a part of a body everything is collective.
 /// @param problem  must outlive the system
 std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n_threads);
 
@@ -27,8 +32,8 @@ std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n
 /// from. Nothing when the coarse body does not carry the load, or there is none.
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
 
-/// Between fields and one vector (mm or N) per node of the problem's mesh.
-Points to_points(const Problem& problem, const Layout& layout, const Field<double>& field);
-Field<double> to_field(const Problem& problem, const Layout& layout, const Points& points);
+/// Between fields and one vector (mm or N) per node of the problem's mesh, all of them on every rank.
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field);
+Field<double> to_field(const Problem& problem, const Body& body, const Points& points);
 
 } // namespace springproof::msm::grid

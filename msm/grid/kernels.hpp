@@ -27,6 +27,15 @@ struct Layout {
   std::ptrdiff_t at(int i, int j, int k, int c = 0) const {
     return c * size + lead + i + row * j + plane * (k + 1);
   }
+  struct Place {
+    int i, j, k, c;
+  };
+  /// The node and the component of an entry that at() gives.
+  Place place(std::ptrdiff_t entry) const {
+    const std::ptrdiff_t in_array = entry % size - lead - plane, in_plane = in_array % plane;
+    return {static_cast<int>(in_plane % row), static_cast<int>(in_plane / row),
+            static_cast<int>(in_array / plane), static_cast<int>(entry / size)};
+  }
 };
 
 /// A lattice on a grid. Lengths in mm, stiffnesses in N/mm; Real is float inside the preconditioner.
@@ -45,6 +54,9 @@ struct Springs {
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
   Real rest_volume; ///< mm³
+  /// 1 for nodes whose springs and cells (those that lead upwards from them) count in the energy, else 0: an
+  /// array of layout.plane from the first node of any plane on.
+  const Real* counted;
 };
 
 enum class Clamp { no, yes };

@@ -81,7 +81,7 @@ double energy(const Springs<Real>& s, int first, int last, const Real* displacem
       for (std::ptrdiff_t i = 0; i < n; ++i) {
         const Vec<Real> d = springs.at(i);
         const Real squared = dot(d, d), elongation = squared * inverse_length(squared) - l0;
-        sum += springs.share.share[i] * elongation * elongation;
+        sum += s.counted[i] * springs.share.share[i] * elongation * elongation;
       }
       total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum);
     }
@@ -93,7 +93,7 @@ double energy(const Springs<Real>& s, int first, int last, const Real* displacem
       cells.positions(i, x);
       volume_gradients(x, g);
       const Real change = volume(x, g) - s.rest_volume;
-      sum += cells.stiffness[i] * change * change;
+      sum += s.counted[i] * cells.stiffness[i] * change * change;
     }
     total += 0.5 * static_cast<double>(sum);
   }

@@ -16,7 +16,7 @@ std::deque<Body> coarsenings(const Body& finest) {
   const auto is_large = [](const Layout& layout) {
     return std::ptrdiff_t{layout.nodes[0]} * layout.nodes[1] * layout.nodes[2] > n_coarsest_nodes;
   };
-  while (is_large(bodies.back().layout))
+  while (bodies.back().part || is_large(bodies.back().layout))
     if (std::optional<Body> coarse = coarsen(bodies.back()))
       bodies.push_back(std::move(*coarse));
     else
@@ -24,11 +24,11 @@ std::deque<Body> coarsenings(const Body& finest) {
   return bodies;
 }
 
-Multigrid::Level::Level(const Body& body, int n_threads)
-    : springs(body, n_threads),
-      rough(random_field<float>(body, 1, std::uniform_real_distribution<float>(-1, 1))) {
+Multigrid::Level::Level(const Body& of, int n_threads)
+    : body(of), springs(of, n_threads),
+      rough(random_field<float>(of, 1, std::uniform_real_distribution<float>(-1, 1))) {
   for (Field<float>* field : {&displacement, &solution, &residual, &correction, &product})
-    field->setZero(3 * body.layout.size);
+    field->setZero(3 * of.layout.size);
 }
 
 Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_(n_threads) {
@@ -45,7 +45,8 @@ Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_
 }
 
 void Multigrid::linearise(const Field<double>& displacement) {
-  if (linearised_at_.size() > 0 && linearised_at_ == displacement) return;
+  const Body& finest = levels_.front().body;
+  if (linearised_at_.size() > 0 && on_all_ranks(finest, linearised_at_ == displacement)) return;
   linearised_at_ = displacement;
   for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     levels_.front().displacement.segment(first, n) = displacement.segment(first, n).cast<float>();
@@ -82,10 +83,10 @@ void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& i
 void Multigrid::estimate_largest_eigenvalue(Level& level) {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 12;
   for (int step = 0; step < n_steps; ++step) {
-    const double length = norm(level.rough, n_threads_);
+    const double length = norm(level.body, level.rough, n_threads_);
     level.springs.product(Clamp::yes, level.displacement, level.rough, level.product);
     apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / length));
-    level.largest_eigenvalue = norm(level.rough, n_threads_);
+    level.largest_eigenvalue = norm(level.body, level.rough, n_threads_);
   }
 }
 
@@ -160,7 +161,7 @@ void Multigrid::cycle(std::size_t l) {
 
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const double size = norm(right_side, n_threads_); // keeps single precision in range
+  const double size = norm(level.body, right_side, n_threads_); // keeps single precision in range
   if (!(size > 0)) {
     solution.setZero();
     return;
@@ -169,6 +170,8 @@ void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) 
     level.residual.segment(first, n) = (right_side.segment(first, n) / size).cast<float>();
   });
   cycle(0);
+  // Every rank has coarse levels of its own, which another kind of machine rounds differently.
+  update_ghosts(level.body, level.solution);
   for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     solution.segment(first, n) = size * level.solution.segment(first, n).cast<double>();
   });

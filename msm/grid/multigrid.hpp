@@ -8,7 +8,7 @@
 
 namespace springproof::msm::grid {
 
-/// A body and ever coarser ones: the last has few enough nodes for a dense factorisation.
+/// A body and ever coarser ones: the last has few enough nodes for a dense factorisation, and is no part.
 std::deque<Body> coarsenings(const Body& finest);
 
 /// Approximate inverse of the clamped tangent: one V-cycle in single precision. Coarse lattices are
@@ -16,6 +16,7 @@ std::deque<Body> coarsenings(const Body& finest);
 /// method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is symmetric.
 class Multigrid {
  public:
+  /// @param bodies  must outlive it; on parts of a body every function is collective
   Multigrid(const std::deque<Body>& bodies, int n_threads);
 
   /// Prepares the cycle at a displacement of the finest body, mm.
@@ -26,7 +27,8 @@ class Multigrid {
 
  private:
   struct Level {
-    Level(const Body& body, int n_threads);
+    Level(const Body& of, int n_threads);
+    const Body& body;
     SpringField<float> springs;
     Field<float> displacement, inverse_diagonal;
     Field<float> solution, residual, correction, product;

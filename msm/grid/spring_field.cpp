@@ -45,6 +45,11 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     });
     springs_.volume_stiffness = stiffness.data();
   }
+  Field<Real>& counted = arrays_.emplace_back(Field<Real>::Zero(body.layout.plane));
+  for (int j = 0; j < body.layout.nodes[1]; ++j)
+    for (int i = 0; i < body.layout.nodes[0]; ++i)
+      if (!body.part || body.part->owns(i, j, body.part->own_first[2])) counted[i + body.layout.row * j] = 1;
+  springs_.counted = counted.data();
   // Slabs of some sixteen planes of nodes: the same on any number of threads, so that sums are too, and an
   // even number, so that two threads have the same to do.
   const int planes = body.layout.nodes[2], n = planes < 8 ? 1 : 2 * std::max(1, planes / 16);
@@ -135,6 +140,7 @@ void SpringField<Real>::reactions(const Field<Real>& displacement, Field<Real>& 
   for_each_slab(3, force.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().force(springs_, slab, displacement.data(), force.data());
   });
+  update_ghosts(body_, force);
 }
 
 template<class Real>
@@ -144,6 +150,7 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
     kernels<Real>().product(springs_, slab, clamp, displacement.data(), direction.data(), product.data());
   });
   clear_constrained(body_, product);
+  update_ghosts(body_, product);
 }
 
 template<class Real>
@@ -182,19 +189,24 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
         }
       }
   });
+  if (!body_.part) return;
+  for (const int three : {0, 3}) body_.part->ranks->update_ghosts(inverse.data() + three * layout.size);
 }
 
 template<class Real>
 double SpringField<Real>::energy(const Field<Real>& displacement) const {
   const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
+  const int first = body_.part ? body_.part->own_first[2] : 0;
+  const int last = body_.part ? body_.part->own_last[2] : springs_.layout.nodes[2];
   Eigen::VectorXd part(n);
 #pragma omp parallel for num_threads(n_threads_)                                                             \
     schedule(static) if (n_threads_ > 1 && springs_.layout.size > piece)
   for (std::ptrdiff_t s = 0; s < n; ++s)
-    part[s] =
-        kernels<Real>().energy(springs_, slabs_[index(s)].first, slabs_[index(s)].last, displacement.data());
+    part[s] = kernels<Real>().energy(springs_, std::max(slabs_[index(s)].first, first),
+                                     std::min(slabs_[index(s)].last, last), displacement.data());
   double sum = 0;
   for (double value : part) sum += value;
+  if (body_.part) body_.part->ranks->sum(&sum, 1);
   return sum;
 }
 

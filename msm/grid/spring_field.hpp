@@ -7,7 +7,8 @@
 namespace springproof::msm::grid {
 
 /// A body's springs as the kernels read them, and the kernels run over all of the body on a given number of
-/// threads. The results do not depend on that number.
+/// threads. The results do not depend on that number. On a part of a body every function is collective, takes
+/// fields with their owners' values on ghosts, and gives such.
 template<class Real>
 class SpringField {
  public:

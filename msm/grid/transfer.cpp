@@ -1,5 +1,7 @@
 #include "msm/grid/transfer.hpp"
 
+#include "cases/mesh/hex_mesh.hpp"
+
 namespace springproof::msm::grid {
 
 namespace {
@@ -11,39 +13,66 @@ struct Stencil {
   double weight[3];
 };
 
-Stencil interpolate_from(int i, bool is_coarsened) {
+Stencil interpolate_from(int i, bool is_coarsened, int shift) {
+  i -= shift;
   if (!is_coarsened) return {1, {i}, {1}};
   if (i % 2 == 0) return {1, {i / 2}, {1}};
   return {2, {i / 2, i / 2 + 1}, {0.5, 0.5}};
 }
 
-Stencil restrict_from(int i, bool is_coarsened) {
-  if (!is_coarsened) return {1, {i}, {1}};
-  return {3, {2 * i - 1, 2 * i, 2 * i + 1}, {0.5, 1, 0.5}};
+Stencil restrict_from(int i, bool is_coarsened, int shift) {
+  if (!is_coarsened) return {1, {i + shift}, {1}};
+  const int at = 2 * i + shift;
+  return {3, {at - 1, at, at + 1}, {0.5, 1, 0.5}};
+}
+
+constexpr int lead = 2; ///< ghosts before a row
+
+/// Between all nodes of a grid on every rank, and a part's.
+template<class Real>
+void gather(const Body& here, const Field<Real>& part, const Body& whole, Field<Real>& all) {
+  all.setZero();
+  for (int c = 0; c < 3; ++c)
+    for_each_place(here.layout.nodes, [&](int i, int j, int k) {
+      const auto& [x, y, z] = here.part->first;
+      if (here.part->owns(i, j, k))
+        all[whole.layout.at(x + i, y + j, z + k, c)] = part[here.layout.at(i, j, k, c)];
+    });
+  here.part->ranks->sum(all.data(), cases::index(all.size()));
+}
+template<class Real>
+Field<Real> take_part(const Body& whole, const Field<Real>& all, const Body& here) {
+  Field<Real> part = Field<Real>::Zero(3 * here.layout.size);
+  for (int c = 0; c < 3; ++c)
+    for_each_place(here.layout.nodes, [&](int i, int j, int k) {
+      const auto& [x, y, z] = here.part->first;
+      part[here.layout.at(i, j, k, c)] = all[whole.layout.at(x + i, y + j, z + k, c)];
+    });
+  return part;
 }
 
 /// Every row of a result: weighted rows of the source, over what the stencils select along y and z, then
 /// along_x(that row, row of the result).
 template<class Real, class AlongX>
 void transfer_rows(const Layout& from, const Field<Real>& source, const Layout& to, Field<Real>& result,
-                   Stencil (*stencil)(int, bool), const bool (&is_coarsened)[3], int n_threads,
-                   const AlongX& along_x) {
+                   Stencil (*stencil)(int, bool, int), const bool (&is_coarsened)[3], const int (&shift)[3],
+                   int n_threads, const AlongX& along_x) {
   for_each_plane(to, n_threads, [&](int k) {
-    const Stencil z = stencil(k, is_coarsened[2]);
-    // One ghost before, and two after for coarse cells that reach beyond the body.
-    Field<Real> sum(from.nodes[0] + 4);
+    const Stencil z = stencil(k, is_coarsened[2], shift[2]);
+    // Two ghosts before for a part's coarse ones, and two after for coarse cells that reach beyond the body.
+    Field<Real> sum(from.nodes[0] + lead + 3);
     for (int component = 0; component < 3; ++component)
       for (int j = 0; j < to.nodes[1]; ++j) {
-        const Stencil y = stencil(j, is_coarsened[1]);
+        const Stencil y = stencil(j, is_coarsened[1], shift[1]);
         sum.setZero();
         for (int c = 0; c < z.n; ++c)
           for (int b = 0; b < y.n; ++b) {
             if (y.at[b] < 0 || y.at[b] >= from.nodes[1] || z.at[c] < 0 || z.at[c] >= from.nodes[2]) continue;
-            sum.segment(1, from.nodes[0]) +=
+            sum.segment(lead, from.nodes[0]) +=
                 static_cast<Real>(y.weight[b] * z.weight[c]) *
                 source.segment(from.at(0, y.at[b], z.at[c], component), from.nodes[0]);
           }
-        const Real* in = sum.data() + 1;
+        const Real* in = sum.data() + lead;
         Real* out = result.data() + to.at(0, j, k, component);
         if (is_coarsened[0])
           along_x(in, out);
@@ -57,35 +86,66 @@ void transfer_rows(const Layout& from, const Field<Real>& source, const Layout& 
 
 template<class Real>
 Transfer<Real>::Transfer(const Body& fine, const Body& coarse, int n_threads)
-    : fine_(fine), coarse_(coarse), n_threads_(n_threads) {
-  for (std::size_t a = 0; a < 3; ++a) is_coarsened_[a] = coarse.cells[a] != fine.cells[a];
+    : fine_(fine), coarse_(coarse),
+      coarse_here_(fine.part && !coarse.part ? *fine.part->coarser_here : coarse), n_threads_(n_threads) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    is_coarsened_[a] = coarse.spacing[static_cast<int>(a)] != fine.spacing[static_cast<int>(a)];
+    shift_[a] =
+        fine.part ? (is_coarsened_[a] ? 2 : 1) * coarse_here_.part->first[a] - fine.part->first[a] : 0;
+  }
 }
 
 template<class Real>
 void Transfer<Real>::prolong(const Field<Real>& coarse, Field<Real>& fine) const {
-  const int n = fine_.layout.nodes[0];
-  transfer_rows(coarse_.layout, coarse, fine_.layout, fine, interpolate_from, is_coarsened_, n_threads_,
-                [n](const Real* in, Real* out) {
-                  for (int i = 0; i < n; i += 2) out[i] = in[i / 2];
-                  for (int i = 1; i < n; i += 2) out[i] = Real(0.5) * (in[i / 2] + in[i / 2 + 1]);
+  const int n = fine_.layout.nodes[0], shift = shift_[0];
+  const Field<Real> taken = gathers() ? take_part(coarse_, coarse, coarse_here_) : Field<Real>{};
+  transfer_rows(coarse_here_.layout, gathers() ? taken : coarse, fine_.layout, fine, interpolate_from,
+                is_coarsened_, shift_, n_threads_, [n, shift](const Real* in, Real* out) {
+                  for (int i = -shift; i < n; i += 2) out[i] = in[(i - shift) / 2];
+                  for (int i = 1 + shift; i < n; i += 2) {
+                    const Real* const before = in + (i - shift) / 2;
+                    out[i] = Real(0.5) * (before[0] + before[1]);
+                  }
                 });
   clear_constrained(fine_, fine);
 }
 
 template<class Real>
 void Transfer<Real>::restrict(const Field<Real>& fine, Field<Real>& coarse) const {
-  const int n = coarse_.layout.nodes[0];
-  transfer_rows(fine_.layout, fine, coarse_.layout, coarse, restrict_from, is_coarsened_, n_threads_,
-                [n](const Real* in, Real* out) {
-                  for (int i = 0; i < n; ++i)
-                    out[i] = in[2 * i] + Real(0.5) * (in[2 * i - 1] + in[2 * i + 1]);
-                });
+  const int n = coarse_here_.layout.nodes[0];
+  const auto restrict_to = [&](Field<Real>& here) {
+    transfer_rows(fine_.layout, fine, coarse_here_.layout, here, restrict_from, is_coarsened_, shift_,
+                  n_threads_, [n, at = shift_[0]](const Real* in, Real* out) {
+                    for (int i = 0; i < n; ++i)
+                      out[i] = in[2 * i + at] + Real(0.5) * (in[2 * i + at - 1] + in[2 * i + at + 1]);
+                  });
+  };
+  if (gathers()) {
+    Field<Real> here = Field<Real>::Zero(3 * coarse_here_.layout.size);
+    restrict_to(here);
+    gather(coarse_here_, here, coarse_, coarse);
+  } else {
+    restrict_to(coarse);
+  }
   clear_constrained(coarse_, coarse);
+  update_ghosts(coarse_, coarse);
 }
 
 template<class Real>
 void Transfer<Real>::sample(const Field<Real>& fine, Field<Real>& coarse) const {
-  const Layout &from = fine_.layout, &to = coarse_.layout;
+  if (gathers()) {
+    Field<Real> here = Field<Real>::Zero(3 * coarse_here_.layout.size);
+    sample_here(fine, here);
+    gather(coarse_here_, here, coarse_, coarse);
+  } else {
+    sample_here(fine, coarse);
+  }
+  update_ghosts(coarse_, coarse);
+}
+
+template<class Real>
+void Transfer<Real>::sample_here(const Field<Real>& fine, Field<Real>& coarse) const {
+  const Layout &from = fine_.layout, &to = coarse_here_.layout;
   const auto around = [&](int component, const int(&node)[3]) {
     const auto& [i, j, k] = node;
     if (has_cell(fine_, i, j, k)) return fine[from.at(i, j, k, component)];
@@ -107,9 +167,9 @@ void Transfer<Real>::sample(const Field<Real>& fine, Field<Real>& coarse) const 
         int inside[3], before[3];
         bool beyond = false;
         for (std::size_t a = 0; a < 3; ++a) {
-          const int on_fine = is_coarsened_[a] ? 2 * node[a] : node[a];
-          inside[a] = std::min(on_fine, fine_.cells[a]);
-          before[a] = inside[a] - (on_fine - inside[a]);
+          const int on_fine = (is_coarsened_[a] ? 2 : 1) * node[a] + shift_[a];
+          inside[a] = std::clamp(on_fine, 0, fine_.cells[a]); // a part's ghosts get their values elsewhere
+          before[a] = std::max(inside[a] - (on_fine - inside[a]), 0);
           beyond = beyond || before[a] != inside[a];
         }
         for (int component = 0; component < 3; ++component) {

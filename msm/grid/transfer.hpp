@@ -4,7 +4,9 @@
 
 namespace springproof::msm::grid {
 
-/// Trilinear interpolation between a body and the coarsened one, and its transpose.
+/// Trilinear interpolation between a body and the coarsened one, and its transpose. Between parts, or a part
+/// and the whole of the coarser body on every rank, all functions are collective; fields have their owners'
+/// values on ghosts.
 template<class Real>
 class Transfer {
  public:
@@ -21,8 +23,13 @@ class Transfer {
  private:
   const Body& fine_;
   const Body& coarse_;
-  bool is_coarsened_[3]; ///< along x, y, z
+  const Body& coarse_here_; ///< of a fine part: the part of the coarse body around it
+  bool is_coarsened_[3];    ///< along x, y, z
+  int shift_[3]; ///< node i of the coarse body here lies on node 2 i + shift (i + shift) of the fine one
   int n_threads_;
+
+  bool gathers() const { return &coarse_ != &coarse_here_; }
+  void sample_here(const Field<Real>& fine, Field<Real>& coarse) const;
 };
 
 } // namespace springproof::msm::grid

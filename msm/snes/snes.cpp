@@ -3,6 +3,8 @@
 #include "mechanics/equilibrium/newton.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "mechanics/petsc/handles.hpp"
+#include "msm/model.hpp"
+#include "msm/snes/deal_out.hpp"
 #include "msm/tangent.hpp"
 
 #include <algorithm>
@@ -341,6 +343,8 @@ class SnesProblem : public petsc::DistributedProblem {
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                               MPI_Comm communicator, const mechanics::EquilibriumSettings& settings,
                               const Points& start) {
+  if (takes_multigrid(scene, stiffness))
+    return Model(scene, stiffness, {Path::multigrid, 1, deal_out_to(communicator)}).solve(settings, start);
   Problem problem = make_problem(scene);
   problem.lattice = make_lattice(scene.mesh, stiffness);
   SnesProblem system(problem, settings, communicator);

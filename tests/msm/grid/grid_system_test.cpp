@@ -119,7 +119,7 @@ TEST_CASE("a displacement that is no body's spoils nothing that comes after it")
   REQUIRE(before);
   msm::Points collapsed; // every point in one place
   for (const Eigen::Vector3d& node : scene.mesh.nodes) collapsed.push_back(-node);
-  const msm::Vector nonsense = msm::grid::to_field(problem, grid.body.layout, collapsed);
+  const msm::Vector nonsense = msm::grid::to_field(problem, grid.body, collapsed);
   for (const double size : {1.0, 1e30}) { // beyond single precision
     const msm::Vector there = size * nonsense;
     system->direction(there, grid.load, 1, 1e-6, mechanics::Convexity::clamped);

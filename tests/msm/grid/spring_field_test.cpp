@@ -44,12 +44,12 @@ struct Both {
   }
   template<class Real>
   Field<Real> field(const Points& points) const {
-    return msm::grid::to_field(problem, grid.body.layout, points).cast<Real>();
+    return msm::grid::to_field(problem, grid.body, points).cast<Real>();
   }
   template<class Real>
   Vector free(const Field<Real>& field) const {
     return msm::to_vector(problem,
-                          msm::grid::to_points(problem, grid.body.layout, field.template cast<double>()));
+                          msm::grid::to_points(problem, grid.body, field.template cast<double>()));
   }
 };
 

@@ -1,0 +1,189 @@
+#include "msm/model.hpp"
+#include "msm/snes/deal_out.hpp"
+#include "msm/snes/snes.hpp"
+#include "tests/support/bodies.hpp"
+
+#include <catch2/catch.hpp>
+#include <petscsys.h>
+
+// On one rank by itself; on several under mpirun (compare/grid_on_*_ranks).
+
+using namespace springproof;
+
+using msm::grid::Body;
+using msm::grid::Field;
+
+namespace {
+
+mechanics::EquilibriumSettings to_rounding() {
+  mechanics::EquilibriumSettings settings;
+  settings.tolerance = 1e-11; // so that what is compared is the answers, not where the solvers stop
+  return settings;
+}
+
+int n_ranks() {
+  int n = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n);
+  return n;
+}
+
+cases::Scene scene_of(cases::Case body) {
+  return cases::make_scene(body);
+}
+
+cases::Scene masked_scene() {
+  cases::Grid grid;
+  grid.cells = {13, 12, 15};
+  msm::grid::for_each_place(grid.cells, [&](int i, int j, int k) {
+    grid.present.push_back(!(i > 6 && j > 5 && k > 3) && !(i == 2 && j == 2) && !(k == 7 && i < 2));
+  });
+  cases::Scene scene;
+  scene.definition = bodies::clamped_box(grid.cells, {});
+  scene.mesh = cases::make_grid_mesh(grid);
+  scene.constrained = {{cases::select(scene.mesh, bodies::region("z-")), {true, true, true}}};
+  const cases::Load load = bodies::nodal_force("z+", {0.001, 0.0005, 0.004});
+  scene.loads = {{cases::select(scene.mesh, load.region), load}};
+  return scene;
+}
+
+cases::Case moved_box() {
+  cases::Case box = bodies::clamped_box({12, 11, 13}, {});
+  cases::Moved twisted;
+  twisted.region = bodies::region("z+");
+  twisted.angle = 20;
+  twisted.centre = {6, 5.5, 13};
+  twisted.displacement = {0, 0, 0.5};
+  box.moved = {twisted};
+  return box;
+}
+
+cases::Case quarter_of_a_box() {
+  cases::Case quarter = bodies::clamped_box({13, 9, 12}, bodies::tensile(0.02));
+  quarter.symmetry = {{bodies::region("x-"), {true, false, false}},
+                      {bodies::region("y-"), {false, true, false}}};
+  return quarter;
+}
+
+double largest_displacement(const cases::Solution& solution) {
+  double largest = 0;
+  for (const Eigen::Vector3d& u : solution.displacement) largest = larger(largest, u.norm());
+  return largest;
+}
+
+/// A grid with holes, held at one end, with a volume term.
+Body body_with_holes(const std::array<int, 3>& cells) {
+  Body body;
+  body.cells = cells;
+  body.spacing = {1, 1, 1};
+  msm::grid::for_each_place(cells, [&](int i, int j, int k) {
+    body.springs.push_back({{0.02, 0.02, 0.02}, {0.025, 0.025, 0.025}, 0.02, 0.14});
+    if ((i + 2 * j + 3 * k) % 11 == 0) body.springs.back() = {};
+  });
+  set_layout(body, [](int, int, int k, int) { return k == 0; });
+  return body;
+}
+Body uniform_body(const std::array<int, 3>& cells) {
+  Body body = body_with_holes(cells);
+  body.springs = {{{0.02, 0.02, 0.02}, {0.025, 0.025, 0.025}, 0.02, 0.14}};
+  set_layout(body, [](int, int, int k, int) { return k == 0; });
+  return body;
+}
+
+/// Largest difference between a field of a body and of what a rank has of it, ghosts and all.
+template<class Real>
+double difference_here(const Body& whole, const Field<Real>& all, const Body& here, const Field<Real>& part) {
+  double largest = 0;
+  const std::array<int, 3> first = here.part ? here.part->first : std::array<int, 3>{0, 0, 0};
+  for (int c = 0; c < 3; ++c)
+    msm::grid::for_each_place(here.layout.nodes, [&](int i, int j, int k) {
+      largest = larger(largest, std::abs(part[here.layout.at(i, j, k, c)] -
+                                         all[whole.layout.at(first[0] + i, first[1] + j, first[2] + k, c)]));
+    });
+  return largest;
+}
+
+Field<double> any_field(const Body& body, unsigned seed) {
+  return msm::grid::random_field<double>(body, seed, std::normal_distribution<double>());
+}
+
+} // namespace
+
+TEST_CASE("a grid's equilibrium and the way to it are the same on any number of ranks", "[ranks]") {
+  const auto [name, scene] = GENERATE(table<std::string, cases::Scene>(
+      {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003)))},
+       {"mask", masked_scene()},
+       {"moved supports", scene_of(moved_box())},
+       {"symmetry planes", scene_of(quarter_of_a_box())}}));
+  INFO(name);
+  const std::vector<msm::CellStiffness> springs{bodies::hybrid_cell};
+  const cases::Solution alone = msm::solve_by_snes(scene, springs, PETSC_COMM_SELF, to_rounding());
+  const cases::Solution together = msm::solve_by_snes(scene, springs, PETSC_COMM_WORLD, to_rounding());
+  const double size = largest_displacement(alone);
+  REQUIRE(size > 0.1); // mm: the load does something
+  CHECK(largest_difference(alone, together) <= 1e-9 * size);
+  CHECK(together.outcome == alone.outcome);
+  CHECK(together.inverted_cells == alone.inverted_cells);
+  CHECK(together.newton_iterations == alone.newton_iterations); // the same method, rounded in another order
+  const auto n_linear = static_cast<double>(together.linear_iterations);
+  CHECK(n_linear == Approx(static_cast<double>(alone.linear_iterations)).epsilon(0.2));
+  const cases::Solution assembled = msm::Model(scene, springs, {msm::Path::direct, 1}).solve(to_rounding());
+  CHECK(largest_difference(assembled, together) <= 1e-8); // mm
+}
+
+TEST_CASE("operators on parts of a grid give what they give on the whole of it", "[ranks]") {
+  const Body whole = GENERATE(body_with_holes({13, 11, 12}), uniform_body({13, 11, 12}));
+  const Body here = msm::deal_out_to(PETSC_COMM_WORLD)(whole);
+  REQUIRE(here.part.has_value() == (n_ranks() > 1));
+  const Field<double> u = 0.05 * any_field(whole, 1), v = any_field(whole, 2);
+  const Field<double> u_here = 0.05 * any_field(here, 1), v_here = any_field(here, 2);
+  CHECK(difference_here(whole, u, here, u_here) == 0);
+  // Sums over nodes or springs are the same but for their order.
+  CHECK(dot(here, u_here, v_here, 1) == Approx(dot(whole, u, v, 1)).epsilon(1e-12));
+  const msm::grid::SpringField<double> all(whole, 1), some(here, 1);
+  CHECK(some.energy(u_here) == Approx(all.energy(u)).epsilon(1e-12));
+  Field<double> product = 0 * u, product_here = 0 * u_here;
+  all.product(msm::grid::Clamp::no, u, v, product);
+  some.product(msm::grid::Clamp::no, u_here, v_here, product_here);
+  CHECK(difference_here(whole, product, here, product_here) < 1e-13); // N, of about 0.1
+  all.inverse_diagonal(msm::grid::Clamp::yes, u, product);
+  some.inverse_diagonal(msm::grid::Clamp::yes, u_here, product_here);
+  CHECK(difference_here<double>(whole, product.head(3 * whole.layout.size), here,
+                                product_here.head(3 * here.layout.size)) < 1e-10); // mm/N, of about 10
+
+  const Body coarse = coarsen(whole).value(), coarse_here = coarsen(here).value();
+  const msm::grid::Transfer<double> transfer(whole, coarse, 1), transfer_here(here, coarse_here, 1);
+  Field<double> on_coarse = Field<double>::Zero(3 * coarse.layout.size),
+                on_coarse_here = Field<double>::Zero(3 * coarse_here.layout.size);
+  transfer.restrict(v, on_coarse);
+  transfer_here.restrict(v_here, on_coarse_here);
+  CHECK(difference_here(coarse, on_coarse, coarse_here, on_coarse_here) < 1e-13);
+  transfer.prolong(on_coarse, product = 0 * u);
+  transfer_here.prolong(on_coarse_here, product_here = 0 * u_here);
+  CHECK(difference_here(whole, product, here, product_here) < 1e-13);
+}
+
+TEST_CASE("what ranks own is the body, and coarser parts lie within finer ones", "[ranks]") {
+  const Body whole = uniform_body({40, 21, 33});
+  Body here = msm::deal_out_to(PETSC_COMM_WORLD)(whole);
+  int n_parts = 0;
+  for (Body all = whole; here.part; here = coarsen(here).value(), all = coarsen(all).value(), ++n_parts) {
+    const msm::grid::Part& part = *here.part;
+    double n_own = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      n_own *= part.own_last[a] - part.own_first[a];
+      CHECK(part.own_last[a] > part.own_first[a]);
+    }
+    part.ranks->sum(&n_own, 1);
+    CHECK(n_own == double(all.layout.nodes[0]) * all.layout.nodes[1] * all.layout.nodes[2]);
+  }
+  CHECK(n_parts == (n_ranks() > 1 ? 2 : 0)); // of 41 x 22 x 34 and 21 x 12 x 18 nodes
+}
+
+TEST_CASE("a grid too small to be dealt out is solved whole by every rank", "[ranks]") {
+  const cases::Scene scene = scene_of(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.02)));
+  const cases::Solution alone =
+      msm::solve_by_snes(scene, {bodies::thesis_cell}, PETSC_COMM_SELF, to_rounding());
+  const cases::Solution together =
+      msm::solve_by_snes(scene, {bodies::thesis_cell}, PETSC_COMM_WORLD, to_rounding());
+  CHECK(largest_difference(alone, together) == 0);
+}
