@@ -1,3 +1,4 @@
+#include "cases/case/error.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/deal_out.hpp"
 #include "msm/snes/snes.hpp"
@@ -102,6 +103,34 @@ double difference_here(const Body& whole, const Field<Real>& all, const Body& he
   return largest;
 }
 
+/// Counts what a rank takes part in.
+class CountingRanks : public msm::grid::Ranks {
+ public:
+  struct Calls {
+    int exchanges = 0, reductions = 0;
+  };
+  CountingRanks(std::shared_ptr<const Ranks> ranks, Calls& calls) : ranks_(std::move(ranks)), calls_(calls) {}
+  void update_ghosts(double* field) const override { ++calls_.exchanges, ranks_->update_ghosts(field); }
+  void update_ghosts(float* field) const override { ++calls_.exchanges, ranks_->update_ghosts(field); }
+  void sum(double* values, std::size_t n) const override { ++calls_.reductions, ranks_->sum(values, n); }
+  void sum(float* values, std::size_t n) const override { ++calls_.reductions, ranks_->sum(values, n); }
+  double largest(double value) const override { return ++calls_.reductions, ranks_->largest(value); }
+
+ private:
+  std::shared_ptr<const Ranks> ranks_;
+  Calls& calls_;
+};
+
+Body counted(Body body, CountingRanks::Calls& calls) {
+  if (!body.part) return body;
+  msm::grid::Part& part = *body.part;
+  part.ranks = std::make_shared<CountingRanks>(part.ranks, calls);
+  const bool is_whole = part.coarser && !part.coarser->part;
+  if (part.coarser_here) part.coarser_here = std::make_shared<Body>(counted(*part.coarser_here, calls));
+  if (!is_whole) part.coarser = part.coarser_here;
+  return body;
+}
+
 Field<double> any_field(const Body& body, unsigned seed) {
   return msm::grid::random_field<double>(body, seed, std::normal_distribution<double>());
 }
@@ -186,4 +215,40 @@ TEST_CASE("a grid too small to be dealt out is solved whole by every rank", "[ra
   const cases::Solution together =
       msm::solve_by_snes(scene, {bodies::thesis_cell}, PETSC_COMM_WORLD, to_rounding());
   CHECK(largest_difference(alone, together) == 0);
+}
+
+TEST_CASE("a cycle's messages are those that docs/scale.md counts", "[ranks]") {
+  CountingRanks::Calls calls;
+  const Body here = counted(msm::deal_out_to(PETSC_COMM_WORLD)(uniform_body({40, 21, 33})), calls);
+  const std::deque<Body> bodies = msm::grid::coarsenings(here);
+  msm::grid::Multigrid multigrid(bodies, 1);
+  multigrid.linearise(0.05 * any_field(here, 1));
+  const Field<double> right = any_field(here, 2);
+  Field<double> found = right;
+  calls = {};
+  multigrid.apply(right, found);
+  const int n_levels = n_ranks() > 1 ? 2 : 0; // that are dealt out
+  CHECK(calls.exchanges == 7 * n_levels);
+  CHECK(calls.reductions == (n_ranks() > 1 ? 2 : 0)); // the norm, and the first level that all ranks have
+}
+
+TEST_CASE("a load that cannot be carried ends on several ranks where it ends on one", "[ranks]") {
+  const auto end = [](MPI_Comm communicator, const cases::Scene& scene, const msm::CellStiffness& springs) {
+    mechanics::EquilibriumSettings settings;
+    settings.smallest_load_step = 5e-3;
+    try {
+      msm::solve_by_snes(scene, {springs}, communicator, settings);
+    } catch (const cases::SolveError& error) {
+      return std::pair(error.outcome(), error.load_reached());
+    }
+    return std::pair(cases::Outcome::stable_equilibrium, 1.0);
+  };
+  const auto& [shear, springs, outcome] = GENERATE(table<double, msm::CellStiffness, cases::Outcome>(
+      {{0.01, bodies::cell(23.3, 6.5, 22.7), cases::Outcome::limit_point},
+       {0.001, bodies::cell(31, 0, 0), cases::Outcome::mechanism}}));
+  const cases::Scene scene = scene_of(bodies::clamped_box({10, 10, 10}, bodies::shear(shear)));
+  const auto alone = end(PETSC_COMM_SELF, scene, springs), together = end(PETSC_COMM_WORLD, scene, springs);
+  CHECK(alone.first == outcome);
+  CHECK(together.first == outcome);
+  CHECK(std::abs(together.second - alone.second) <= 0.01); // both end within twice the smallest step
 }
