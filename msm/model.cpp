@@ -44,9 +44,9 @@ Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffn
 }
 
 cases::Solution Model::solve(mechanics::EquilibriumSettings settings, const Points& start) {
-  const Points rest(problem_.mesh.nodes.size(), Eigen::Vector3d::Zero());
-  const Points& at = start.empty() ? rest : start;
-  Vector from = grid_ ? grid::to_field(problem_, grid_->body, at) : to_vector(problem_, at);
+  Vector from = Vector::Zero(system_->load().size());
+  if (!start.empty())
+    from = grid_ ? grid::to_field(problem_, grid_->body, start) : to_vector(problem_, start);
   const bool is_newton = solver_ == cases::Solver::newton || solver_ == cases::Solver::snes;
   if (grid_) clear_constrained(grid_->body, from);
   if (is_newton && grid_ && !grid_->supports && start.empty() && settings.first_load_step == 1)

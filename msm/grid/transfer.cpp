@@ -146,6 +146,8 @@ void Transfer<Real>::sample(const Field<Real>& fine, Field<Real>& coarse) const 
 template<class Real>
 void Transfer<Real>::sample_here(const Field<Real>& fine, Field<Real>& coarse) const {
   const Layout &from = fine_.layout, &to = coarse_here_.layout;
+  // Of a part's ghosts not all cells are here: such a mean may be of fewer nodes than on the whole body,
+  // which only the preconditioner meets.
   const auto around = [&](int component, const int(&node)[3]) {
     const auto& [i, j, k] = node;
     if (has_cell(fine_, i, j, k)) return fine[from.at(i, j, k, component)];
