@@ -24,9 +24,10 @@ void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
 }
 
 /// Nodes from which the grid's backend is the faster one, and the bulk modulus over the shear modulus above
-/// which its iterations are too many, for bodies that can be factorised.
+/// which its iterations are too many, for bodies that can be factorised: 25 a linear solve at 1000, Newton's
+/// method fails at 5000.
 constexpr std::size_t grid_from = 500;
-constexpr double most_incompressible = 300;
+constexpr double most_incompressible = 1500;
 
 Backend choose_backend(const cases::Scene& scene) {
   if (!grid::is_on_grid(scene)) return Backend::assembled;
@@ -105,27 +106,47 @@ std::vector<double> Model::Assembled::body_cell_volumes() {
 }
 
 struct Model::OnGrid : Model::Implementation {
-  OnGrid(const cases::Scene& scene, int n_threads) : model(scene, n_threads) {}
-  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override {
-    return model.solve(load_factor, settings);
+  OnGrid(const cases::Scene& the_scene, MPI_Comm the_communicator, bool may_assemble)
+      : scene(the_scene), communicator(the_communicator), may_assemble_instead(may_assemble),
+        model(scene, 1) {} // every rank solves all of it
+  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
+  void back_to_rest() override {
+    model.back_to_rest();
+    if (assembled) assembled->back_to_rest();
   }
-  void back_to_rest() override { model.back_to_rest(); }
   std::vector<NodeDisplacement> node_displacements() const override {
+    if (assembled) return assembled->node_displacements();
     std::vector<NodeDisplacement> nodes;
     for (const auto& [rest, displacement] : model.node_displacements()) nodes.push_back({rest, displacement});
     return nodes;
   }
 
+  cases::Scene scene;
+  MPI_Comm communicator;
+  bool may_assemble_instead;
   grid::GridModel model;
+  std::unique_ptr<Assembled> assembled; ///< once the grid's multigrid was found not to serve
 };
 
+/// Where the path fails, and multigrid fails the body at rest too, the body is not to blame.
+cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumSettings settings) {
+  if (!assembled) try {
+      return model.solve(load_factor, settings);
+    } catch (const cases::SolveError&) {
+      if (!may_assemble_instead || model.can_leave_rest()) throw;
+      assembled = std::make_unique<Assembled>(scene, communicator);
+    }
+  return assembled->solve(load_factor, settings);
+}
+
 Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) {
+  const bool may_assemble_instead = backend == Backend::automatic;
   if (backend == Backend::automatic) backend = choose_backend(scene);
   if (backend == Backend::grid && !grid::is_on_grid(scene))
     throw cases::InputError(scene.definition.fem.where,
                             "the grid's backend needs a body that is a grid of cells, and no q2_p1");
   if (backend == Backend::grid)
-    implementation_ = std::make_unique<OnGrid>(scene, 1); // every rank solves all of it
+    implementation_ = std::make_unique<OnGrid>(scene, communicator, may_assemble_instead);
   else
     implementation_ = std::make_unique<Assembled>(scene, communicator);
 }

@@ -18,7 +18,7 @@ struct NodeDisplacement {
 mechanics::EquilibriumSettings default_settings();
 
 enum class Backend {
-  automatic, ///< grid where the body is one and the element is known to it, else assembled
+  automatic, ///< grid where the body is one and the element is known to it, else or if that fails assembled
   assembled, ///< any mesh: assembled tangent; a sparse factorisation, or algebraic multigrid for large bodies
   grid       ///< grids of equal cuboids: geometric multigrid, no factorisation
 };

@@ -283,6 +283,14 @@ void GridModel::back_to_rest() {
   implementation_->last_load_factor = 0;
 }
 
+bool GridModel::can_leave_rest() {
+  GridEquations& equations = implementation_->equations;
+  const Vector rest = equations.rest();
+  constexpr double forcing = 1e-5; // as of the assembled equations' iterative solver
+  const Vector residual = equations.residual(rest, 1, mechanics::Expect::direction);
+  return equations.direction(rest, residual, 1, forcing, mechanics::Convexity::exact).has_value();
+}
+
 cases::Solution GridModel::solve(double load_factor, const mechanics::EquilibriumSettings& given) {
   Implementation& m = *implementation_;
   mechanics::EquilibriumSettings settings = given;

@@ -24,6 +24,8 @@ class GridModel {
   /// As of Model.
   cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings);
   void back_to_rest();
+  /// Whether the linear solver finds Newton's first step from rest to the full load.
+  bool can_leave_rest();
   struct NodeValue {
     Eigen::Vector3d rest, displacement; ///< mm
   };
