@@ -108,7 +108,7 @@ std::vector<double> Model::Assembled::body_cell_volumes() {
 struct Model::OnGrid : Model::Implementation {
   OnGrid(const cases::Scene& the_scene, MPI_Comm the_communicator, bool may_assemble)
       : scene(the_scene), communicator(the_communicator), may_assemble_instead(may_assemble),
-        model(scene, 1) {} // every rank solves all of it
+        model(scene, communicator, 1) {}
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
   void back_to_rest() override {
     model.back_to_rest();

@@ -9,6 +9,14 @@ namespace springproof::fem_reference::grid {
 
 using cases::index;
 
+namespace {
+
+bool is_small(const std::array<int, 3>& cells) {
+  return (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1) < 500; // nodes
+}
+
+} // namespace
+
 Layout make_layout(const std::array<int, 3>& cells) {
   Layout layout;
   for (int a = 0; a < 3; ++a) layout.nodes[a] = cells[index(a)] + 1;
@@ -19,8 +27,10 @@ Layout make_layout(const std::array<int, 3>& cells) {
   return layout;
 }
 
-Body::Body(const std::array<int, 3>& cells_, const Eigen::Vector3d& spacing_, Law law_, bool has_modes_)
-    : cells(cells_), spacing(spacing_), layout(make_layout(cells_)), law(law_), has_modes(has_modes_),
+Body::Body(const std::array<int, 3>& cells_of_grid, const Slab& slab_, const Eigen::Vector3d& spacing_,
+           Law law_, bool has_modes_)
+    : cells{cells_of_grid[0], cells_of_grid[1], slab_.n_layers()}, spacing(spacing_),
+      layout(make_layout(cells)), slab(slab_), law(law_), has_modes(has_modes_),
       weight(index(layout.n_cell_entries() + 16)), free(Field<float>::Zero(3 * layout.size)) {}
 
 Cells Body::view() const {
@@ -59,18 +69,28 @@ std::array<bool, 3> axes_to_coarsen(const std::array<int, 3>& cells, const Eigen
   return axes;
 }
 
+Slab deal(const std::array<int, 3>& cells, MPI_Comm communicator, int multiple) {
+  return is_small(cells) ? Slab(cells[2] + 1) : Slab(cells[2] + 1, communicator, multiple);
+}
+
+Slab coarsen(const Slab& fine, const std::array<int, 3>& cells, bool along_z) {
+  return fine.coarser(along_z, is_small(cells) || (along_z && !fine.can_be_halved()));
+}
+
 Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
+  const std::array<int, 3> fine_cells = fine.cells_of_grid();
   std::array<int, 3> factor, cells;
   Eigen::Vector3d spacing;
   for (std::size_t a = 0; a < 3; ++a) {
     factor[a] = axes[a] ? 2 : 1;
-    cells[a] = (fine.cells[a] + factor[a] - 1) / factor[a];
+    cells[a] = (fine_cells[a] + factor[a] - 1) / factor[a];
     spacing[static_cast<int>(a)] = factor[a] * fine.spacing[static_cast<int>(a)];
   }
-  Body coarse(cells, spacing, fine.law, fine.has_modes);
+  Body coarse(cells, coarsen(fine.slab, cells, axes[2]), spacing, fine.law, fine.has_modes);
+  const int first = fine.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
   const float share = 1.0f / static_cast<float>(factor[0] * factor[1] * factor[2]);
   const auto place = [&](int i, int j, int k) {
-    return index(coarse.layout.cell(i / factor[0], j / factor[1], k / factor[2]));
+    return index(coarse.layout.cell(i / factor[0], j / factor[1], (first + k) / factor[2] - first_coarse));
   };
   const auto n_fine = index(fine.layout.n_cell_entries()), n_coarse = index(coarse.layout.n_cell_entries());
   coarse.n_parameters = fine.n_parameters;
@@ -90,17 +110,24 @@ Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
           mean += part * (fine.parameters[p * n_fine + from] - mean);
         }
       }
-  for (int k = 0; k <= cells[2]; ++k)
+  const std::ptrdiff_t n_of_layer = coarse.layout.cell(0, 0, 1);
+  coarse.slab.complete_layers(coarse.weight.data(), n_of_layer);
+  if (!fine.has_one_material())
+    for (std::size_t p = 0; p < index(fine.n_parameters); ++p)
+      coarse.slab.complete_layers(coarse.parameters.data() + p * n_coarse, n_of_layer);
+  const auto [begin, end] = coarse.slab.own();
+  for (int k = begin; k < end; ++k)
     for (int j = 0; j <= cells[1]; ++j)
       for (int i = 0; i <= cells[0]; ++i) {
         if (!has_cell(coarse, i, j, k)) continue;
-        const int a = std::min(factor[0] * i, fine.cells[0]), b = std::min(factor[1] * j, fine.cells[1]),
-                  c = std::min(factor[2] * k, fine.cells[2]);
+        const int a = std::min(factor[0] * i, fine_cells[0]), b = std::min(factor[1] * j, fine_cells[1]),
+                  c = std::min(factor[2] * (first_coarse + k), fine_cells[2]) - first;
         const bool is_inside = has_cell(fine, a, b, c);
         for (int d = 0; d < 3; ++d)
           coarse.free[d * coarse.layout.size + coarse.layout.at(i, j, k)] =
               is_inside ? fine.free[d * fine.layout.size + fine.layout.at(a, b, c)] : 1;
       }
+  coarse.slab.complete(coarse.layout, coarse.free.data());
   return coarse;
 }
 

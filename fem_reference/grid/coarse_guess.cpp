@@ -14,35 +14,50 @@ using mechanics::Vector;
 
 constexpr int fewest_nodes = 200;
 
+/// A field's values at the fine nodes in the same places.
+Field<double> inject(const Field<double>& fine, const Body& from, const Body& to,
+                     const std::array<bool, 3>& axes) {
+  Field<double> coarse = Field<double>::Zero(3 * to.layout.size);
+  const std::array<int, 3> fine_cells = from.cells_of_grid();
+  const auto fine_node = [&](int n, std::size_t a) { return std::min(axes[a] ? 2 * n : n, fine_cells[a]); };
+  const auto [begin, end] = to.slab.own();
+  for (int k = begin; k < end; ++k) {
+    const int fine_k = fine_node(to.slab.first_of_grid() + k, 2) - from.slab.first_of_grid();
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < to.layout.nodes[1]; ++j)
+        for (int i = 0; i < to.layout.nodes[0]; ++i)
+          coarse[c * to.layout.size + to.layout.at(i, j, k)] =
+              fine[c * from.layout.size + from.layout.at(fine_node(i, 0), fine_node(j, 1), fine_k)];
+  }
+  to.slab.complete(to.layout, coarse.data());
+  return coarse;
+}
+
 /// Loads by the transpose of interpolation; supports as those of the fine nodes in the same place.
+/// @param from, to  must outlive the result
 Supported coarsen(const Supported& fine, const Body& from, const Body& to, const std::array<bool, 3>& axes,
                   int n_threads) {
   Supported coarse;
   coarse.load.setZero(3 * to.layout.size);
-  restrict(from.layout, to.layout, axes, fine.load, coarse.load, n_threads);
+  Field<double> load = fine.load;
+  restrict(from.space(n_threads), to.space(n_threads), axes, load, coarse.load);
   coarse.load.array() *= to.free.cast<double>().array();
-  std::vector<int> number(index(3 * from.layout.size), -1), taken;
-  for (std::size_t m = 0; m < fine.moved.size(); ++m) number[index(fine.moved[m])] = static_cast<int>(m);
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < to.layout.nodes[2]; ++k)
-      for (int j = 0; j < to.layout.nodes[1]; ++j)
-        for (int i = 0; i < to.layout.nodes[0]; ++i) {
-          const auto fine_node = [&](int n, std::size_t a) {
-            return std::min(axes[a] ? 2 * n : n, from.cells[a]);
-          };
-          const int moved = number[index(c * from.layout.size +
-                                         from.layout.at(fine_node(i, 0), fine_node(j, 1), fine_node(k, 2)))];
-          if (moved < 0) continue;
-          coarse.moved.push_back(c * to.layout.size + to.layout.at(i, j, k));
-          taken.push_back(moved);
-        }
-  if (!taken.empty())
-    coarse.prescribed = [taken, all = fine.prescribed](double load_factor) {
-      const std::vector<double> values = all(load_factor);
-      std::vector<double> own;
-      for (const int moved : taken) own.push_back(values[index(moved)]);
-      return own;
-    };
+  if (!fine.prescribed) return coarse;
+  // every rank takes part, whether or not it has any of these nodes
+  const auto injected = [&from, &to, axes, moved = fine.moved](const std::vector<double>& values) {
+    Field<double> field = Field<double>::Zero(3 * from.layout.size);
+    for (std::size_t m = 0; m < moved.size(); ++m) field[moved[m]] = values[m];
+    return inject(field, from, to, axes);
+  };
+  const Field<double> is_moved = injected(std::vector<double>(fine.moved.size(), 1.));
+  for (Eigen::Index entry = 0; entry < is_moved.size(); ++entry)
+    if (is_moved[entry] > 0) coarse.moved.push_back(entry);
+  coarse.prescribed = [injected, moved = coarse.moved, all = fine.prescribed](double load_factor) {
+    const Field<double> field = injected(all(load_factor));
+    std::vector<double> values;
+    for (const std::ptrdiff_t entry : moved) values.push_back(field[entry]);
+    return values;
+  };
   return coarse;
 }
 
@@ -50,11 +65,11 @@ Supported coarsen(const Supported& fine, const Body& from, const Body& to, const
 
 std::optional<Vector> coarse_guess(const Body& body, const Supported& supported, double load_factor,
                                    int n_threads) {
-  const std::array<bool, 3> axes = axes_to_coarsen(body.cells, body.spacing);
+  const std::array<bool, 3> axes = axes_to_coarsen(body.cells_of_grid(), body.spacing);
   if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
   const Body coarse = coarsen(body, axes);
   const Layout &from = coarse.layout, &to = body.layout;
-  if (from.nodes[0] * from.nodes[1] * from.nodes[2] < fewest_nodes) return std::nullopt;
+  if (from.nodes[0] * from.nodes[1] * coarse.slab.n_planes_of_grid() < fewest_nodes) return std::nullopt;
   const Supported held = coarsen(supported, body, coarse, axes, n_threads);
   GridEquations equations(coarse, held, n_threads);
   mechanics::EquilibriumSettings settings;
@@ -69,23 +84,23 @@ std::optional<Vector> coarse_guess(const Body& body, const Supported& supported,
   try {
     const Vector found =
         mechanics::find_equilibrium(equations, equations.rest(), "coarse grid", settings).state;
-    const Field<double> displacement = found.head(3 * from.size);
-    Field<double> fine = Field<double>::Zero(3 * to.size);
-    prolong(from, to, axes, displacement, fine, n_threads);
+    Field<double> displacement = found.head(3 * from.size), fine = Field<double>::Zero(3 * to.size);
+    prolong(coarse.space(n_threads), body.space(n_threads), axes, displacement, fine);
     fine.array() *= body.free.cast<double>().array();
-    if (!supported.moved.empty()) {
+    if (supported.prescribed) {
       const std::vector<double> values = supported.prescribed(load_factor);
       for (std::size_t m = 0; m < values.size(); ++m) fine[supported.moved[m]] = values[m];
     }
     Vector guess = Vector::Zero(3 * to.size + (body.has_modes ? to.n_cell_entries() + 16 : 0));
     guess.head(3 * to.size) = fine;
+    const int first = body.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
     if (body.has_modes)
       for (int k = 0; k < body.cells[2]; ++k)
         for (int j = 0; j < body.cells[1]; ++j)
           for (int i = 0; i < body.cells[0]; ++i)
             guess[3 * to.size + to.cell(i, j, k)] =
-                found[3 * from.size +
-                      from.cell(axes[0] ? i / 2 : i, axes[1] ? j / 2 : j, axes[2] ? k / 2 : k)];
+                found[3 * from.size + from.cell(axes[0] ? i / 2 : i, axes[1] ? j / 2 : j,
+                                                (axes[2] ? (first + k) / 2 : first + k) - first_coarse)];
     return guess;
   } catch (const cases::SolveError&) {
     return std::nullopt; // the fine grid has to find its own way

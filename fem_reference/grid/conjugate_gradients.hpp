@@ -19,11 +19,11 @@ struct ConjugateGradients {
 template<class Operator, class Preconditioner>
 ConjugateGradients conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
                                        const Field<double>& right_side, double target, int max_iterations,
-                                       int n_threads) {
+                                       const Space& space) {
   ConjugateGradients result;
   const std::ptrdiff_t n = right_side.size();
   result.solution.setZero(n);
-  if (dot(right_side, right_side, n_threads) <= target * target) {
+  if (dot(space, right_side, right_side) <= target * target) {
     result.converged = true;
     return result;
   }
@@ -31,26 +31,26 @@ ConjugateGradients conjugate_gradients(const Operator& apply, const Precondition
                 product = Field<double>::Zero(n);
   precondition(residual, preconditioned);
   Field<double> direction = preconditioned;
-  double slope = dot(residual, preconditioned, n_threads);
+  double slope = dot(space, residual, preconditioned);
   while (result.iterations < max_iterations) {
     apply(direction, product);
     ++result.iterations;
-    const double curvature = dot(direction, product, n_threads);
+    const double curvature = dot(space, direction, product);
     result.met_negative_curvature = curvature <= 0;
     if (!(curvature > 0) || !(slope > 0)) return result;
     const double length = slope / curvature;
-    add(result.solution, length, direction, n_threads);
-    add(residual, -length, product, n_threads);
-    if (dot(residual, residual, n_threads) <= target * target) {
+    add(result.solution, length, direction, space.n_threads);
+    add(residual, -length, product, space.n_threads);
+    if (dot(space, residual, residual) <= target * target) {
       result.converged = true;
       return result;
     }
-    const double crossed = dot(residual, preconditioned, n_threads);
+    const double crossed = dot(space, residual, preconditioned);
     precondition(residual, preconditioned);
-    const double now = dot(residual, preconditioned, n_threads);
+    const double now = dot(space, residual, preconditioned);
     const double keep = (now - crossed) / slope;
     slope = now;
-    for_each_piece(n, n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length_) {
+    for_each_piece(n, space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length_) {
       direction.segment(first, length_) =
           preconditioned.segment(first, length_) + keep * direction.segment(first, length_);
     });

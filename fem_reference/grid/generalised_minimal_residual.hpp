@@ -13,12 +13,12 @@ namespace springproof::fem_reference::grid {
 template<class Operator, class Preconditioner>
 ConjugateGradients generalised_minimal_residual(const Operator& apply, const Preconditioner& precondition,
                                                 const Field<double>& right_side, double target,
-                                                int max_iterations, int restart, int n_threads) {
+                                                int max_iterations, int restart, const Space& space) {
   ConjugateGradients result;
   const std::ptrdiff_t n = right_side.size();
   result.solution.setZero(n);
   Field<double> residual = right_side;
-  double norm = std::sqrt(dot(residual, residual, n_threads));
+  double norm = grid::norm(space, residual);
   while (!(norm <= target) && result.iterations < max_iterations) {
     std::vector<Field<double>> basis{residual / norm}, images; // images: preconditioned
     Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(restart + 1, restart);
@@ -31,10 +31,10 @@ ConjugateGradients generalised_minimal_residual(const Operator& apply, const Pre
       apply(images.back(), next);
       for (int i = 0; i <= j; ++i) {
         const auto& v = basis[static_cast<std::size_t>(i)];
-        hessenberg(i, j) = dot(v, next, n_threads);
-        add(next, -hessenberg(i, j), v, n_threads);
+        hessenberg(i, j) = dot(space, v, next);
+        add(next, -hessenberg(i, j), v, space.n_threads);
       }
-      const double length = hessenberg(j + 1, j) = std::sqrt(dot(next, next, n_threads));
+      const double length = hessenberg(j + 1, j) = grid::norm(space, next);
       Eigen::VectorXd first = Eigen::VectorXd::Zero(j + 2);
       first[0] = norm;
       const auto small = hessenberg.topLeftCorner(j + 2, j + 1);
@@ -44,11 +44,11 @@ ConjugateGradients generalised_minimal_residual(const Operator& apply, const Pre
       basis.push_back(next / length);
     }
     for (Eigen::Index j = 0; j < weights.size(); ++j)
-      add(result.solution, weights[j], images[static_cast<std::size_t>(j)], n_threads);
+      add(result.solution, weights[j], images[static_cast<std::size_t>(j)], space.n_threads);
     if (result.converged) return result;
     apply(result.solution, residual);
     residual = right_side - residual;
-    const double before = std::exchange(norm, std::sqrt(dot(residual, residual, n_threads)));
+    const double before = std::exchange(norm, grid::norm(space, residual));
     if (!(norm < 0.9 * before)) return result; // no use in going on
   }
   result.converged = norm <= target;

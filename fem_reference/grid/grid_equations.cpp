@@ -25,9 +25,8 @@ constexpr int restart_of(std::ptrdiff_t n) {
 
 GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
                              QuadraticElements* quadratic)
-    : body_(body), supported_(supported), n_threads_(n_threads), quadratic_(quadratic),
-      multigrid_(body, n_threads),
-      load_norm_(std::sqrt(grid::dot(supported.load, supported.load, n_threads))) {}
+    : body_(body), supported_(supported), space_(body.space(n_threads)), quadratic_(quadratic),
+      multigrid_(body, n_threads), load_norm_(norm(space_, supported.load)) {}
 
 /// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
 /// admissible
@@ -43,7 +42,7 @@ bool GridEquations::add_force(const Vector& at, Field<double>& force) {
                            body_.has_modes ? condensed_.data() : nullptr, nullptr};
   const Cells view = body_.view();
   std::vector<Checks> checks(index(body_.cells[2]));
-  for_each_layer(body_.cells[2], n_threads_,
+  for_each_layer(body_.slab, space_.n_threads,
                  [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
   bool is_valid = true;
   for (const Checks& layer : checks) {
@@ -59,7 +58,7 @@ void GridEquations::linearise(const Vector& at) {
   if (quadratic_) quadratic_->linearise(at.data());
 }
 
-void GridEquations::product(const Field<double>& field, Field<double>& product) const {
+void GridEquations::product(Field<double>& field, Field<double>& product) const {
   if (!quadratic_) return multigrid_.product(field, product);
   quadratic_->product(field, product);
   product.array() *= body_.free.cast<double>().array();
@@ -69,7 +68,7 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
   ++work_.force_evaluations;
   gap_.clear();
   largest_gap_ = 0;
-  if (!supported_.moved.empty()) {
+  if (supported_.prescribed) {
     gap_ = supported_.prescribed(load_factor);
     for (std::size_t i = 0; i < gap_.size(); ++i) {
       gap_[i] -= at[supported_.moved[i]];
@@ -77,24 +76,27 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
     }
   }
   Field<double> force = Field<double>::Zero(n_displacements());
-  is_valid_ = add_force(at, force);
+  is_valid_ = space_.slab.largest(add_force(at, force) ? 0 : 1) == 0;
   if (!is_valid_) return Vector::Constant(at.size(), std::numeric_limits<double>::quiet_NaN());
-  double reaction = 0;
+  volume_mismatch_ = space_.slab.largest(volume_mismatch_);
+  largest_gap_ = space_.slab.largest(largest_gap_);
+  Field<double> reaction = force;
   Vector residual = Vector::Zero(at.size());
   for (Eigen::Index i = 0; i < n_displacements(); ++i) {
     const bool is_free = body_.free[i] > 0;
     residual[i] = is_free ? load_factor * supported_.load[i] - force[i] : 0;
     condensed_[i] = is_free ? load_factor * supported_.load[i] - condensed_[i] : 0;
-    if (!is_free) reaction += force[i] * force[i];
+    if (is_free) reaction[i] = 0;
   }
-  reaction_ = std::sqrt(reaction);
+  reaction_ = norm(space_, reaction);
   return residual;
 }
 
 GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
   if (!is_valid_) return {std::numeric_limits<double>::quiet_NaN(), false};
   // a body moved by prescribed displacements alone is measured against its reactions
-  const double imbalance = residual.norm(), scale = load_norm_ > 0 ? load_norm_ : reaction_;
+  const double imbalance = std::sqrt(dot(residual, residual)),
+               scale = load_norm_ > 0 ? load_norm_ : reaction_;
   return {imbalance == 0 ? 0 : imbalance / scale,
           volume_mismatch_ <= volume_tolerance && largest_gap_ <= 1e-12};
 }
@@ -107,11 +109,12 @@ bool GridEquations::may_keep_tangent(double norm) const {
 }
 
 std::optional<Field<double>> GridEquations::solve(const Field<double>& right_side, double target) {
-  const auto times = [&](const Field<double>& x, Field<double>& y) { product(x, y); };
+  const auto times = [&](Field<double>& x, Field<double>& y) { product(x, y); };
   const auto precondition = [&](const Field<double>& x, Field<double>& y) { multigrid_.apply(x, y); };
+  const std::ptrdiff_t n_unknowns = 3 * space_.slab.n_planes_of_grid() * space_.layout.plane;
   const auto minimise = [&](int max_iterations) {
     auto found = generalised_minimal_residual(times, precondition, right_side, target, max_iterations,
-                                              restart_of(right_side.size()), n_threads_);
+                                              restart_of(n_unknowns), space_);
     work_.linear_iterations += found.iterations;
     return found;
   };
@@ -119,8 +122,7 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
     auto found = minimise(max_unsymmetric_iterations);
     return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
   }
-  auto found =
-      conjugate_gradients(times, precondition, right_side, target, max_linear_iterations, n_threads_);
+  auto found = conjugate_gradients(times, precondition, right_side, target, max_linear_iterations, space_);
   work_.linear_iterations += found.iterations;
   if (!found.converged && found.met_negative_curvature) found = minimise(max_indefinite_iterations);
   if (!found.converged) return std::nullopt;
@@ -129,7 +131,7 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
 
 std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, const Vector&, double,
                                                               double forcing, mechanics::Convexity) {
-  const double imbalance = std::sqrt(grid::dot(condensed_, condensed_, n_threads_));
+  const double imbalance = norm(space_, condensed_);
   if (!may_keep_tangent(imbalance)) {
     linearise(at);
   } else if (!is_linear()) {
@@ -142,10 +144,9 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
     Field<double> gap = Field<double>::Zero(n_displacements()), pull = gap;
     for (std::size_t i = 0; i < gap_.size(); ++i) gap[supported_.moved[i]] = gap_[i];
     product(gap, pull);
-    add(right_side, -1.0, pull, n_threads_);
+    add(right_side, -1.0, pull, space_.n_threads);
   }
-  const double norm = std::sqrt(grid::dot(right_side, right_side, n_threads_));
-  const auto solution = solve(right_side, forcing * norm);
+  const auto solution = solve(right_side, forcing * norm(space_, right_side));
   if (!solution) {
     has_tangent_ = false;
     return std::nullopt;
@@ -153,10 +154,11 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
   Vector step = Vector::Zero(at.size());
   step.head(n_displacements()) = *solution;
   for (std::size_t i = 0; i < gap_.size(); ++i) step[supported_.moved[i]] = gap_[i];
+  space_.slab.update_ghosts(space_.layout, step.data());
   if (body_.has_modes) {
     const Cells view = body_.view();
     const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, nullptr};
-    for_each_plane(body_.cells[2], n_threads_, [&](int k) {
+    for_each_plane({0, body_.cells[2]}, space_.n_threads, [&](int k) {
       kernels().pressure_change(view, fields, step.data(), step.data() + n_displacements(), k);
     });
   }
@@ -167,11 +169,15 @@ mechanics::Merit GridEquations::merit() const {
   return body_.has_modes || is_linear() || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
 }
 
+double GridEquations::dot(const Vector& left, const Vector& right) const {
+  const Field<double> a = left.head(n_displacements()), b = right.head(n_displacements());
+  return grid::dot(space_, a, b);
+}
+
 std::optional<bool> GridEquations::is_stable(const Vector&) {
   if (!has_tangent_) return std::nullopt;
   negative_eigenvalues_ = count_negative_eigenvalues(
-      body_, [&](const Field<double>& x, Field<double>& y) { product(x, y); }, multigrid_,
-      work_.linear_iterations);
+      body_, [&](Field<double>& x, Field<double>& y) { product(x, y); }, multigrid_, work_.linear_iterations);
   return *negative_eigenvalues_ == 0;
 }
 
@@ -185,7 +191,7 @@ std::vector<double> GridEquations::cell_volumes(const Vector& at) const {
   const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, volumes.data()};
   const Cells view = body_.view();
   std::vector<Checks> checks(index(body_.cells[2]));
-  for_each_plane(body_.cells[2], n_threads_,
+  for_each_plane({0, body_.cells[2]}, space_.n_threads,
                  [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
   return volumes;
 }

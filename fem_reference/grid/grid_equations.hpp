@@ -12,13 +12,14 @@ namespace springproof::fem_reference::grid {
 struct Supported {
   Field<double> load;                ///< N at full load; 0 on constrained entries
   std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
-  /// Their displacement (mm) at a load factor; empty when there are none.
+  /// Their displacement (mm) at a load factor; empty when no rank has any. Collective.
   std::function<std::vector<double>(double load_factor)> prescribed;
 };
 
 /// The equilibrium equations of a body on a grid, without a factorisation. A state is the displacement of the
-/// nodes (mm), then the pressures of the cells (MPa), where they have one. Supports are part of the
-/// equations, as in EquilibriumEquations.
+/// nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank, those of all nodes and
+/// cells that its slab holds. Supports are part of the equations, as in EquilibriumEquations. Every member
+/// function that evaluates a state is collective.
 class GridEquations : public mechanics::NonlinearProblem {
  public:
   /// @param body, supported  must outlive this
@@ -37,6 +38,8 @@ class GridEquations : public mechanics::NonlinearProblem {
                                   double forcing, mechanics::Convexity convexity) override;
   mechanics::Merit merit() const override;
   std::optional<bool> is_stable(const Vector& at) override;
+  double dot(const Vector& left, const Vector& right) const override; ///< of the displacements
+  bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
   Work work() const override { return work_; }
 
   /// Negative eigenvalues that is_stable() counted.
@@ -47,7 +50,7 @@ class GridEquations : public mechanics::NonlinearProblem {
  private:
   const Body& body_;
   const Supported& supported_;
-  int n_threads_;
+  Space space_;
   QuadraticElements* quadratic_;
   Multigrid multigrid_;
   double load_norm_;
@@ -62,7 +65,7 @@ class GridEquations : public mechanics::NonlinearProblem {
 
   bool add_force(const Vector& at, Field<double>& force);
   void linearise(const Vector& at);
-  void product(const Field<double>& field, Field<double>& product) const;
+  void product(Field<double>& field, Field<double>& product) const;
   bool may_keep_tangent(double norm) const;
   std::optional<Field<double>> solve(const Field<double>& right_side, double target);
   bool is_linear() const { return body_.law == Law::small_strain; }

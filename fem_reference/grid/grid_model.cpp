@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace springproof::fem_reference::grid {
 
@@ -82,6 +83,20 @@ NineForces traction_on(const cases::Scene::AppliedLoad& applied,
   return forces;
 }
 
+/// Every rank's numbers, one after the other.
+std::vector<double> gather(const std::vector<double>& own, MPI_Comm communicator) {
+  int n_ranks = 1;
+  MPI_Comm_size(communicator, &n_ranks);
+  const int n = static_cast<int>(own.size());
+  std::vector<int> counts(index(n_ranks)), places(index(n_ranks) + 1);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+  std::partial_sum(counts.begin(), counts.end(), places.begin() + 1);
+  std::vector<double> all(index(places.back()));
+  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), counts.data(), places.data(), MPI_DOUBLE,
+                 communicator);
+  return all;
+}
+
 } // namespace
 
 bool is_on_grid(const cases::Scene& scene) {
@@ -112,20 +127,22 @@ double bulk_over_shear(const cases::Scene& scene) {
 }
 
 struct GridModel::Implementation {
-  Implementation(const cases::Scene& the_scene, int threads)
-      : scene(the_scene), n_threads(threads), fine(cases::refine(scene, scene.definition.fem.refine)),
+  Implementation(const cases::Scene& the_scene, MPI_Comm the_communicator, int threads)
+      : scene(the_scene), communicator(the_communicator), n_threads(threads),
+        fine(cases::refine(scene, scene.definition.fem.refine)),
         cell_factor(1 << scene.definition.fem.refine), factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
-        body(make_body(factor)), supported(make_supported()),
-        quadratic(is_quadratic(scene)
-                      ? std::make_unique<QuadraticElements>(body, make_body(cell_factor), n_threads)
-                      : nullptr),
+        slab(deal(cells_along(factor), communicator, factor / cell_factor)),
+        body(make_body(factor, slab, slab.first_of_grid())), supported(make_supported()),
+        quadratic(is_quadratic(scene) ? make_quadratic() : nullptr),
         equations(body, supported, n_threads, quadratic.get()), last(equations.rest()) {}
 
   cases::Scene scene; ///< on the body's own mesh
+  MPI_Comm communicator;
   int n_threads;
   cases::Scene fine; ///< refined
   int cell_factor;   ///< elements along an edge of the body's own cells
   int factor;        ///< the same of the grid of nodes
+  Slab slab;         ///< of the nodes
   Body body;
   Supported supported;
   std::unique_ptr<QuadraticElements> quadratic;
@@ -138,29 +155,49 @@ struct GridModel::Implementation {
     const Eigen::Vector3d at = (fine.mesh.nodes[node] - scene.mesh.grid->origin).cwiseQuotient(spacing());
     return at.array().round().cast<int>();
   }
-  std::ptrdiff_t entry_of(const Place& at) const { return body.layout.at(at.x(), at.y(), at.z()); }
-  const Layout& cell_layout() const { return quadratic ? quadratic->cells().layout : body.layout; }
-  /// Calls action(place) for the nodes of the elements.
+  bool holds(const Place& at) const { return is_in({0, slab.n_planes()}, at); }
+  bool owns(const Place& at) const { return is_in(slab.computed(), at); }
+  bool is_in(const Slab::Range& planes, const Place& at) const {
+    const int plane = at.z() - slab.first_of_grid();
+    return plane >= planes.begin && plane < planes.end;
+  }
+  /// Of a node that is held.
+  std::ptrdiff_t entry_of(const Place& at) const {
+    return body.layout.at(at.x(), at.y(), at.z() - slab.first_of_grid());
+  }
+  Eigen::Vector3d displacement_at(const Place& at) const {
+    const std::ptrdiff_t entry = entry_of(at), size = body.layout.size;
+    return {last[entry], last[entry + size], last[entry + 2 * size]};
+  }
+  /// Calls action(place) for the nodes of the elements that the rank computes.
   template<class Action>
   void for_each_node(const Action& action) const {
-    for (int k = 0; k <= body.cells[2]; ++k)
+    const auto [begin, end] = slab.computed();
+    for (int k = begin; k < end; ++k)
       for (int j = 0; j <= body.cells[1]; ++j)
         for (int i = 0; i <= body.cells[0]; ++i)
-          if (has_cell(body, i, j, k)) action(Place(i, j, k));
+          if (has_cell(body, i, j, k)) action(Place(i, j, slab.first_of_grid() + k));
   }
-  Body make_body(int cells_along_edge) const;
+  std::array<int, 3> cells_along(int along) const {
+    std::array<int, 3> cells = scene.mesh.grid->cells;
+    for (int& n : cells) n *= along;
+    return cells;
+  }
+  Body make_body(int cells_along_edge, const Slab& of_nodes, int first_layer) const;
+  std::unique_ptr<QuadraticElements> make_quadratic() const;
   std::vector<Place> places_on(const cases::Selection& selection) const;
   void add_loads(Field<double>& load) const;
   Supported make_supported();
+  std::vector<double> cell_volumes() const;
+  double count_free() const;
 };
 
-Body GridModel::Implementation::make_body(int along) const {
+/// @param first_layer  of the grid's layers of cells, the first that the slab holds
+Body GridModel::Implementation::make_body(int along, const Slab& of_nodes, int first_layer) const {
   const cases::Grid& grid = *scene.mesh.grid;
   const cases::Element element = scene.definition.fem.element;
-  std::array<int, 3> cells = grid.cells;
-  for (int& n : cells) n *= along;
   const auto materials = cases::materials_of(scene.definition);
-  Body made(cells, grid.spacing / along, law_of(scene.definition.fem.formulation),
+  Body made(cells_along(along), of_nodes, grid.spacing / along, law_of(scene.definition.fem.formulation),
             element == cases::Element::q1_bbar || element == cases::Element::q1_p0);
   const bool is_uniform = scene.material_of_cell.empty();
   made.parameters = parameters_of(materials.front());
@@ -176,17 +213,28 @@ Body GridModel::Implementation::make_body(int along) const {
         if (!grid.has(i, j, k)) continue;
         const auto material = is_uniform ? 0 : index(scene.material_of_cell[cell]);
         ++cell;
-        for (int c = 0; c < along; ++c)
+        for (int c = 0; c < along; ++c) {
+          const int layer = along * k + c - first_layer;
+          if (layer < 0 || layer >= made.cells[2]) continue;
           for (int b = 0; b < along; ++b)
             for (int a = 0; a < along; ++a) {
-              const auto entry = index(made.layout.cell(along * i + a, along * j + b, along * k + c));
+              const auto entry = index(made.layout.cell(along * i + a, along * j + b, layer));
               made.weight[entry] = 1;
               if (is_uniform) continue;
               for (std::size_t p = 0; p < index(made.n_parameters); ++p)
                 made.parameters[p * n_entries + entry] = values[material][p];
             }
+        }
       }
   return made;
+}
+
+std::unique_ptr<QuadraticElements> GridModel::Implementation::make_quadratic() const {
+  const auto [begin, end] = slab.computed();
+  const int first = slab.first_of_grid() + begin,
+            beyond = std::min(slab.first_of_grid() + end, slab.n_planes_of_grid() - 1);
+  return std::make_unique<QuadraticElements>(
+      body, make_body(cell_factor, Slab((beyond - first) / 2 + 1), first / 2), n_threads);
 }
 
 /// Nodes on a selection's vertices and, of quadratic elements, on its edges and faces.
@@ -212,6 +260,7 @@ std::vector<Place> GridModel::Implementation::places_on(const cases::Selection& 
 
 void GridModel::Implementation::add_loads(Field<double>& load) const {
   const auto add_force = [&](const Place& at, const Eigen::Vector3d& force) {
+    if (!owns(at)) return;
     for (int c = 0; c < 3; ++c) load[c * body.layout.size + entry_of(at)] += force[c];
   };
   const std::vector<Eigen::Vector3d> forces =
@@ -244,8 +293,9 @@ Supported GridModel::Implementation::make_supported() {
   });
   for (const auto& fixed : fine.constrained)
     for (const Place& at : places_on(fixed.selection))
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; owns(at) && c < 3; ++c)
         if (fixed.components[index(c)]) body.free[c * body.layout.size + entry_of(at)] = 0;
+  slab.update_ghosts(body.layout, body.free.data());
   Supported made;
   made.load.setZero(3 * body.layout.size);
   add_loads(made.load);
@@ -257,11 +307,12 @@ Supported GridModel::Implementation::make_supported() {
   std::vector<MovedNode> nodes;
   for (const auto& [selection, motion] : fine.moved)
     for (const Place& at : places_on(selection)) {
+      if (!holds(at)) continue;
       nodes.push_back({scene.mesh.grid->origin + at.cast<double>().cwiseProduct(spacing()), motion});
       for (int c = 0; c < 3; ++c)
         if (motion.components[index(c)]) made.moved.push_back(c * body.layout.size + entry_of(at));
     }
-  if (!nodes.empty())
+  if (!fine.moved.empty())
     made.prescribed = [nodes](double load_factor) {
       std::vector<double> values;
       for (const auto& [rest, motion] : nodes) {
@@ -274,13 +325,47 @@ Supported GridModel::Implementation::make_supported() {
   return made;
 }
 
-GridModel::GridModel(const cases::Scene& scene, int n_threads)
-    : implementation_(std::make_unique<Implementation>(scene, n_threads)) {}
+GridModel::GridModel(const cases::Scene& scene, MPI_Comm communicator, int n_threads)
+    : implementation_(std::make_unique<Implementation>(scene, communicator, n_threads)) {}
 GridModel::~GridModel() = default;
 
 void GridModel::back_to_rest() {
   implementation_->last = implementation_->equations.rest();
   implementation_->last_load_factor = 0;
+}
+
+/// Of the body's cells; of each as much as the rank computes.
+std::vector<double> GridModel::Implementation::cell_volumes() const {
+  const std::vector<double> of_entries = equations.cell_volumes(last);
+  const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
+  // the rank's elements have layers of their own
+  const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
+  const int first = quadratic ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
+  const cases::Grid& grid = *scene.mesh.grid;
+  std::vector<double> volumes;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        if (!grid.has(i, j, k)) continue;
+        double volume = 0;
+        const int n = cell_factor;
+        for (int c = 0; c < n; ++c) {
+          const int layer = n * k + c - first;
+          if (layer < layers.begin || layer >= layers.end) continue;
+          for (int b = 0; b < n; ++b)
+            for (int a = 0; a < n; ++a) volume += of_entries[index(layout.cell(n * i + a, n * j + b, layer))];
+        }
+        volumes.push_back(volume);
+      }
+  return volumes;
+}
+
+double GridModel::Implementation::count_free() const {
+  double n = 0;
+  for_each_node([&](const Place& at) {
+    for (int c = 0; c < 3; ++c) n += body.free[c * body.layout.size + entry_of(at)] > 0 ? 1 : 0;
+  });
+  return n;
 }
 
 bool GridModel::can_leave_rest() {
@@ -302,29 +387,20 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   m.last = equilibrium.state;
   m.last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  const auto displacement_at = [&](const Place& at) {
-    const std::ptrdiff_t entry = m.entry_of(at), size = m.body.layout.size;
-    return Eigen::Vector3d(m.last[entry], m.last[entry + size], m.last[entry + 2 * size]);
+  // each entry is one rank's
+  const auto gather = [&](double* values, std::size_t n) {
+    if (m.slab.is_shared())
+      MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, m.communicator);
   };
-  solution.displacement.resize(m.scene.mesh.nodes.size());
-  for (std::size_t n = 0; n < solution.displacement.size(); ++n)
-    solution.displacement[n] =
-        displacement_at(m.place_of(n)); // the refined mesh begins with the body's own nodes
-  const std::vector<double> volumes = m.equations.cell_volumes(m.last);
-  const cases::Grid& grid = *m.scene.mesh.grid;
-  for (int k = 0; k < grid.cells[2]; ++k)
-    for (int j = 0; j < grid.cells[1]; ++j)
-      for (int i = 0; i < grid.cells[0]; ++i) {
-        if (!grid.has(i, j, k)) continue;
-        double volume = 0;
-        const int n = m.cell_factor;
-        for (int c = 0; c < n; ++c)
-          for (int b = 0; b < n; ++b)
-            for (int a = 0; a < n; ++a)
-              volume += volumes[index(m.cell_layout().cell(n * i + a, n * j + b, n * k + c))];
-        solution.cell_volume.push_back(volume);
-      }
-  solution.unknowns = static_cast<std::size_t>((m.body.free.array() > 0).count());
+  solution.displacement.assign(m.scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
+    const Place at = m.place_of(n); // the refined mesh begins with the body's own nodes
+    if (m.owns(at)) solution.displacement[n] = m.displacement_at(at);
+  }
+  gather(solution.displacement.front().data(), 3 * solution.displacement.size());
+  solution.cell_volume = m.cell_volumes();
+  gather(solution.cell_volume.data(), solution.cell_volume.size());
+  solution.unknowns = static_cast<std::size_t>(m.slab.total(m.count_free()));
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = m.equations.negative_eigenvalues();
   for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
@@ -336,12 +412,17 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
 
 std::vector<GridModel::NodeValue> GridModel::node_displacements() const {
   const Implementation& m = *implementation_;
-  std::vector<NodeValue> values;
+  std::vector<double> numbers;
   m.for_each_node([&](const Place& at) {
-    const std::ptrdiff_t entry = m.entry_of(at), size = m.body.layout.size;
-    values.push_back({m.scene.mesh.grid->origin + at.cast<double>().cwiseProduct(m.spacing()),
-                      {m.last[entry], m.last[entry + size], m.last[entry + 2 * size]}});
+    const Eigen::Vector3d rest = m.scene.mesh.grid->origin + at.cast<double>().cwiseProduct(m.spacing()),
+                          displacement = m.displacement_at(at);
+    numbers.insert(numbers.end(), rest.begin(), rest.end());
+    numbers.insert(numbers.end(), displacement.begin(), displacement.end());
   });
+  if (m.slab.is_shared()) numbers = gather(numbers, m.communicator);
+  std::vector<NodeValue> values;
+  for (const double* at = numbers.data(); at != numbers.data() + numbers.size(); at += 6)
+    values.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});
   return values;
 }
 

@@ -5,6 +5,7 @@
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <memory>
+#include <mpi.h>
 
 namespace springproof::fem_reference::grid {
 
@@ -15,10 +16,12 @@ bool is_on_grid(const cases::Scene& scene);
 double bulk_over_shear(const cases::Scene& scene);
 
 /// Finite elements of a scene on a grid: matrix-vector products and multigrid in place of a factorisation.
+/// The grid is cut along z, a slab for each rank; every member function is collective, and every rank gets
+/// the whole answer.
 class GridModel {
  public:
   /// @param scene  as of Model, is_on_grid(); definition.fem.refine is applied here
-  GridModel(const cases::Scene& scene, int n_threads);
+  GridModel(const cases::Scene& scene, MPI_Comm communicator, int n_threads);
   ~GridModel();
 
   /// As of Model.

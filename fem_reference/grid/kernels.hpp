@@ -88,6 +88,7 @@ struct TangentFields {
 struct Coarsening {
   Layout layout; ///< of the coarser grid
   bool axes[3];
+  int first, first_coarse; ///< layers of the two grids before those of the layouts
 };
 
 struct Kernels {

@@ -72,9 +72,11 @@ SPRINGPROOF_INLINE void add_to_coarse(const PackF (&cell)[n_upper], float* coars
     for (int s = 0; s < 24; ++s) matrix[r][s] = cell[upper(r, s)];
   if (c.axes[0]) interpolate(matrix, 0, weights_of_row());
   if (c.axes[1]) interpolate(matrix, 1, weights_of(j % 2 == 1));
-  if (c.axes[2]) interpolate(matrix, 2, weights_of(k % 2 == 1));
+  const int z = c.first + k;
+  if (c.axes[2]) interpolate(matrix, 2, weights_of(z % 2 == 1));
   const int i = c.axes[0] ? first / 2 : first;
-  const std::ptrdiff_t of_row = c.layout.cell(0, c.axes[1] ? j / 2 : j, c.axes[2] ? k / 2 : k);
+  const std::ptrdiff_t of_row =
+      c.layout.cell(0, c.axes[1] ? j / 2 : j, (c.axes[2] ? z / 2 : z) - c.first_coarse);
   float* const to = coarse + n_upper * of_row + i;
   for (int r = 0; r < 24; ++r)
     for (int s = r; s < 24; ++s) {

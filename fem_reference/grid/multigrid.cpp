@@ -18,27 +18,41 @@ constexpr std::ptrdiff_t most_coarsest_nodes = 125;
 constexpr int smoothing_degree = 3;
 constexpr double smoothed_part = 12; ///< the smoother works on eigenvalues down to that part of the largest
 
-std::ptrdiff_t n_nodes(const Layout& l) {
-  return std::ptrdiff_t{l.nodes[0]} * l.nodes[1] * l.nodes[2];
+std::ptrdiff_t n_nodes(const std::array<int, 3>& cells) {
+  return std::ptrdiff_t{cells[0] + 1} * (cells[1] + 1) * (cells[2] + 1);
+}
+
+/// The same random vector on any number of ranks.
+void fill(const Space& space, Field<float>& field) {
+  const Layout& layout = space.layout;
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (int k = -space.slab.first_of_grid(); k < layout.nodes[2]; ++k)
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < layout.nodes[1]; ++j)
+        for (int i = 0; i < layout.nodes[0]; ++i) {
+          const float value = uniform(generator);
+          if (k >= 0) field[c * layout.size + layout.at(i, j, k)] = value;
+        }
 }
 
 } // namespace
 
-Multigrid::Multigrid(const Body& body, int n_threads) : body_(body), n_threads_(n_threads) {
-  std::array<int, 3> cells = body.cells;
+Multigrid::Multigrid(const Body& body, int n_threads) : body_(body) {
+  std::array<int, 3> cells = body.cells_of_grid();
   Eigen::Vector3d spacing = body.spacing;
+  Slab slab = body.slab;
   for (;;) {
-    Level& level = levels_.emplace_back();
-    level.cells = cells;
-    level.layout = make_layout(cells);
-    const Layout& layout = level.layout;
+    Level& level =
+        levels_.emplace_back(Space{make_layout({cells[0], cells[1], slab.n_layers()}), slab, n_threads});
+    const Layout& layout = level.layout();
     level.stencil.resize(index(stencil_row(layout) * layout.nodes[1] * layout.nodes[2]));
     level.inverse_diagonal.resize(index(6 * layout.size));
     for (Field<float>* field : {&level.solution, &level.residual, &level.correction, &level.product})
       field->setZero(3 * layout.size);
     if (levels_.size() > 1) level.cell_matrices.resize(index(n_upper * layout.n_cell_entries() + 16));
     const std::array<bool, 3> axes = axes_to_coarsen(cells, spacing);
-    if (n_nodes(layout) <= most_coarsest_nodes || !(axes[0] || axes[1] || axes[2])) break;
+    if (n_nodes(cells) <= most_coarsest_nodes || !(axes[0] || axes[1] || axes[2])) break;
     level.axes = axes;
     for (std::size_t a = 0; a < 3; ++a) {
       level.coarsening.axes[a] = axes[a];
@@ -46,15 +60,13 @@ Multigrid::Multigrid(const Body& body, int n_threads) : body_(body), n_threads_(
       cells[a] = (cells[a] + 1) / 2;
       spacing[static_cast<int>(a)] *= 2;
     }
-    level.coarsening.layout = make_layout(cells);
+    const int first = slab.first_of_grid();
+    slab = coarsen(slab, cells, axes[2]);
+    level.coarsening.layout = make_layout({cells[0], cells[1], slab.n_layers()});
+    level.coarsening.first = first;
+    level.coarsening.first_coarse = slab.first_of_grid();
     level.rough.setZero(3 * layout.size);
-    std::mt19937 generator(7);
-    std::uniform_real_distribution<float> uniform(-1, 1);
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < layout.nodes[2]; ++k)
-        for (int j = 0; j < layout.nodes[1]; ++j)
-          for (int i = 0; i < layout.nodes[0]; ++i)
-            level.rough[c * layout.size + layout.at(i, j, k)] = uniform(generator);
+    fill(level.space, level.rough);
   }
 }
 
@@ -66,43 +78,48 @@ void Multigrid::linearise(const double* displacement, const double* pressure) {
     for (std::vector<float>* zeroed : {&level.stencil, coarser ? &coarser->cell_matrices : nullptr})
       if (zeroed)
         for_each_piece(
-            static_cast<std::ptrdiff_t>(zeroed->size()), n_threads_,
+            static_cast<std::ptrdiff_t>(zeroed->size()), level.space.n_threads,
             [&](std::ptrdiff_t first, std::ptrdiff_t n) { std::fill_n(zeroed->begin() + first, n, 0.0f); });
     const TangentFields fields{displacement, pressure, body_.free.data(), level.stencil.data(),
                                coarser ? coarser->cell_matrices.data() : nullptr};
-    for_each_layer(level.cells[2], n_threads_, [&](int k) {
+    for_each_layer(level.space.slab, level.space.n_threads, [&](int k) {
       if (l == 0)
         kernels().tangent(view, fields, level.coarsening, k);
       else
-        kernels().deposit(level.layout, level.cell_matrices.data(), fields.stencil, fields.coarse,
+        kernels().deposit(level.layout(), level.cell_matrices.data(), fields.stencil, fields.coarse,
                           level.coarsening, k);
     });
+    if (coarser)
+      coarser->space.slab.complete_layers(coarser->cell_matrices.data(),
+                                          n_upper * coarser->layout().cell(0, 0, 1));
     invert_diagonal(level);
     if (coarser) estimate_largest_eigenvalue(level);
   }
   factorise_coarsest();
 }
 
-void Multigrid::product(const Field<double>& field, Field<double>& product, Rows rows) const {
+void Multigrid::product(Field<double>& field, Field<double>& product, Rows rows) const {
   const Level& level = levels_.front();
-  for_each_plane(level.layout.nodes[2], n_threads_, [&](int k) {
-    kernels().product(level.layout, level.stencil.data(), field.data(),
+  level.space.slab.update_ghosts(level.layout(), field.data());
+  for_each_plane(level.space.slab.computed(), level.space.n_threads, [&](int k) {
+    kernels().product(level.layout(), level.stencil.data(), field.data(),
                       rows == Rows::free ? body_.free.data() : nullptr, product.data(), k);
   });
 }
 
-void Multigrid::product(const Level& level, const Field<float>& field, Field<float>& product) const {
-  for_each_plane(level.layout.nodes[2], n_threads_, [&](int k) {
-    kernels().product_float(level.layout, level.stencil.data(), field.data(),
+void Multigrid::product(const Level& level, Field<float>& field, Field<float>& product) const {
+  level.space.slab.update_ghosts(level.layout(), field.data());
+  for_each_plane(level.space.slab.computed(), level.space.n_threads, [&](int k) {
+    kernels().product_float(level.layout(), level.stencil.data(), field.data(),
                             is_finest(level) ? body_.free.data() : nullptr, product.data(), k);
   });
 }
 
 /// Of the blocks without constrained entries; those, and entries without a cell, become 0.
 void Multigrid::invert_diagonal(Level& level) const {
-  const Layout& layout = level.layout;
+  const Layout& layout = level.layout();
   constexpr std::ptrdiff_t centre = 9 * 13;
-  for_each_plane(layout.nodes[2], n_threads_, [&](int k) {
+  for_each_plane(level.space.slab.computed(), level.space.n_threads, [&](int k) {
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i) {
         const float* entry = level.stencil.data() + stencil_row(layout) * layout.node_row(j, k) + i;
@@ -137,9 +154,9 @@ void Multigrid::invert_diagonal(Level& level) const {
 /// out = keep * out + factor * (inverse diagonal blocks) in
 void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
                                        float keep, float factor) const {
-  const std::ptrdiff_t n = level.layout.size;
+  const std::ptrdiff_t n = level.layout().size;
   const float* const d = level.inverse_diagonal.data();
-  for_each_piece(n, n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
+  for_each_piece(n, level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
     const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
     float *u = out.data() + first, *v = u + n, *w = v + n;
 #pragma GCC ivdep
@@ -157,16 +174,16 @@ void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& i
 void Multigrid::estimate_largest_eigenvalue(Level& level) const {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 8;
   for (int step = 0; step < n_steps; ++step) {
-    const double norm = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    const double norm = grid::norm(level.space, level.rough);
     product(level, level.rough, level.product);
     apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / norm));
-    level.largest_eigenvalue = std::sqrt(dot(level.rough, level.rough, n_threads_));
+    level.largest_eigenvalue = grid::norm(level.space, level.rough);
   }
 }
 
 void Multigrid::factorise_coarsest() {
   const Level& level = levels_.back();
-  const Layout& layout = level.layout;
+  const Layout& layout = level.layout();
   std::vector<int> number(index(3 * layout.size), -1);
   coarsest_unknowns_.clear();
   const auto for_each_node = [&](const auto& action) {
@@ -220,10 +237,10 @@ void Multigrid::smooth(Level& level, bool keeps_residual) const {
   double rho = 1 / sigma;
   apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
   for (int step = 1;; ++step) {
-    add(level.solution, 1.0f, level.correction, n_threads_);
+    add(level.solution, 1.0f, level.correction, level.space.n_threads);
     if (step == smoothing_degree && !keeps_residual) return;
     product(level, level.correction, level.product);
-    add(level.residual, -1.0f, level.product, n_threads_);
+    add(level.residual, -1.0f, level.product, level.space.n_threads);
     if (step == smoothing_degree) return;
     const double next = 1 / (2 * sigma - rho);
     apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
@@ -248,28 +265,28 @@ void Multigrid::cycle(std::size_t l) {
   }
   Level& coarser = levels_[l + 1];
   smooth(level, true);
-  restrict(level.layout, coarser.layout, level.axes, level.residual, coarser.residual, n_threads_);
+  restrict(level.space, coarser.space, level.axes, level.residual, coarser.residual);
   cycle(l + 1);
-  prolong(coarser.layout, level.layout, level.axes, coarser.solution, level.correction, n_threads_);
+  prolong(coarser.space, level.space, level.axes, coarser.solution, level.correction);
   if (is_finest(level)) level.correction.array() *= body_.free.array();
-  add(level.solution, 1.0f, level.correction, n_threads_);
+  add(level.solution, 1.0f, level.correction, level.space.n_threads);
   product(level, level.correction, level.product);
-  add(level.residual, -1.0f, level.product, n_threads_);
+  add(level.residual, -1.0f, level.product, level.space.n_threads);
   smooth(level, false);
 }
 
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const double norm = std::sqrt(dot(right_side, right_side, n_threads_)); // keeps single precision in range
+  const double norm = grid::norm(level.space, right_side); // keeps single precision in range
   if (!(norm > 0)) {
     solution.setZero();
     return;
   }
-  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  for_each_piece(right_side.size(), level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     level.residual.segment(first, n) = (right_side.segment(first, n) / norm).cast<float>();
   });
   cycle(0);
-  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+  for_each_piece(right_side.size(), level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     solution.segment(first, n) = norm * level.solution.segment(first, n).cast<double>();
   });
 }

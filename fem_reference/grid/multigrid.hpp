@@ -19,19 +19,21 @@ class Multigrid {
   /// Assembles the tangent at a state and prepares the cycle.
   void linearise(const double* displacement, const double* pressure);
 
-  /// product = tangent * field; 0 on constrained entries when they are left out.
+  /// product = tangent * field, whose ghosts are brought up to date; 0 on constrained entries when they are
+  /// left out.
   enum class Rows { free, all };
-  void product(const Field<double>& field, Field<double>& product, Rows rows = Rows::free) const;
+  void product(Field<double>& field, Field<double>& product, Rows rows = Rows::free) const;
 
   /// solution = cycle(right_side).
   void apply(const Field<double>& right_side, Field<double>& solution);
 
-  int n_threads() const { return n_threads_; }
+  const Space& space() const { return levels_.front().space; }
 
  private:
   struct Level {
-    std::array<int, 3> cells;
-    Layout layout;
+    explicit Level(const Space& the_space) : space(the_space) {}
+    Space space;
+    const Layout& layout() const { return space.layout; }
     std::array<bool, 3> axes{}; ///< along which the next level is coarser
     Coarsening coarsening{};
     std::vector<float> stencil, cell_matrices, inverse_diagonal; ///< the last: xx, yy, zz, yz, xz, xy
@@ -41,13 +43,12 @@ class Multigrid {
   };
 
   const Body& body_;
-  int n_threads_;
   std::deque<Level> levels_;
   std::vector<std::ptrdiff_t> coarsest_unknowns_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
 
   bool is_finest(const Level& level) const { return &level == &levels_.front(); }
-  void product(const Level& level, const Field<float>& field, Field<float>& product) const;
+  void product(const Level& level, Field<float>& field, Field<float>& product) const;
   void invert_diagonal(Level& level) const;
   void estimate_largest_eigenvalue(Level& level) const;
   void factorise_coarsest();

@@ -18,12 +18,12 @@ struct Pair {
   Field<float> primal, dual;
 };
 
-using Product = std::function<void(const Field<double>&, Field<double>&)>;
+using Product = std::function<void(Field<double>&, Field<double>&)>;
 
 class Lanczos {
  public:
   Lanczos(const Body& body, const Product& product, Multigrid& multigrid)
-      : body_(body), times_(product), multigrid_(multigrid) {}
+      : body_(body), times_(product), multigrid_(multigrid), space_(multigrid.space()) {}
 
   /// One run from a random vector.  @return number of negative eigenvalues found; they are deflated next time
   int run() {
@@ -36,7 +36,7 @@ class Lanczos {
     for (int step = 0;; ++step) {
       orthogonalise(right);
       multigrid_.apply(right, vector);
-      const double squared = grid::dot(right, vector, multigrid_.n_threads());
+      const double squared = dot(space_, right, vector);
       if (step > 0) {
         last = std::sqrt(std::max(squared, 0.));
         const Eigen::MatrixXd block = projected.topLeftCorner(step, step);
@@ -54,7 +54,7 @@ class Lanczos {
       ++n_products;
       right = product;
       for (int row = 0; row <= step; ++row)
-        projected(row, step) = product.dot(basis_[static_cast<std::size_t>(row)].primal.cast<double>());
+        projected(row, step) = dot(space_, product, basis_[static_cast<std::size_t>(row)].primal);
       for (int row = 0; row < step; ++row) projected(step, row) = row + 1 == step ? last : 0;
     }
     int n_negative = 0;
@@ -77,14 +77,24 @@ class Lanczos {
   const Body& body_;
   const Product& times_;
   Multigrid& multigrid_;
+  const Space& space_;
   std::vector<Pair> basis_, found_;
   std::mt19937 generator_{3};
 
   Field<double> random_field() {
     Field<double> field = Field<double>::Zero(body_.free.size());
     std::uniform_real_distribution<double> uniform(-1, 1);
-    for (Eigen::Index i = 0; i < field.size(); ++i)
-      if (body_.free[i] > 0) field[i] = uniform(generator_);
+    const Layout& layout = body_.layout;
+    for (int k = -body_.slab.first_of_grid(); k < body_.slab.n_planes_of_grid() - body_.slab.first_of_grid();
+         ++k)
+      for (int c = 0; c < 3; ++c)
+        for (int j = 0; j < layout.nodes[1]; ++j)
+          for (int i = 0; i < layout.nodes[0]; ++i) {
+            const double value = uniform(generator_); // the same on any number of ranks
+            if (k < 0 || k >= layout.nodes[2]) continue;
+            const std::ptrdiff_t entry = c * layout.size + layout.at(i, j, k);
+            if (body_.free[entry] > 0) field[entry] = value;
+          }
     return field;
   }
 
@@ -92,8 +102,7 @@ class Lanczos {
   void orthogonalise(Field<double>& right) const {
     for (int pass = 0; pass < 2; ++pass)
       for (const auto* vectors : {&found_, &basis_})
-        for (const Pair& pair : *vectors)
-          right -= right.dot(pair.primal.cast<double>()) * pair.dual.cast<double>();
+        for (const Pair& pair : *vectors) right -= dot(space_, right, pair.primal) * pair.dual.cast<double>();
   }
 
   /// Whether the signs of the negative values and of the lowest other one are.

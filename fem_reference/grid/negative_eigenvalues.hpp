@@ -12,7 +12,7 @@ namespace springproof::fem_reference::grid {
 /// @param linear_iterations  added to: products with the tangent
 /// @param product  with the tangent; of the free degrees of freedom
 int count_negative_eigenvalues(const Body& body,
-                               const std::function<void(const Field<double>&, Field<double>&)>& product,
+                               const std::function<void(Field<double>&, Field<double>&)>& product,
                                Multigrid& multigrid, long& linear_iterations);
 
 } // namespace springproof::fem_reference::grid

@@ -10,10 +10,13 @@ namespace springproof::fem_reference::grid {
 using cases::index;
 
 QuadraticElements::QuadraticElements(const Body& nodes, Body cells, int n_threads)
-    : cells_(std::move(cells)), nodes_(nodes.layout), n_threads_(n_threads) {}
+    : cells_(std::move(cells)), slab_(nodes.slab), nodes_(nodes.layout), above_first_(nodes.layout),
+      n_threads_(n_threads) {
+  above_first_.lead += slab_.own().begin * nodes_.plane;
+}
 
 Quadratic QuadraticElements::view() const {
-  Quadratic view{cells_.view(), nodes_, {}, {}};
+  Quadratic view{cells_.view(), above_first_, {}, {}};
   // on the unit interval: nodes at 0, 1/2, 1; Gauss points
   const double at[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
                weight[3] = {5. / 18, 4. / 9, 5. / 18};
@@ -46,8 +49,9 @@ bool QuadraticElements::add_force(const double* displacement, double* force, dou
   const ForceFields fields{displacement, nullptr, force, nullptr, cell_volumes};
   const Quadratic elements = view();
   std::vector<Checks> checks(index(cells_.cells[2]));
-  for_each_layer(cells_.cells[2], n_threads_,
+  for_each_layer(cells_.slab, n_threads_,
                  [&](int k) { kernels().quadratic_force(elements, fields, k, checks[index(k)]); });
+  if (force) slab_.add_to_next(nodes_, force);
   return std::all_of(checks.begin(), checks.end(), [](const Checks& c) { return c.valid; });
 }
 
@@ -55,16 +59,18 @@ void QuadraticElements::linearise(const double* displacement) {
   const int n_entries = cells_.law == Law::log_strain ? 81 : 45;
   moduli_.resize(index(27 * n_entries * cells_.layout.n_cell_entries()));
   const Quadratic elements = view();
-  for_each_plane(cells_.cells[2], n_threads_,
+  for_each_plane({0, cells_.cells[2]}, n_threads_,
                  [&](int k) { kernels().quadratic_moduli(elements, displacement, moduli_.data(), k); });
 }
 
-void QuadraticElements::product(const Field<double>& field, Field<double>& product) const {
+void QuadraticElements::product(Field<double>& field, Field<double>& product) const {
+  slab_.update_ghosts(nodes_, field.data());
   const Quadratic elements = view();
   product.setZero();
-  for_each_layer(cells_.cells[2], n_threads_, [&](int k) {
+  for_each_layer(cells_.slab, n_threads_, [&](int k) {
     kernels().quadratic_product(elements, moduli_.data(), field.data(), product.data(), k);
   });
+  slab_.add_to_next(nodes_, product.data());
 }
 
 } // namespace springproof::fem_reference::grid

@@ -30,7 +30,9 @@ Stencil restrict_from(int i, bool coarsened) {
 
 /// sum = weighted rows of a source, over what two stencils select.
 template<class Real>
-void gather_rows(const Layout& layout, const Real* source, const Stencil& y, const Stencil& z, Real* sum) {
+void gather_rows(const Space& space, const Real* source, const Stencil& y, Stencil z, Real* sum) {
+  const Layout& layout = space.layout;
+  for (int c = 0; c < z.n; ++c) z.at[c] -= space.slab.first_of_grid();
   std::fill(sum, sum + layout.nodes[0], Real(0));
   for (int c = 0; c < z.n; ++c)
     for (int b = 0; b < y.n; ++b) {
@@ -44,14 +46,17 @@ void gather_rows(const Layout& layout, const Real* source, const Stencil& y, con
 } // namespace
 
 template<class Real>
-void prolong(const Layout& from, const Layout& to, const std::array<bool, 3>& axes, const Field<Real>& coarse,
-             Field<Real>& fine, int n_threads) {
-  for_each_plane(to.nodes[2], n_threads, [&](int k) {
+void prolong(const Space& coarse_space, const Space& fine_space, const std::array<bool, 3>& axes,
+             Field<Real>& coarse, Field<Real>& fine) {
+  const Layout &from = coarse_space.layout, &to = fine_space.layout;
+  coarse_space.slab.update_ghosts(from, coarse.data());
+  for_each_plane({0, to.nodes[2]}, fine_space.n_threads, [&](int k) {
     std::vector<Real> row(index(from.nodes[0] + 1));
+    const Stencil z = interpolate_from(fine_space.slab.first_of_grid() + k, axes[2]);
     for (int component = 0; component < 3; ++component)
       for (int j = 0; j < to.nodes[1]; ++j) {
-        gather_rows(from, coarse.data() + component * from.size, interpolate_from(j, axes[1]),
-                    interpolate_from(k, axes[2]), row.data());
+        gather_rows(coarse_space, coarse.data() + component * from.size, interpolate_from(j, axes[1]), z,
+                    row.data());
         Real* const out = fine.data() + component * to.size + to.at(0, j, k);
         const Real* const in = row.data();
         if (!axes[0])
@@ -65,15 +70,18 @@ void prolong(const Layout& from, const Layout& to, const std::array<bool, 3>& ax
 }
 
 template<class Real>
-void restrict(const Layout& from, const Layout& to, const std::array<bool, 3>& axes, const Field<Real>& fine,
-              Field<Real>& coarse, int n_threads) {
-  for_each_plane(to.nodes[2], n_threads, [&](int k) {
+void restrict(const Space& fine_space, const Space& coarse_space, const std::array<bool, 3>& axes,
+              Field<Real>& fine, Field<Real>& coarse) {
+  const Layout &from = fine_space.layout, &to = coarse_space.layout;
+  fine_space.slab.update_ghosts(from, fine.data());
+  for_each_plane(coarse_space.slab.own(), fine_space.n_threads, [&](int k) {
     // one ghost before, and two after for coarse cells that reach beyond the body
     std::vector<Real> row(index(from.nodes[0] + 4));
+    const Stencil z = restrict_from(coarse_space.slab.first_of_grid() + k, axes[2]);
     for (int component = 0; component < 3; ++component)
       for (int j = 0; j < to.nodes[1]; ++j) {
-        gather_rows(from, fine.data() + component * from.size, restrict_from(j, axes[1]),
-                    restrict_from(k, axes[2]), row.data() + 1);
+        gather_rows(fine_space, fine.data() + component * from.size, restrict_from(j, axes[1]), z,
+                    row.data() + 1);
         Real* const out = coarse.data() + component * to.size + to.at(0, j, k);
         const Real* const in = row.data() + 1;
         if (!axes[0])
@@ -83,15 +91,13 @@ void restrict(const Layout& from, const Layout& to, const std::array<bool, 3>& a
             out[i] = in[2 * i] + Real(0.5) * (in[2 * i - 1] + in[2 * i + 1]);
       }
   });
+  coarse_space.slab.complete(to, coarse.data());
 }
 
-template void prolong(const Layout&, const Layout&, const std::array<bool, 3>&, const Field<float>&,
-                      Field<float>&, int);
-template void prolong(const Layout&, const Layout&, const std::array<bool, 3>&, const Field<double>&,
-                      Field<double>&, int);
-template void restrict(const Layout&, const Layout&, const std::array<bool, 3>&, const Field<float>&,
-                       Field<float>&, int);
-template void restrict(const Layout&, const Layout&, const std::array<bool, 3>&, const Field<double>&,
-                       Field<double>&, int);
+template void prolong(const Space&, const Space&, const std::array<bool, 3>&, Field<float>&, Field<float>&);
+template void prolong(const Space&, const Space&, const std::array<bool, 3>&, Field<double>&, Field<double>&);
+template void restrict(const Space&, const Space&, const std::array<bool, 3>&, Field<float>&, Field<float>&);
+template void restrict(const Space&, const Space&, const std::array<bool, 3>&, Field<double>&,
+                       Field<double>&);
 
 } // namespace springproof::fem_reference::grid

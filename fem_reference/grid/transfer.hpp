@@ -7,12 +7,12 @@
 namespace springproof::fem_reference::grid {
 
 /// Trilinear interpolation from a grid to the one it was coarsened from along some axes, and its transpose.
-/// Field entries without a node are neither read nor written.
+/// Field entries without a node are neither read nor written; ghosts of both fields are brought up to date.
 template<class Real>
-void prolong(const Layout& coarse_layout, const Layout& fine_layout, const std::array<bool, 3>& axes,
-             const Field<Real>& coarse, Field<Real>& fine, int n_threads);
+void prolong(const Space& coarse_space, const Space& fine_space, const std::array<bool, 3>& axes,
+             Field<Real>& coarse, Field<Real>& fine);
 template<class Real>
-void restrict(const Layout& fine_layout, const Layout& coarse_layout, const std::array<bool, 3>& axes,
-              const Field<Real>& fine, Field<Real>& coarse, int n_threads);
+void restrict(const Space& fine_space, const Space& coarse_space, const std::array<bool, 3>& axes,
+              Field<Real>& fine, Field<Real>& coarse);
 
 } // namespace springproof::fem_reference::grid
