@@ -3,6 +3,7 @@
 #include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
 
+#include <cmath>
 #include <deal.II/base/mpi.h>
 
 namespace springproof::fem_reference {
@@ -26,18 +27,21 @@ void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
 /// Nodes from which the grid's backend is the faster one, and the bulk modulus over the shear modulus above
 /// which its iterations are too many, for bodies that can be factorised: 25 a linear solve at 1000, Newton's
 /// method fails at 5000.
-constexpr std::size_t grid_from = 500;
+constexpr double grid_from = 500;
 constexpr double most_incompressible = 1500;
 
-Backend choose_backend(const cases::Scene& scene) {
+} // namespace
+
+Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   if (!grid::is_on_grid(scene)) return Backend::assembled;
-  const std::size_t n_nodes = scene.mesh.nodes.size() << 3 * scene.definition.fem.refine;
-  const bool can_factorise = 3 * n_nodes <= static_cast<std::size_t>(direct_solver_limit);
+  const bool can_factorise = takes_factorisation(n_nodes);
   const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible && can_factorise;
   return n_nodes >= grid_from && !is_hard ? Backend::grid : Backend::assembled;
 }
 
-} // namespace
+bool takes_factorisation(double n_nodes) {
+  return 3 * n_nodes <= double(direct_solver_limit);
+}
 
 mechanics::EquilibriumSettings default_settings() {
   mechanics::EquilibriumSettings settings;
@@ -141,7 +145,9 @@ cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumS
 
 Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) {
   const bool may_assemble_instead = backend == Backend::automatic;
-  if (backend == Backend::automatic) backend = choose_backend(scene);
+  if (backend == Backend::automatic)
+    backend =
+        choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, scene.definition.fem.refine));
   if (backend == Backend::grid && !grid::is_on_grid(scene))
     throw cases::InputError(scene.definition.fem.where,
                             "the grid's backend needs a body that is a grid of cells, and no q2_p1");

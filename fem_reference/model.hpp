@@ -23,6 +23,13 @@ enum class Backend {
   grid       ///< grids of equal cuboids: geometric multigrid, no factorisation
 };
 
+/// What `automatic` means for a scene's body and element.
+/// @param n_nodes  of the body's mesh after fem.refine; the scene's own mesh may be without nodes
+Backend choose_backend(const cases::Scene& scene, double n_nodes);
+
+/// Whether the assembled backend factorises a tangent of that many nodes.
+bool takes_factorisation(double n_nodes);
+
 /// A finite-element model of a scene, distributed over the ranks of a communicator: mesh, degrees of freedom,
 /// sparsity. Every member function is collective; every rank gets the whole answer.
 class Model {

@@ -5,6 +5,7 @@
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write.hpp"
 
@@ -28,9 +29,15 @@ struct RunOptions {
 };
 
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
-Answers answer(const Question& question, const FinishedCases& finished) {
-  if (auto earlier = finished.find(question)) return *earlier;
+Answers answer(const Question& question, const FinishedCases& finished, ProgressLine& line) {
+  const std::vector<Estimate> models = estimate(question);
+  if (auto earlier = finished.find(question)) {
+    line.skip(total_seconds(models));
+    return *earlier;
+  }
   const auto& [scene, request] = question;
+  const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
+                                  long_solve_text(scene.definition.name, models));
   Answers answers = solve(scene, request, solve_fem);
   if (mpi_rank() != 0) return answers;
   if (!request.peer.empty())
@@ -45,12 +52,15 @@ int run(const RunOptions& options) {
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions =
       read_questions(options.files, options.settings, {only, options.meshes, options.peer});
+  check_memory(questions);
   const auto external = read_external(questions, options.displacements);
   const FinishedCases finished(options.out, questions);
+  ProgressLine line(1);
+  for (const Question& question : questions) line.expect({1, total_seconds(estimate(question))});
   std::vector<Comparison> done;
   bool failed = false;
   for (Question& question : questions) {
-    Answers answers = answer(question, finished);
+    Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
     failed = failed || answers.failed();
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));

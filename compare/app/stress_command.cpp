@@ -5,6 +5,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/write_stress.hpp"
 
@@ -70,17 +71,35 @@ std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std:
   return hard;
 }
 
+/// What the models of a hard case take, before its mesh is made: a second for bodies that are no boxes.
+/// @throws InputError if they need more memory than there is
+std::vector<double> estimated_seconds(const cases::Case& hard_case) {
+  std::vector<double> seconds;
+  for (const cases::ExpectedOutcome& expected : hard_case.stress->expected) {
+    const auto box = size_of(hard_case);
+    const auto models = box ? estimate(*box, {expected.side}) : std::vector<Estimate>{{"", 0, 0, 1}};
+    check_memory(hard_case.file, models, memory_limit());
+    seconds.push_back(total_seconds(models));
+  }
+  return seconds;
+}
+
 /// What each model of a hard case answers. The jobs are solved one after the other: their times are judged.
-std::vector<Answer> answers_to(const cases::Case& hard_case, const FinishedCases& finished, int n_threads) {
+std::vector<Answer> answers_to(const cases::Case& hard_case, const FinishedCases& finished, int n_threads,
+                               ProgressLine& line) {
   std::vector<Answer> answers(hard_case.stress->expected.size());
   std::vector<Question> jobs;
   try {
     jobs = jobs_for(hard_case, n_threads);
   } catch (const cases::InputError& error) {
     for (Answer& answer : answers) answer.solution = failed_solution(error);
+    for (const double seconds : estimated_seconds(hard_case)) line.skip(seconds);
     return answers;
   }
-  const std::vector<Answers> solved = answer_all(jobs, finished, solve_fem, {1});
+  SolveOptions options;
+  options.n_workers = 1;
+  options.line = &line;
+  const std::vector<Answers> solved = answer_all(jobs, finished, solve_fem, options);
   for (std::size_t j = 0; j < jobs.size(); ++j)
     answers[j] = jobs[j].request.only == cases::Side::fem ? solved[j].fem : solved[j].msm;
   return answers;
@@ -104,9 +123,12 @@ int run(const StressOptions& options) {
   bool met = true;
   const std::vector<cases::Case> hard = read_all(options, skipped);
   const FinishedCases finished(options.out, {});
+  ProgressLine line(1);
+  for (const cases::Case& hard_case : hard)
+    for (const double seconds : estimated_seconds(hard_case)) line.expect({1, seconds});
   for (const cases::Case& hard_case : hard) {
     results.push_back(
-        judge_stress(hard_case, options.n_threads, answers_to(hard_case, finished, options.n_threads)));
+        judge_stress(hard_case, options.n_threads, answers_to(hard_case, finished, options.n_threads, line)));
     met = met && results.back().met();
     if (rank != 0) continue;
     if (!options.json) write_stress_text(std::cout, results.back());

@@ -3,15 +3,16 @@
 #include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <unistd.h>
 
 namespace springproof::compare {
@@ -20,21 +21,28 @@ namespace {
 
 struct SweepOptions {
   std::string file, out;
+  std::optional<double> budget; ///< seconds
   bool json = false, quick = false, perf = false;
   std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
   Extent extent() const { return quick ? Extent::quick : Extent::full; }
   TimingRules rules() const { return quick ? TimingRules{5, 0.1} : TimingRules{}; }
 };
 
-/// What is finished is on disk before the next variant starts.
-void show(const Sweep& sweep, const std::string& folder) {
-  if (!folder.empty())
-    write_file(folder + "/sweep.csv", [&](std::ostream& out) { write_sweep_csv(out, sweep); });
-  if (isatty(STDERR_FILENO))
-    std::cerr << fmt::format("\r{:<100}{}",
-                             fmt::format("{} of {}: {}", sweep.rows.size(), sweep.plan.variants.size(),
-                                         full_name(sweep.rows.back().variant)),
-                             sweep.rows.size() == sweep.plan.variants.size() ? "\n" : "");
+void write_plan_to(const std::string& folder, const Sweep& sweep) {
+  if (!folder.empty()) write_file(folder + "/plan.txt", [&](std::ostream& out) { write_plan(out, sweep); });
+}
+
+/// What is to be solved, on a terminal and in the folder, before it is.
+/// @throws InputError if a variant needs more memory than there is
+void announce(const Sweep& sweep, const std::string& folder) {
+  check_memory(sweep);
+  if (mpi_rank() != 0) return;
+  write_plan_to(folder, sweep);
+  if (isatty(STDERR_FILENO)) write_plan(std::cerr, sweep);
+}
+
+void write_csv_of(const Sweep& sweep, const std::string& folder) {
+  write_file(folder + "/sweep.csv", [&](std::ostream& out) { write_sweep_csv(out, sweep); });
 }
 
 void write_files(const std::string& folder, const Sweep& sweep) {
@@ -43,9 +51,15 @@ void write_files(const std::string& folder, const Sweep& sweep) {
   plot_sweep(folder, sweep);
 }
 
+Sweep planned(const SweepOptions& options) {
+  return make_sweep(cases::read_case(options.file), options.extent(), options.rules(), options.budget);
+}
+
 int time_part(const SweepOptions& options) {
   const Shard shard = shard_from(options.shards->part).value();
-  const Sweep whole = make_sweep(cases::read_case(options.file), options.extent(), options.rules());
+  const Sweep whole = planned(options);
+  claim_folder(options.out);
+  announce(whole, options.out);
   const TimedPart part = time_shard(whole, shard, options.out, options.shards->command, "/proc/self/exe");
   if (mpi_rank() == 0)
     print_shard(shard, part.n_variants, whole.plan.variants.size(), part.n_failed, options.out);
@@ -54,18 +68,19 @@ int time_part(const SweepOptions& options) {
 
 Sweep time_all(const SweepOptions& options) {
   claim_folder(options.out);
-  return run_sweep(cases::read_case(options.file), options.extent(), options.rules(), "/proc/self/exe",
-                   [&](const Sweep& so_far) {
-                     if (mpi_rank() == 0) show(so_far, options.out);
-                   });
+  const Sweep whole = planned(options);
+  announce(whole, options.out);
+  // What is finished is on disk before the next variant starts.
+  return run_sweep(whole, "/proc/self/exe", [&](const Sweep& so_far) {
+    if (mpi_rank() == 0 && !options.out.empty()) write_csv_of(so_far, options.out);
+  });
 }
 
 Sweep merge_parts(const SweepOptions& options) {
-  Sweep merged = merged_sweep(make_sweep(cases::read_case(options.file), options.extent(), options.rules()),
-                              read_shards(options.shards->folders));
+  Sweep merged = merged_sweep(planned(options), read_shards(options.shards->folders));
   claim_folder(options.out);
-  if (!options.out.empty())
-    write_file(options.out + "/sweep.csv", [&](std::ostream& out) { write_sweep_csv(out, merged); });
+  write_plan_to(options.out, merged);
+  if (!options.out.empty()) write_csv_of(merged, options.out);
   return merged;
 }
 
@@ -117,6 +132,10 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   CLI::Option* json = command->add_flag("--json", options->json,
                                         "one JSON document on standard output, and nothing else there");
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
+  command
+      ->add_option("--budget", options->budget,
+                   "seconds: leave out the variants of the longest estimated times until the others fit")
+      ->check(CLI::PositiveNumber);
   CLI::Option* perf = command->add_flag(
       "--perf", options->perf,
       "count the instructions of the springs' kernels with valgrind instead; needs no case");

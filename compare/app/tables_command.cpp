@@ -11,7 +11,6 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace springproof::compare {
 
@@ -25,19 +24,10 @@ struct TablesOptions {
   std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
 };
 
-/// By worker processes, with a line of progress on a terminal.
 ThesisResults solve_tables(const TablesOptions& options) {
-  const bool is_on_terminal = mpi_rank() == 0 && isatty(STDERR_FILENO);
   const int n_workers = options.workers > 0 ? options.workers : cores();
   const auto answer = [&](const std::vector<Question>& questions) {
-    constexpr int width = 40;
-    int done = 0, all = static_cast<int>(questions.size());
-    return answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers}, [&](auto, auto&) {
-      ++done;
-      if (is_on_terminal)
-        std::cerr << fmt::format("\r[{:<{}}] {} of {} solves{}", std::string(width * done / all, '#'), width,
-                                 done, all, done == all ? "\n" : "");
-    });
+    return answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers});
   };
   return regenerate(options.tables, answer, std::to_string(n_workers));
 }

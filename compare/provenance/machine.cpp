@@ -3,9 +3,12 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
+#include <limits>
 #include <mpi.h>
+#include <sys/resource.h>
 #include <sys/utsname.h>
 #include <thread>
+#include <vector>
 
 namespace springproof::compare {
 
@@ -26,6 +29,26 @@ std::optional<std::string> value_in(const char* file, const char* key) {
   return std::nullopt;
 }
 
+/// "VmRSS:   154592 kB" of this process or the machine, in 10^6 bytes.
+std::optional<double> megabytes_in(const char* file, const char* key) {
+  const auto kibibytes = value_in(file, key);
+  return kibibytes ? std::optional(std::stod(*kibibytes) * 1024e-6) : std::nullopt;
+}
+
+/// Files that may hold the limit of this process's control group, of either version. Inside a container the
+/// group is the root of what is mounted.
+std::vector<std::string> control_group_files() {
+  std::vector<std::string> files{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
+  std::ifstream groups("/proc/self/cgroup"); // lines of number:controllers:path
+  for (std::string line; std::getline(groups, line);) {
+    const std::string path = line.substr(line.rfind(':') + 1);
+    if (line.rfind("0::", 0) == 0) files.push_back("/sys/fs/cgroup" + path + "/memory.max");
+    if (line.find(":memory:") != std::string::npos)
+      files.push_back("/sys/fs/cgroup/memory" + path + "/memory.limit_in_bytes");
+  }
+  return files;
+}
+
 } // namespace
 
 std::string cases_folder() {
@@ -41,8 +64,27 @@ int mpi_rank() {
 
 /// Not getrusage(): its figure is inherited from the process that started this one.
 std::optional<double> peak_resident_megabytes() {
-  const auto kibibytes = value_in("/proc/self/status", "VmHWM:");
-  return kibibytes ? std::optional(std::stod(*kibibytes) * 1024e-6) : std::nullopt;
+  return megabytes_in("/proc/self/status", "VmHWM:");
+}
+
+MemoryLimit memory_limit() {
+  const double resident = megabytes_in("/proc/self/status", "VmRSS:").value_or(0);
+  MemoryLimit least{std::numeric_limits<double>::infinity(), "", false};
+  const auto take = [&](double megabytes, const char* of) {
+    if (megabytes < least.megabytes) least = {megabytes, of, false};
+  };
+  if (const auto machine = megabytes_in("/proc/meminfo", "MemTotal:"))
+    take(*machine - resident, "this machine");
+  for (const std::string& name : control_group_files()) {
+    double bytes = 0;
+    if (std::ifstream(name) >> bytes) take(1e-6 * bytes - resident, "the control group"); // "max": no number
+  }
+  rlimit addresses{};
+  if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    take(1e-6 * double(addresses.rlim_cur) - megabytes_in("/proc/self/status", "VmSize:").value_or(0),
+         "ulimit -v");
+  least.is_of_a_process = least.of == "ulimit -v";
+  return least;
 }
 
 bool use_one_blas_thread() {

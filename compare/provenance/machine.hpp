@@ -33,6 +33,17 @@ Machine describe_machine();
 /// not report it.
 std::optional<double> peak_resident_megabytes();
 
+/// The memory that this process may still take, in units of 10^6 bytes.
+struct MemoryLimit {
+  double megabytes;
+  std::string of;               ///< "this machine", "ulimit -v" (RLIMIT_AS), "the control group"
+  bool is_of_a_process = false; ///< each process has as much for itself
+};
+
+/// The smallest of the limits on this process, whatever others use: the machine's memory, its control
+/// group's, its address space.
+MemoryLimit memory_limit();
+
 /// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
 /// @return whether the BLAS that this process loaded is OpenBLAS, the only one that is told
 bool use_one_blas_thread();

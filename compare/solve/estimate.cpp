@@ -1,21 +1,178 @@
 #include "compare/solve/estimate.hpp"
 
+#include "cases/case/error.hpp"
+#include "compare/solve/progress.hpp"
+#include "fem_reference/model.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <numeric>
 
 namespace springproof::compare {
 
-/// Unknowns times the steps and the cost of an element, as measured on the thesis's cases.
-double estimated_cost(const Question& question) {
-  const auto& [scene, request] = question;
-  const double n_nodes = static_cast<double>(scene.mesh.nodes.size());
-  const cases::Fem& fem = scene.definition.fem;
-  double cost = 0;
-  const int refine = std::max(fem.refine, request.meshes - 1);
-  if (request.asks(cases::Side::fem))
-    cost += n_nodes * std::pow(8, refine) * (fem.formulation == cases::Formulation::small_strain ? 2 : 10);
-  if (request.asks(cases::Side::msm)) cost += n_nodes;
-  return cost;
+namespace {
+
+using cases::Element;
+
+/// Measured at commit 874c2b4 on two cores of an Intel Xeon with AVX-512, one thread, user time:
+/// cases/sweep/cube_shear.toml with 20^3 to 80^3 cells, and the same block with one edge moved, which is no
+/// grid, with 6^3 to 46^3. Iterations of an easy load are in them; hard loads and nearly incompressible
+/// bodies take up to ten times as long.
+struct Linear { ///< iterative solvers: in proportion to the unknowns
+  double bytes, seconds;
+};
+struct Factorised { ///< factorised at every iteration: what 26,460 unknowns take
+  double megabytes, seconds;
+};
+constexpr Linear grid_linear_element{800, 10e-6};
+constexpr Linear grid_quadratic_element{1800, 25e-6};
+constexpr Linear grid_springs{300, 5.5e-6};
+constexpr Linear algebraic_multigrid{4000, 115e-6};
+constexpr Factorised finite_elements{650, 6.5};
+constexpr Factorised springs_lattice{245, 3};
+constexpr double factorised_unknowns = 26460;
+
+/// A nested dissection of a body takes memory as n^(4/3) and time as n^2; of 10,000 to 60,000 unknowns less
+/// was seen.
+constexpr double memory_power = 1.25, time_power = 1.7;
+
+/// Of the time of finite strain: one factorisation for four or five, three inexact linear solves for five.
+constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
+
+Estimate linear(const std::string& model, double unknowns, const Linear& per_unknown) {
+  return {model, unknowns, 1e-6 * per_unknown.bytes * unknowns, per_unknown.seconds * unknowns};
+}
+
+Estimate factorised(const std::string& model, double unknowns, const Factorised& at) {
+  const double ratio = unknowns / factorised_unknowns;
+  return {model, unknowns, at.megabytes * std::pow(ratio, memory_power),
+          at.seconds * std::pow(ratio, time_power)};
+}
+
+/// Nodes after n uniform refinements: a body has about as many inner nodes as cells, and its surface has the
+/// others.
+double refined_nodes(const BodySize& body, int n) {
+  return body.n_cells * std::pow(8, n) + (body.n_nodes - body.n_cells) * std::pow(4, n);
+}
+
+std::string memory_text(double megabytes) {
+  return megabytes < 1e4 ? fmt::format("{:.2g} GB", megabytes / 1e3)
+                         : fmt::format("{:.0f} GB", megabytes / 1e3);
+}
+
+} // namespace
+
+BodySize size_of(const cases::Scene& scene) {
+  BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
+  body.outline.definition = scene.definition;
+  body.outline.mesh.grid = scene.mesh.grid;
+  return body;
+}
+
+std::optional<BodySize> size_of(const cases::Case& definition) {
+  const auto* box = std::get_if<cases::Box>(&definition.body);
+  if (!box) return std::nullopt;
+  BodySize body{1, 1, {}};
+  for (const int n : box->cells) {
+    body.n_cells *= n;
+    body.n_nodes *= n + 1.;
+  }
+  body.outline.definition = definition;
+  body.outline.mesh.grid.emplace().cells = box->cells;
+  return body;
+}
+
+Estimate estimate_fem(const BodySize& body) {
+  const cases::Fem& fem = body.outline.definition.fem;
+  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
+  const double unknowns = 3 * refined_nodes(body, fem.refine + (is_quadratic ? 1 : 0));
+  const double n_vertices = refined_nodes(body, fem.refine);
+  const auto backend = fem_reference::choose_backend(body.outline, n_vertices);
+  const bool is_on_grid = backend == fem_reference::Backend::grid;
+  const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3);
+  Estimate estimate;
+  if (is_on_grid)
+    estimate = linear("finite elements (matrix-free)", unknowns,
+                      is_quadratic ? grid_quadratic_element : grid_linear_element);
+  else if (is_factorised)
+    estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
+  else
+    estimate = linear("finite elements (assembled)", unknowns, algebraic_multigrid);
+  if (fem.formulation == cases::Formulation::small_strain)
+    estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
+  return estimate;
+}
+
+Estimate estimate_springs(const BodySize& body) {
+  return body.outline.mesh.grid ? linear("springs (matrix-free)", 3 * body.n_nodes, grid_springs)
+                                : factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice);
+}
+
+std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
+  std::vector<Estimate> models;
+  if (request.asks(cases::Side::fem)) {
+    models.push_back(estimate_fem(body));
+    BodySize refined = body;
+    int& refine = refined.outline.definition.fem.refine;
+    const int own = refine, finest = std::max(request.meshes - 1, own);
+    for (refine = finest - request.meshes + 1; refine <= finest; ++refine)
+      if (refine != own) models.push_back(estimate_fem(refined));
+  }
+  if (request.asks(cases::Side::msm)) models.push_back(estimate_springs(body));
+  return models;
+}
+
+std::vector<Estimate> estimate(const Question& question) {
+  return estimate(size_of(question.scene), question.request);
+}
+
+double total_seconds(const std::vector<Estimate>& models) {
+  return std::accumulate(models.begin(), models.end(), 0.,
+                         [](double sum, const Estimate& model) { return sum + model.seconds; });
+}
+
+double most_megabytes(const std::vector<Estimate>& models) {
+  return std::accumulate(models.begin(), models.end(), 0.,
+                         [](double most, const Estimate& model) { return std::max(most, model.megabytes); });
+}
+
+std::string long_solve_text(const std::string& name, const std::vector<Estimate>& models) {
+  constexpr double long_seconds = 10;
+  if (total_seconds(models) < long_seconds) return "";
+  std::string text = name;
+  for (const Estimate& model : models)
+    text += fmt::format("{} {}: {:.3g} unknowns, about {} and {}", &model == &models.front() ? ":" : ";",
+                        model.model, model.unknowns, memory_text(model.megabytes), clock_text(model.seconds));
+  return text;
+}
+
+void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit) {
+  for (const Estimate& model : models)
+    if (!(model.megabytes <= limit.megabytes))
+      throw cases::InputError(fmt::format(
+          "{}: {} with about {:.3g} unknowns need about {} of memory, and {} leaves {}: give the body "
+          "fewer cells, or refine it less",
+          file, model.model, model.unknowns, memory_text(model.megabytes), limit.of,
+          memory_text(std::max(0., limit.megabytes))));
+}
+
+void check_memory(const std::vector<Question>& questions) {
+  const MemoryLimit limit = memory_limit();
+  for (const Question& question : questions)
+    check_memory(question.scene.definition.file, estimate(question), limit);
+}
+
+int workers_within(const MemoryLimit& limit, std::vector<double> megabytes, int n_workers) {
+  if (limit.is_of_a_process) return n_workers;
+  std::sort(megabytes.begin(), megabytes.end(), std::greater<>());
+  double sum = 0;
+  for (int n = 0; n < n_workers && cases::index(n) < megabytes.size(); ++n) {
+    sum += megabytes[cases::index(n)];
+    if (!(sum <= limit.megabytes)) return std::max(1, n);
+  }
+  return n_workers;
 }
 
 } // namespace springproof::compare

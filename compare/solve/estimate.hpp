@@ -1,10 +1,53 @@
 #pragma once
 
+#include "compare/provenance/machine.hpp"
 #include "compare/solve/answers.hpp"
 
+/// What solving takes, before it is begun: from the numbers of nodes, element, formulation and backend alone.
 namespace springproof::compare {
 
-/// What solving a question takes, in units of its own: it decides an order alone.
-double estimated_cost(const Question& question);
+struct Estimate {
+  std::string model;    ///< "finite elements (matrix-free)"
+  double unknowns = 0;  ///< constrained ones included
+  double megabytes = 0; ///< of 10^6 bytes, above what the program takes by itself
+  double seconds = 0;   ///< of one thread, from the model to the equilibrium
+};
+
+/// The body of a case, as far as estimates depend on it.
+struct BodySize {
+  double n_nodes = 0, n_cells = 0;
+  cases::Scene outline; ///< the definition and the grid, if the body is one; without nodes
+};
+BodySize size_of(const cases::Scene& scene);
+/// Of a box, before its mesh is made; nothing for other bodies.
+std::optional<BodySize> size_of(const cases::Case& definition);
+
+/// Of the definition's [fem], refined as it says.
+Estimate estimate_fem(const BodySize& body);
+Estimate estimate_springs(const BodySize& body);
+/// The models that a question asks for; of finite elements on several meshes, one for each.
+std::vector<Estimate> estimate(const BodySize& body, const Request& request);
+std::vector<Estimate> estimate(const Question& question);
+
+/// Of all models, one after the other.
+double total_seconds(const std::vector<Estimate>& models);
+/// Of the largest model: one is gone before the next is made.
+double most_megabytes(const std::vector<Estimate>& models);
+
+/// What a user should know before a solve of more than ten seconds: a line with the unknowns, memory and time
+/// of each model; empty for shorter ones.
+std::string long_solve_text(const std::string& name, const std::vector<Estimate>& models);
+
+/// @param file  of the case
+/// @throws InputError if a model needs more memory than there is, with unknowns, estimate, limit and what to
+/// change
+void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit);
+
+/// Of every question, before any is solved.
+void check_memory(const std::vector<Question>& questions);
+
+/// How many of the questions can be solved at the same time.
+/// @param megabytes  one per question   @return at least 1, at most n_workers
+int workers_within(const MemoryLimit& limit, std::vector<double> megabytes, int n_workers);
 
 } // namespace springproof::compare

@@ -66,8 +66,8 @@ FinishedCases::FinishedCases(const std::string& folder, const std::vector<Questi
 
 std::optional<Answers> FinishedCases::find(const Question& question) const {
   if (folder_.empty()) return std::nullopt;
-  const std::string bytes = from_rank_0(
-      mpi_rank() == 0 ? answers_in(path_of(folder_, question, names_), identity(question)) : "");
+  const std::string bytes =
+      from_rank_0(mpi_rank() == 0 ? answers_in(path_of(folder_, question, names_), identity(question)) : "");
   if (bytes.empty()) return std::nullopt;
   Answers answers;
   cases::from_bytes(bytes, answers);

@@ -93,7 +93,7 @@ std::vector<int> divide(const std::vector<double>& costs, int n_shards) {
 
 std::vector<int> divide(const std::vector<Question>& questions, int n_shards) {
   std::vector<double> costs;
-  for (const Question& question : questions) costs.push_back(estimated_cost(question));
+  for (const Question& question : questions) costs.push_back(total_seconds(estimate(question)));
   return divide(costs, n_shards);
 }
 

@@ -38,6 +38,19 @@ Answers answers_from(const JobAnswer& job, const Request& request) {
   return answers;
 }
 
+/// A question that no earlier command has answered.
+struct Open {
+  std::size_t question;
+  std::vector<Estimate> models;
+};
+
+/// Whether worker processes may be started.
+bool is_one_process() {
+  int n_ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  return n_ranks == 1 && !is_under_mpi_launcher();
+}
+
 /// Questions of jobs whose case can be read, and what the others have failed by.
 struct ReadJobs {
   std::vector<Question> questions;
@@ -70,8 +83,13 @@ int cores() {
 std::vector<Question> read_questions(const std::vector<std::string>& case_files,
                                      const std::vector<std::string>& settings, const Request& request) {
   std::vector<Question> questions;
-  for (const std::string& file : case_files)
-    questions.push_back({cases::make_scene(cases::read_case(file, settings)), request});
+  const MemoryLimit memory = memory_limit();
+  for (const std::string& file : case_files) {
+    const cases::Case definition = cases::read_case(file, settings);
+    if (const auto box = size_of(definition)) // its mesh alone may be too much
+      check_memory(file, estimate(*box, request), memory);
+    questions.push_back({cases::make_scene(definition), request});
+  }
   return questions;
 }
 
@@ -81,36 +99,53 @@ std::string answer_job(const std::string& bytes, SolveFem solve_fem) {
   return cases::to_bytes(solve_in_this_process(question, solve_fem));
 }
 
-std::vector<Answers>
-answer_all(const std::vector<Question>& questions, const FinishedCases& finished, SolveFem solve_fem,
-           const SolveOptions& options,
-           const std::function<void(std::size_t question, const Answers&)>& on_answered) {
+std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
+                                SolveFem solve_fem, const SolveOptions& options) {
   std::vector<Answers> answers(questions.size());
-  std::vector<std::size_t> open;
+  std::vector<Open> open;
   for (std::size_t q = 0; q < questions.size(); ++q)
-    if (auto earlier = finished.find(questions[q]))
+    if (auto earlier = finished.find(questions[q])) {
       answers[q] = std::move(*earlier);
-    else
-      open.push_back(q);
-  std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
-    return estimated_cost(questions[a]) > estimated_cost(questions[b]);
+      if (options.line) options.line->skip(total_seconds(estimate(questions[q])));
+    } else {
+      open.push_back({q, estimate(questions[q])});
+    }
+  const MemoryLimit memory = memory_limit();
+  std::vector<double> megabytes;
+  for (const auto& [q, models] : open) {
+    check_memory(questions[q].scene.definition.file, models, memory);
+    megabytes.push_back(most_megabytes(models));
+  }
+  std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) {
+    return total_seconds(a.models) > total_seconds(b.models);
   });
-  const auto take = [&](std::size_t q, Answers fresh) {
-    if (mpi_rank() == 0) finished.keep(questions[q], fresh);
-    answers[q] = std::move(fresh);
-    on_answered(q, answers[q]);
+  const bool is_alone = is_one_process();
+  const int n_workers =
+      is_alone ? workers_within(memory, megabytes, options.n_workers > 0 ? options.n_workers : cores()) : 1;
+  ProgressLine own(std::min(n_workers, static_cast<int>(open.size())));
+  if (!options.line)
+    for (const Open& next : open) own.expect({1, total_seconds(next.models)});
+  ProgressLine& line = options.line ? *options.line : own;
+  const auto begin = [&](const Open& next) -> const Question& {
+    const std::string& name = questions[next.question].scene.definition.name;
+    line.begin(name, total_seconds(next.models), long_solve_text(name, next.models));
+    return questions[next.question];
   };
-  int n_ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-  if (n_ranks > 1 || is_under_mpi_launcher()) {
-    for (const std::size_t q : open) take(q, solve_in_this_process(questions[q], solve_fem));
+  const auto take = [&](const Open& next, Answers fresh) {
+    const Question& question = questions[next.question];
+    line.finish(question.scene.definition.name);
+    if (mpi_rank() == 0) finished.keep(question, fresh);
+    answers[next.question] = std::move(fresh);
+  };
+  if (!is_alone) {
+    for (const Open& next : open) take(next, solve_in_this_process(begin(next), solve_fem));
     return answers;
   }
-  const ProcessPool pool{{options.program, "worker"}, options.n_workers > 0 ? options.n_workers : cores()};
   run_in_processes(
-      pool, open.size(), [&](std::size_t job) { return cases::to_bytes(questions[open[job]]); },
+      {{options.program, "worker"}, n_workers}, open.size(),
+      [&](std::size_t job) { return cases::to_bytes(begin(open[job])); },
       [&](std::size_t job, const JobAnswer& answer) {
-        take(open[job], answers_from(answer, questions[open[job]].request));
+        take(open[job], answers_from(answer, questions[open[job].question].request));
       });
   return answers;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/solve/finished.hpp"
+#include "compare/solve/progress.hpp"
 #include "compare/solve/solve.hpp"
 
 #include <functional>
@@ -14,22 +15,21 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
                                      const std::vector<std::string>& settings, const Request& request);
 
 struct SolveOptions {
-  int n_workers = 0;                      ///< worker processes; 0: one per core
+  int n_workers = 0;                      ///< worker processes; 0: one per core, as far as memory allows
   std::string program = "/proc/self/exe"; ///< whose hidden command `worker` serves
+  ProgressLine* line = nullptr;           ///< that expects these questions already; null: one for them alone
 };
 
 /// Answers every question; what an earlier command has left is taken up, what is solved is kept as soon as it
 /// is. Numbers do not depend on the number of workers, to the last bit. Questions are
-/// handed out in the order of their estimated cost, the largest first; a worker gets the scene itself and
+/// handed out in the order of their estimated time, the longest first; a worker gets the scene itself and
 /// reads no file. Whatever goes wrong, a crash of the worker included, is a failed side with its reason, and
 /// the others go on. Under MPI with several ranks this process answers one question after the other, each
 /// distributed (collective).
-/// @param solve_fem    as for solve(); workers have their own
-/// @param on_answered  called with the index of a question that was solved
-std::vector<Answers> answer_all(
-    const std::vector<Question>& questions, const FinishedCases& finished, SolveFem solve_fem,
-    const SolveOptions& options,
-    const std::function<void(std::size_t question, const Answers&)>& on_answered = [](auto, auto&) {});
+/// @param solve_fem  as for solve(); workers have their own
+/// @throws InputError before anything is solved, if a question needs more memory than there is
+std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
+                                SolveFem solve_fem, const SolveOptions& options);
 
 /// What a worker does with a question's bytes.  @return the answers' bytes
 /// @throws cereal's exception for bytes that are no question

@@ -5,7 +5,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/frame.hpp"
 #include "compare/solve/kept.hpp"
-#include "compare/sweep/variant_cost.hpp"
+#include "compare/sweep/costs.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
@@ -70,11 +70,14 @@ bool on_rank_0(bool is_kept) {
 
 TimedPart time_shard(const Sweep& sweep, const Shard& shard, const std::string& folder,
                      const std::vector<std::string>& command, const std::string& program) {
-  claim_folder(folder);
   claim_folder(folder + "/solved");
   if (mpi_rank() == 0) remove_record(folder);
   const Stopwatch stopwatch;
-  const std::vector<int> shard_of = divide(estimated_costs(sweep), shard.count);
+  const std::vector<double> seconds = estimated_seconds(sweep);
+  const std::vector<int> shard_of = divide(seconds, shard.count);
+  ProgressLine line(1);
+  for (std::size_t v = 0; v < shard_of.size(); ++v)
+    if (shard_of[v] == shard.index) line.expect({1, seconds[v]});
   TimedPart part;
   for (std::size_t v = 0; v < shard_of.size(); ++v) {
     if (shard_of[v] != shard.index) continue;
@@ -83,8 +86,10 @@ TimedPart time_shard(const Sweep& sweep, const Shard& shard, const std::string& 
     std::optional<VariantRun> run;
     if (mpi_rank() == 0) run = find_run(path, identity);
     if (!on_rank_0(run.has_value())) {
-      run = run_variant(sweep, variant, program);
+      run = run_variant(sweep, variant, program, line);
       if (mpi_rank() == 0) write_kept(path, identity, bytes_of(*run));
+    } else {
+      line.skip(seconds[v]);
     }
     ++part.n_variants;
     if (mpi_rank() == 0 && has_failed(*run)) ++part.n_failed;
@@ -102,7 +107,7 @@ Sweep merged_sweep(Sweep sweep, const Shards& shards) {
     sweep.seconds += shards.records[s].seconds;
   }
   check_questions(shards, digest_of(sweep));
-  const std::vector<int> shard_of = divide(estimated_costs(sweep), static_cast<int>(shards.folders.size()));
+  const std::vector<int> shard_of = divide(estimated_seconds(sweep), static_cast<int>(shards.folders.size()));
   for (std::size_t v = 0; v < shard_of.size(); ++v) {
     const Variant& variant = sweep.plan.variants[v];
     const std::string& folder = shards.folders[static_cast<std::size_t>(shard_of[v] - 1)];

@@ -6,6 +6,7 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
+#include "compare/sweep/costs.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
@@ -250,7 +251,8 @@ VariantRun variant_run_from(const std::string& answer) {
   return run;
 }
 
-Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules) {
+Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
+                 const std::optional<double>& budget_seconds) {
   Sweep sweep;
   sweep.definition = definition;
   sweep.plan = plan_sweep(definition, extent);
@@ -261,10 +263,13 @@ Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules
   if (const auto reason =
           reason_without_continuum_limit(scene_on(definition, field_cells(sweep.plan.reference[1]))))
     throw cases::InputError(definition.file + ": no reference to measure errors against: " + *reason);
+  if (budget_seconds) cut_to_budget(sweep, *budget_seconds);
   return sweep;
 }
 
-VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program) {
+VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
+                       ProgressLine& line) {
+  const ProgressLine::Shown shown(line, full_name(variant), estimate_of(sweep, variant).seconds);
   return sweep.processes == Processes::this_one ? run_here(sweep, variant)
                                                 : run_in_own_process(sweep, variant, program);
 }
@@ -280,12 +285,13 @@ void add_row(Sweep& sweep, const Variant& variant, VariantRun run) {
   }
 }
 
-Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
-                const std::string& program, const std::function<void(const Sweep&)>& on_row) {
+Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row) {
   const Stopwatch stopwatch;
-  Sweep sweep = make_sweep(definition, extent, rules);
-  for (const Variant& variant : std::vector<Variant>(sweep.plan.variants)) {
-    add_row(sweep, variant, run_variant(sweep, variant, program));
+  ProgressLine line(1);
+  for (const double seconds : estimated_seconds(sweep)) line.expect({1, seconds});
+  for (std::size_t v = 0; v < sweep.plan.variants.size(); ++v) {
+    const Variant& variant = sweep.plan.variants[v];
+    add_row(sweep, variant, run_variant(sweep, variant, program, line));
     sweep.seconds = stopwatch.seconds();
     on_row(sweep);
   }

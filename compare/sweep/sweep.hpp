@@ -1,9 +1,11 @@
 #pragma once
 
+#include "compare/solve/progress.hpp"
 #include "compare/sweep/plan.hpp"
 #include "compare/sweep/reference.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace springproof::compare {
 
@@ -71,13 +73,17 @@ struct Sweep {
 };
 
 /// A sweep without rows.
+/// @param budget_seconds  see cut_to_budget(); nothing: the plan as it is
 /// @throws InputError for a case without a continuum limit, with another body than a box, or with measures
 /// that the reference's mesh does not have
-Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules);
+Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
+                 const std::optional<double>& budget_seconds = std::nullopt);
 
 /// Solves and times one of the sweep's variants, in a process of its own or in this one (then collective).
 /// @param program  whose hidden command `worker` serves
-VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program);
+/// @param line     shown meanwhile
+VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
+                       ProgressLine& line);
 
 /// The next of the plan's variants. With the last mesh of the reference, all rows get their errors.
 void add_row(Sweep& sweep, const Variant& variant, VariantRun run);
@@ -86,10 +92,9 @@ void add_row(Sweep& sweep, const Variant& variant, VariantRun run);
 /// against the extrapolated reference. A variant that fails is a row with its reason. A quick sweep, and any
 /// under MPI, runs in this process, and then memory is not told (collective; rank 0 alone has the springs'
 /// rows).
+/// @param sweep    of make_sweep()
 /// @param program  whose hidden command `worker` serves
 /// @param on_row   called with the sweep as it is after every variant
-/// @throws InputError as make_sweep()
-Sweep run_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
-                const std::string& program, const std::function<void(const Sweep&)>& on_row);
+Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row);
 
 } // namespace springproof::compare

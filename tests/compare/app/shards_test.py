@@ -146,6 +146,10 @@ def test_sweep(folder):
     """A sweep: the same rows, errors and counters, and every file; the mechanism is a failed row."""
     whole = springproof("sweep", "--quick", TINY, "--out", folder / "whole")
     assert whole.returncode == 1, whole
+    cut = [springproof("sweep", "--quick", "--budget", 1e-3, TINY, "--out", folder / "cut")]
+    cut.append(springproof("merge", *shards(folder / "cut-parts", 2, "sweep", "--quick", "--budget", 1e-3, TINY), "--out", folder / "cut-merged"))
+    assert [done.returncode for done in cut] == [0, 0] and all("budget of 0.001" in done.stdout for done in cut), cut
+    assert rows(folder / "cut") == rows(folder / "cut-merged") and len(rows(folder / "cut")) == 3  # the reference's meshes
     for n in (2, 3):
         parts = shards(folder, n, "sweep", "--quick", TINY)
         merged = springproof("merge", *parts, "--out", folder / f"merged{n}")

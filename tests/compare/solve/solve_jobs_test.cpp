@@ -92,18 +92,6 @@ TEST_CASE(
   CHECK(solved[3].answers.msm.solution.status == cases::Status::converged);
 }
 
-TEST_CASE("answers are reported as soon as they are there, each once, with their numbers") {
-  std::vector<std::size_t> reported;
-  const auto questions =
-      compare::read_questions({shear({}).case_file, shear({}).case_file}, coarse, {Side::msm});
-  compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem, {1, SPRINGPROOF_PROGRAM},
-                      [&](std::size_t question, const Answers& answers) {
-                        reported.push_back(question);
-                        CHECK(answers.msm.solution.status == cases::Status::converged);
-                      });
-  CHECK_THAT(reported, Catch::UnorderedEquals<std::size_t>({0, 1}));
-}
-
 TEST_CASE("workers read no file: what was parsed is what is solved") {
   const TemporaryFolder folder;
   const std::string file = folder.write("case.toml", "");
@@ -111,7 +99,7 @@ TEST_CASE("workers read no file: what was parsed is what is solved") {
   const auto questions = compare::read_questions({file}, coarse, {Side::msm});
   fs::remove(file);
   const auto answers = compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem,
-                                           {1, SPRINGPROOF_PROGRAM}, [](std::size_t, const Answers&) {});
+                                           {1, SPRINGPROOF_PROGRAM});
   CHECK(is_same(answers[0].msm.solution, solve_here(shear(Side::msm)).msm.solution));
 }
 

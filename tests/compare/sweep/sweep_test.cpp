@@ -3,6 +3,7 @@
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/sweep/analysis.hpp"
+#include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 using namespace springproof;
@@ -102,8 +104,47 @@ TEST_CASE("a body that is no box, or a material without small strain, is refused
 TEST_CASE("forces on points have no limit to be measured against, and are refused") {
   cases::Case definition = tiny();
   definition.loads[0].kind = cases::LoadKind::nodal_force;
-  CHECK_THROWS_WITH(run_sweep(definition, Extent::quick, {}, SPRINGPROOF_PROGRAM, [](const Sweep&) {}),
-                    Contains("no continuum limit"));
+  CHECK_THROWS_WITH(make_sweep(definition, Extent::quick, {}), Contains("no continuum limit"));
+}
+
+TEST_CASE("a budget leaves out the variants of the longest estimated times, never the reference's meshes") {
+  const cases::Case definition = cases::read_case(sweep_cases + "cube_shear.toml");
+  const Sweep whole = make_sweep(definition, Extent::full, {});
+  const auto sum = [](const Sweep& sweep) {
+    const std::vector<double> seconds = estimated_seconds(sweep);
+    return std::accumulate(seconds.begin(), seconds.end(), 0.);
+  };
+  const double budget = sum(whole) / 2;
+  const Sweep cut = make_sweep(definition, Extent::full, {}, budget);
+  CHECK(sum(cut) <= budget);
+  REQUIRE(cut.plan.variants.size() < whole.plan.variants.size());
+  const std::size_t n_cut = whole.plan.variants.size() - cut.plan.variants.size();
+  REQUIRE(cut.plan.left_out.size() == whole.plan.left_out.size() + n_cut);
+  CHECK_THAT(cut.plan.left_out.back().reason, Contains("budget of"));
+  const auto longest_kept = [&] {
+    const std::vector<double> seconds = estimated_seconds(cut);
+    return *std::max_element(seconds.begin() + static_cast<long>(cut.plan.reference.size()), seconds.end());
+  };
+  std::size_t n_longer = 0; // of the whole plan than the longest that was kept
+  for (const Variant& variant : whole.plan.variants)
+    n_longer += estimate_of(whole, variant).seconds > longest_kept();
+  CHECK(n_longer <= n_cut + cut.plan.reference.size());
+  const Sweep least = make_sweep(definition, Extent::full, {}, 1e-9);
+  REQUIRE(least.plan.variants.size() == least.plan.reference.size());
+  for (std::size_t mesh = 0; mesh < least.plan.reference.size(); ++mesh)
+    CHECK(full_name(least.plan.variants[mesh]) == full_name(least.plan.reference[mesh]));
+  CHECK(make_sweep(definition, Extent::full, {}, 1e9).plan.variants.size() == whole.plan.variants.size());
+}
+
+TEST_CASE(
+    "the written plan has every method with its number of variants, and what is left out with the reason") {
+  const Sweep sweep = make_sweep(cases::read_case(sweep_cases + "cube_shear.toml"), Extent::full, {}, 30);
+  std::ostringstream text;
+  write_plan(text, sweep);
+  for (const Variant& variant : sweep.plan.variants) CHECK_THAT(text.str(), Contains(method_name(variant)));
+  CHECK_THAT(text.str(), Contains(std::to_string(sweep.plan.variants.size()) + " variants, about "));
+  for (const LeftOut& left : sweep.plan.left_out)
+    CHECK_THAT(text.str(), Contains("left out: " + left.what + ": " + left.reason));
 }
 
 TEST_CASE("repetitions are as many as the budget pays for") {

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <condition_variable>
+#include <list>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace springproof::compare {
+
+/// Work, as far as its progress is concerned.
+struct Workload {
+  std::size_t n_pieces = 0;
+  double seconds = 0; ///< of one worker, estimated
+};
+
+/// What is left to do, in seconds of wall-clock time. Estimates are corrected by what the finished pieces
+/// took.
+struct Remaining {
+  Workload expected;        ///< in all
+  Workload finished;        ///< as it was estimated
+  double took = 0;          ///< seconds of a worker that the finished pieces took
+  double of_running = 0;    ///< estimated seconds of what is being done
+  double running_since = 0; ///< seconds spent on it, all pieces together
+  int n_workers = 1;
+
+  double correction() const; ///< of estimates, towards 1 while little is finished
+  double seconds() const;    ///< >= 0
+  double part_done() const;  ///< 0 to 1
+};
+
+/// "0:42", "12:05", "1:02:03"
+std::string clock_text(double seconds);
+
+/// One line on standard error about what a command is doing, how much is done, and about how long the rest
+/// takes: on a terminal, by rank 0, while a piece of work is being done; nothing anywhere else, and nothing
+/// that stays.
+class ProgressLine {
+ public:
+  explicit ProgressLine(int n_workers);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+
+  void expect(const Workload& more);
+  /// A piece of what is expected, done already.
+  void skip(double estimated_seconds);
+
+  /// @param name  of the piece: shown   @param note  a line that stays, in front of it; empty: none
+  void begin(const std::string& name, double estimated_seconds, const std::string& note = "");
+  /// With nothing else being done, the line is taken away, and others may print.
+  void finish(const std::string& name);
+
+  /// From begin() to finish().
+  class Shown {
+   public:
+    Shown(ProgressLine& line, std::string name, double estimated_seconds, const std::string& note = "")
+        : line_(line), name_(std::move(name)) {
+      line.begin(name_, estimated_seconds, note);
+    }
+    ~Shown() { line_.finish(name_); }
+    Shown(const Shown&) = delete;
+
+   private:
+    ProgressLine& line_;
+    std::string name_;
+  };
+
+ private:
+  struct Piece {
+    std::string name;
+    double estimated_seconds, begun_at;
+  };
+  double now() const;
+  void draw_now_and_then();
+  void draw();
+  void clear();
+
+  const bool is_shown_;
+  Remaining remaining_;
+  std::list<Piece> running_;
+  std::size_t n_drawn_ = 0; ///< characters of the line that stands there
+  bool is_over_ = false;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::thread drawer_; ///< started with the first piece
+};
+
+} // namespace springproof::compare

@@ -1,0 +1,131 @@
+#include "compare/solve/estimate.hpp"
+
+#include "cases/case/read_case.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace springproof;
+
+using Catch::Contains;
+using compare::BodySize;
+using compare::Estimate;
+
+namespace {
+
+cases::Case cube(int cells) {
+  cases::Case definition =
+      cases::read_case(std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/sweep/cube_shear.toml");
+  definition.measures.clear();
+  std::get<cases::Box>(definition.body).cells = {cells, cells, cells};
+  return definition;
+}
+
+BodySize body(const cases::Case& definition) {
+  return compare::size_of(definition).value();
+}
+
+double cubed(double n) {
+  return n * n * n;
+}
+
+compare::MemoryLimit limit(double megabytes) {
+  return {megabytes, "the test", false};
+}
+
+} // namespace
+
+TEST_CASE("a box has the size of its mesh before the mesh is made") {
+  const cases::Case definition = cube(5);
+  const BodySize before = body(definition), after = compare::size_of(cases::make_scene(definition));
+  CHECK(before.n_nodes == after.n_nodes);
+  CHECK(before.n_cells == after.n_cells);
+  REQUIRE(before.outline.mesh.grid);
+  CHECK(before.outline.mesh.grid->cells == after.outline.mesh.grid->cells);
+  CHECK(before.outline.mesh.nodes.empty());
+  cases::Case mesh = definition;
+  mesh.body = cases::MeshFile{"no-such.msh", {}};
+  CHECK_FALSE(compare::size_of(mesh));
+}
+
+TEST_CASE("unknowns are those of the refined mesh and the element") {
+  cases::Case definition = cube(8);
+  CHECK(compare::estimate_springs(body(definition)).unknowns == 3 * cubed(9));
+  CHECK(compare::estimate_fem(body(definition)).unknowns == 3 * cubed(9));
+  definition.fem.refine = 2;
+  // Every edge is divided by four: the count of the surface's nodes leaves out edges, 2 % here.
+  CHECK(compare::estimate_fem(body(definition)).unknowns == Approx(3 * cubed(33)).epsilon(0.05));
+  definition.fem.refine = 0;
+  definition.fem.element = cases::Element::q2;
+  CHECK(compare::estimate_fem(body(definition)).unknowns == Approx(3 * cubed(17)).epsilon(0.05));
+}
+
+TEST_CASE("estimates name the solver that the model will take, and grow with the body") {
+  cases::Case definition = cube(10);
+  CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("matrix-free"));
+  definition.fem.element = cases::Element::q2_p1; // which the grid's kernels do not know
+  CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("factorised"));
+  definition.fem.refine = 2;
+  CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("assembled"));
+  Estimate fem_before, springs_before;
+  for (const int n : {2, 6, 7, 8, 12, 30, 100}) { // a grid from 500 nodes on, whose backend takes less
+    const Estimate fem = compare::estimate_fem(body(cube(n))),
+                   springs = compare::estimate_springs(body(cube(n)));
+    CAPTURE(n);
+    CHECK(springs.seconds > springs_before.seconds);
+    CHECK(springs.megabytes > springs_before.megabytes);
+    CHECK(fem.unknowns > fem_before.unknowns);
+    CHECK(fem.megabytes > 0);
+    fem_before = fem;
+    springs_before = springs;
+  }
+}
+
+TEST_CASE("a question's models are those that it asks for, and of every mesh") {
+  compare::Request request;
+  CHECK(compare::estimate(body(cube(4)), request).size() == 2);
+  request.only = cases::Side::msm;
+  CHECK(compare::estimate(body(cube(4)), request).size() == 1);
+  request = {};
+  request.meshes = 3;
+  const auto models = compare::estimate(body(cube(4)), request);
+  REQUIRE(models.size() == 4);
+  CHECK(compare::most_megabytes(models) == models[2].megabytes); // the finest mesh
+  CHECK(compare::total_seconds(models) ==
+        Approx(models[0].seconds + models[1].seconds + models[2].seconds + models[3].seconds));
+}
+
+TEST_CASE("more memory than there is is refused with unknowns, estimate, limit and what to change") {
+  const auto models = compare::estimate(body(cube(100)), {});
+  CHECK_NOTHROW(compare::check_memory("cube.toml", models, limit(1e5)));
+  CHECK_THROWS_WITH(compare::check_memory("cube.toml", models, limit(100)),
+                    Contains("cube.toml: finite elements (matrix-free) with about 3.09e+06 unknowns") &&
+                        Contains("GB of memory, and the test leaves 0.1 GB") && Contains("fewer cells"));
+  CHECK_THROWS_AS(compare::check_memory("cube.toml", models, limit(-1)), cases::InputError);
+  CHECK_THROWS_AS(compare::check_memory("cube.toml", {{"springs", 1, std::nan(""), 1}}, limit(1e9)),
+                  cases::InputError);
+}
+
+TEST_CASE("the machine's limit is at most its memory, and there is some left for a test") {
+  const compare::MemoryLimit machine = compare::memory_limit();
+  CHECK(machine.megabytes > 100);
+  CHECK(machine.megabytes < 1e9);
+  CHECK_FALSE(machine.of.empty());
+}
+
+TEST_CASE("as many questions are solved at the same time as have memory together, the largest first") {
+  const std::vector<double> megabytes{1, 30, 20, 1};
+  CHECK(compare::workers_within(limit(60), megabytes, 4) == 4);
+  CHECK(compare::workers_within(limit(51), megabytes, 4) == 3);
+  CHECK(compare::workers_within(limit(50), megabytes, 4) == 2);
+  CHECK(compare::workers_within(limit(40), megabytes, 4) == 1);
+  CHECK(compare::workers_within(limit(1), megabytes, 4) == 1);
+  CHECK(compare::workers_within(limit(1000), megabytes, 2) == 2);
+  CHECK(compare::workers_within({10, "ulimit -v", true}, megabytes, 4) == 4); // each process has its own
+}
+
+TEST_CASE("only long solves are announced, with every model's unknowns, memory and time") {
+  CHECK(compare::long_solve_text("cube", compare::estimate(body(cube(10)), {})).empty());
+  CHECK_THAT(compare::long_solve_text("cube", compare::estimate(body(cube(100)), {})),
+             Contains("cube: finite elements (matrix-free): 3.09e+06 unknowns, about ") &&
+                 Contains("; springs (matrix-free): 3.09e+06 unknowns, about "));
+}
