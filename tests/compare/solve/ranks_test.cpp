@@ -65,6 +65,13 @@ cases::Case quarter_of_a_box() {
   return quarter;
 }
 
+/// Coarsened along its thickness first.
+cases::Case flat_cells() {
+  cases::Case flat = bodies::clamped_box({14, 12, 8}, bodies::tensile(0.004));
+  flat.body = cases::Box{{14, 12, 0.8}, {14, 12, 8}};
+  return flat;
+}
+
 double largest_displacement(const cases::Solution& solution) {
   double largest = 0;
   for (const Eigen::Vector3d& u : solution.displacement) largest = larger(largest, u.norm());
@@ -142,7 +149,8 @@ TEST_CASE("a grid's equilibrium and the way to it are the same on any number of 
       {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003)))},
        {"mask", masked_scene()},
        {"moved supports", scene_of(moved_box())},
-       {"symmetry planes", scene_of(quarter_of_a_box())}}));
+       {"symmetry planes", scene_of(quarter_of_a_box())},
+       {"flat cells", scene_of(flat_cells())}}));
   INFO(name);
   const std::vector<msm::CellStiffness> springs{bodies::hybrid_cell};
   const cases::Solution alone = msm::solve_by_snes(scene, springs, PETSC_COMM_SELF, to_rounding());
