@@ -1,60 +1,72 @@
-"""Time and memory of a spring solve on many ranks: docs/scale.md says where the figures come from.
+"""Time and memory of a solve on many ranks: docs/scale.md says where the figures come from.
 
 scale_model.py [UNKNOWNS]    of a cube; 1e9 by default
 """
 
 import math
 import sys
-
-# Measured on one node (docs/scale.md).
-CORE_SECONDS = 5.9e-6  # a solve, per unknown, both cores busy: 100^3 cells on two ranks
-ITERATIONS = 23  # of conjugate gradients on the finest grid
-EXCHANGES = 1.9  # in all, for each of those iterations' own
-REDUCTIONS = 30  # in all, for each of those iterations
-SOLVER_BYTES = 200  # per unknown, divided among the ranks
-SCENE_BYTES = 57  # per unknown, on every rank: scene and answer
-PROGRAM_BYTES = 168e6  # on every rank
+from dataclasses import dataclass
 
 # The stated network: 100 Gbit/s into a node of 32 ranks.
 LATENCY = 2e-6  # s, a message
 BANDWIDTH = 12.5e9 / 32  # bytes/s, a rank
 
-LEAST_NODES, LEAST_NODES_IN_ALL = 2, 1000  # msm/snes/deal_out.cpp
+# In all, for each iteration on the finest grid; counted for springs.
+EXCHANGES, REDUCTIONS = 1.9, 30
 
 
-def model(unknowns, ranks_along):
-    ranks = ranks_along**3
+@dataclass
+class Measured:
+    name: str
+    core_seconds: float  # a solve, per unknown, both cores of a node busy: 100^3 cells on two ranks
+    iterations: int  # linear ones, on the finest grid
+    exchanges: int  # of layers in single precision, per level and iteration
+    solver_bytes: int  # per unknown, divided among the ranks
+    scene_bytes: int  # per unknown, on every rank: scene and answer
+    axes: int  # along which the grid is dealt out: bricks or slabs
+    least_in_all: int  # nodes of a level that is dealt out
+
+
+SPRINGS = Measured("springs, bricks", 5.9e-6, 23, 7, 200, 57, 3, 1000)
+FINITE_ELEMENTS = Measured("finite elements, slabs", 10.5e-6, 15, 8, 710, 80, 1, 500)
+PROGRAM_BYTES = 168e6  # on every rank
+LEAST_NODES = 2  # of a brick or slab along an axis that is divided
+
+
+def times(model, unknowns, ranks):
+    """Computing, messages, the levels that every rank has whole (s); the levels that are dealt out."""
+    along = round(ranks ** (1 / model.axes))
     nodes = (unknowns / 3) ** (1 / 3)  # along an axis
-    compute = CORE_SECONDS * unknowns / ranks
     levels, exchange = 0, 0.0
-    while nodes / ranks_along >= LEAST_NODES and nodes**3 >= LEAST_NODES_IN_ALL:
-        brick = nodes / ranks_along
-        layer = ((brick + 2) ** 3 - brick**3) * 3 * 4  # bytes in single precision
-        exchange += 7 * (26 * LATENCY + layer / BANDWIDTH)
-        nodes = nodes / 2
+    while nodes / along >= LEAST_NODES and nodes**3 >= model.least_in_all:
+        part = nodes / along
+        layer = (part + 2) ** 3 - part**3 if model.axes == 3 else 2 * nodes**2
+        neighbours = 3**model.axes - 1
+        exchange += model.exchanges * (neighbours * LATENCY + layer * 12 / BANDWIDTH)
+        nodes /= 2
         levels += 1
-    gathered = nodes**3 * 3
+    gathered = 3 * nodes**3
     hops = math.log2(ranks)
-    each = EXCHANGES * (exchange + hops * LATENCY + 2 * 4 * gathered / BANDWIDTH)
-    messages = ITERATIONS * (each + REDUCTIONS * hops * LATENCY)
-    coarse = CORE_SECONDS * gathered  # every rank by itself
-    return ranks, levels, compute, messages, coarse, nodes
+    each = exchange + hops * LATENCY + 8 * gathered / BANDWIDTH
+    messages = model.iterations * (EXCHANGES * each + REDUCTIONS * hops * LATENCY)
+    return model.core_seconds * unknowns / ranks, messages, model.core_seconds * gathered, levels
 
 
 def main():
     unknowns = float(sys.argv[1]) if len(sys.argv) > 1 else 1e9
-    alone = CORE_SECONDS * unknowns
-    print(f"{unknowns:.3g} unknowns; one core: {alone:.0f} s")
-    print("ranks   levels dealt out  compute s  messages s  coarse s  in all s  efficiency  solver MB/rank  scene MB/rank")
-    for along in (2, 4, 8, 16, 32):
-        ranks, levels, compute, messages, coarse, _ = model(unknowns, along)
-        total = compute + messages + coarse
-        solver = SOLVER_BYTES * unknowns / ranks / 1e6
-        scene = (SCENE_BYTES * unknowns + PROGRAM_BYTES) / 1e6
-        print(
-            f"{ranks:6d} {levels:17d} {compute:10.2f} {messages:11.3f} {coarse:9.3f} {total:9.2f} "
-            f"{alone / ranks / total:11.2f} {solver:15.0f} {scene:14.0f}"
-        )
+    for model, all_ranks in ((SPRINGS, (8, 64, 512, 4096, 32768)), (FINITE_ELEMENTS, (8, 16, 32, 64, 128))):
+        alone = model.core_seconds * unknowns
+        print(f"{model.name}: {unknowns:.3g} unknowns, one core {alone:.0f} s")
+        print(" ranks  levels  compute s  messages s  coarse s    all s  efficiency  MB/rank: solver   scene")
+        for ranks in all_ranks:
+            compute, messages, coarse, levels = times(model, unknowns, ranks)
+            total = compute + messages + coarse
+            solver = model.solver_bytes * unknowns / ranks / 1e6
+            scene = (model.scene_bytes * unknowns + PROGRAM_BYTES) / 1e6
+            print(
+                f"{ranks:6d} {levels:7d} {compute:10.2f} {messages:11.2f} {coarse:9.2f} {total:8.2f} "
+                f"{alone / ranks / total:11.2f} {solver:16.0f} {scene:7.0f}"
+            )
 
 
 main()
