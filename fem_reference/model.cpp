@@ -132,12 +132,13 @@ struct Model::OnGrid : Model::Implementation {
   std::unique_ptr<Assembled> assembled; ///< once the grid's multigrid was found not to serve
 };
 
-/// Where the path fails, and multigrid fails the body at rest too, the body is not to blame.
+/// Where the path fails, and multigrid fails the body at rest too or is known to, the body is not to blame.
 cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumSettings settings) {
   if (!assembled) try {
       return model.solve(load_factor, settings);
     } catch (const cases::SolveError&) {
-      if (!may_assemble_instead || model.can_leave_rest()) throw;
+      const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible;
+      if (!may_assemble_instead || (!is_hard && model.can_leave_rest())) throw;
       assembled = std::make_unique<Assembled>(scene, communicator);
     }
   return assembled->solve(load_factor, settings);
