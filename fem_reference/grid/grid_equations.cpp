@@ -14,6 +14,9 @@ namespace {
 using cases::index;
 
 constexpr double volume_tolerance = 1e-12; ///< as of the assembled equations
+/// 15 iterations in all for the sheared cube of 40^3 cells, 19 with a polynomial of degree 2; quadratic
+/// elements gain nothing from the better one, because trilinear ones are only near them.
+constexpr Multigrid::Smoother linear_smoother{3, 12}, quadratic_smoother{2, 6};
 constexpr int max_linear_iterations = 500;
 /// Of GMRES; twice as many vectors are kept.
 constexpr int max_unsymmetric_iterations = 400, max_indefinite_iterations = 80;
@@ -26,7 +29,8 @@ constexpr int restart_of(std::ptrdiff_t n) {
 GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
                              QuadraticElements* quadratic)
     : body_(body), supported_(supported), space_(body.space(n_threads)), quadratic_(quadratic),
-      multigrid_(body, n_threads), load_norm_(norm(space_, supported.load)) {}
+      multigrid_(body, n_threads, quadratic ? quadratic_smoother : linear_smoother),
+      load_norm_(norm(space_, supported.load)) {}
 
 /// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
 /// admissible

@@ -15,8 +15,6 @@ namespace {
 using cases::index;
 
 constexpr std::ptrdiff_t most_coarsest_nodes = 125;
-constexpr int smoothing_degree = 3;
-constexpr double smoothed_part = 12; ///< the smoother works on eigenvalues down to that part of the largest
 
 std::ptrdiff_t n_nodes(const std::array<int, 3>& cells) {
   return std::ptrdiff_t{cells[0] + 1} * (cells[1] + 1) * (cells[2] + 1);
@@ -38,7 +36,8 @@ void fill(const Space& space, Field<float>& field) {
 
 } // namespace
 
-Multigrid::Multigrid(const Body& body, int n_threads) : body_(body) {
+Multigrid::Multigrid(const Body& body, int n_threads, const Smoother& smoother)
+    : body_(body), smoother_(smoother) {
   std::array<int, 3> cells = body.cells_of_grid();
   Eigen::Vector3d spacing = body.spacing;
   Slab slab = body.slab;
@@ -231,17 +230,17 @@ void Multigrid::factorise_coarsest() {
 /// the last step only when it is wanted.
 void Multigrid::smooth(Level& level, bool keeps_residual) const {
   const double upper = 1.1 * level.largest_eigenvalue; // the power method comes from below
-  const double lower = upper / smoothed_part;
+  const double lower = upper / smoother_.share;
   const double centre = (upper + lower) / 2, half_width = (upper - lower) / 2;
   const double sigma = centre / half_width;
   double rho = 1 / sigma;
   apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
   for (int step = 1;; ++step) {
     add(level.solution, 1.0f, level.correction, level.space.n_threads);
-    if (step == smoothing_degree && !keeps_residual) return;
+    if (step == smoother_.degree && !keeps_residual) return;
     product(level, level.correction, level.product);
     add(level.residual, -1.0f, level.product, level.space.n_threads);
-    if (step == smoothing_degree) return;
+    if (step == smoother_.degree) return;
     const double next = 1 / (2 * sigma - rho);
     apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
                            static_cast<float>(2 * next / half_width));

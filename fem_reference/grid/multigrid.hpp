@@ -14,7 +14,11 @@ namespace springproof::fem_reference::grid {
 /// symmetric part.
 class Multigrid {
  public:
-  Multigrid(const Body& body, int n_threads);
+  struct Smoother {
+    int degree;   ///< of Chebyshev's polynomial
+    double share; ///< it works on eigenvalues down to that part of the largest
+  };
+  Multigrid(const Body& body, int n_threads, const Smoother& smoother);
 
   /// Assembles the tangent at a state and prepares the cycle.
   void linearise(const double* displacement, const double* pressure);
@@ -43,6 +47,7 @@ class Multigrid {
   };
 
   const Body& body_;
+  Smoother smoother_;
   std::deque<Level> levels_;
   std::vector<std::ptrdiff_t> coarsest_unknowns_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
