@@ -28,10 +28,8 @@ Problem make_problem(const cases::Scene& scene) {
 }
 
 int n_inverted(const cases::HexMesh& mesh, const Points& displacement) {
-  int n = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(mesh, c, displacement)) > 0)) ++n;
-  return n;
+  const std::vector<bool> inverted = cases::inverted_cells(mesh, displacement);
+  return static_cast<int>(std::count(inverted.begin(), inverted.end(), true));
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {

@@ -246,9 +246,17 @@ double smallest_corner_jacobian(const std::array<Vector3d, 8>& vertices) {
                    z = vertices[index(v ^ 4)] - here;
     const bool mirrored = (v ^ (v >> 1) ^ (v >> 2)) & 1; // an odd number of the edges leads backwards
     const double determinant = x.dot(y.cross(z));
+    if (std::isnan(determinant)) return determinant; // which std::min would drop
     smallest = std::min(smallest, mirrored ? -determinant : determinant);
   }
   return smallest;
+}
+
+std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Vector3d>& displacement) {
+  std::vector<bool> inverted;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    inverted.push_back(!(smallest_corner_jacobian(cell_vertices(mesh, c, displacement)) > 0));
+  return inverted;
 }
 
 std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,

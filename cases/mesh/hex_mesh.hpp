@@ -74,13 +74,16 @@ HexMesh refine(const HexMesh& mesh);
 /// Gauss).
 double cell_volume(const std::array<Eigen::Vector3d, 8>& vertices);
 
-/// The smallest of the eight corner Jacobian determinants of the map from the unit cube, mm³: <= 0 for an
-/// inverted or degenerate cell.
+/// The smallest of the eight corner Jacobian determinants of the map from the unit cube, mm³: not above 0 for
+/// an inverted or degenerate cell, not a number where a vertex is none.
 double smallest_corner_jacobian(const std::array<Eigen::Vector3d, 8>& vertices);
 
 /// The vertices of one cell, displaced.  @param displacement  one per node, or empty for the rest shape
 std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
                                              const std::vector<Eigen::Vector3d>& displacement = {});
+
+/// Of every cell, whether it is inverted or degenerate.
+std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement);
 
 /// Nodes of a cell's edge, face, ... that is given by its vertices.
 template<std::size_t N>
