@@ -102,12 +102,19 @@ struct Load {
 SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
 SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q2, q2_p1)
 
+/// What a side that converged must not be, unless its case accepts it.
+SPRINGPROOF_ENUMERATION(Doubt,
+                        inverted, ///< has cells with a corner Jacobian <= 0
+                        unstable  ///< its tangent has negative eigenvalues
+)
+
 struct Fem {
   Formulation formulation = Formulation::log_strain;
   Element element = Element::q1_bbar;
   int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
-  bool has_auto_accuracy = false;    ///< refined until the expectations can be judged; refine is 0
+  bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
+  std::vector<Doubt> accepted;       ///< not held against the side
   Where where;
 };
 
@@ -142,6 +149,7 @@ struct Msm {
   std::vector<double> weights;                    ///< multi_load; one per path, >= 0; empty: all 1
   std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
+  std::vector<Doubt> accepted;                       ///< not held against the side
   Where where;
 };
 

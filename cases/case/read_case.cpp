@@ -153,14 +153,21 @@ void read_measures(Table& root, Case& result) {
   result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });
 }
 
-/// Automatic choices need expectations that require an accuracy.
+/// What is asked of the finite elements and of their accuracy has to fit together.
 void check_accuracy(Table& root, const Case& definition) {
-  if (!definition.fem.has_auto_accuracy && !definition.fem.has_auto_formulation) return;
   const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
-  if (std::none_of(definition.expectations.begin(), definition.expectations.end(), asks_of_fem))
+  const auto& expectations = definition.expectations;
+  if (definition.fem.has_auto_formulation &&
+      std::none_of(expectations.begin(), expectations.end(), asks_of_fem))
     root.entry("expect").refuse(
-        "one or more tables [[expect]] with error_percent or fem: \"auto\" in [fem] is as accurate "
-        "as they ask for");
+        "one or more tables [[expect]] with error_percent or fem: formulation = \"auto\" in "
+        "[fem] is as accurate as they ask for");
+  if (definition.fem.has_auto_accuracy) return;
+  for (const Expectation& expected : expectations)
+    if (asks_of_fem(expected) && expected.reference == ReferenceKind::converged)
+      throw InputError(expected.where,
+                       "reference must not be \"converged\" beside fem.accuracy = \"none\", with which no "
+                       "limit is looked for");
 }
 
 Case read_definition(Table& root, const std::string& path) {

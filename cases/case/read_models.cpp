@@ -152,6 +152,18 @@ void check_refined_size(const Entry& entry, const Body& body, int refine) {
         fmt::format("fewer: the refined mesh would have {:.3g} nodes, above what can be numbered", nodes));
 }
 
+/// A list of names, each at most once.
+template<class Enum>
+std::vector<Enum> read_names(const Entry& entry) {
+  std::vector<Enum> names;
+  for (const Entry& element : entry.elements(alternatives(all_names<Enum>()))) {
+    names.push_back(read_name<Enum>(element));
+    if (std::count(names.begin(), names.end(), names.back()) > 1)
+      element.refuse("one that is not in the list yet");
+  }
+  return names;
+}
+
 Fem read_fem(Table& table, const Material& material, const Body& body) {
   Fem fem;
   fem.where = table.where();
@@ -161,9 +173,10 @@ Fem read_fem(Table& table, const Material& material, const Body& body) {
     fem.refine = *refine;
     check_refined_size(table.entry("refine"), body, fem.refine);
   }
-  fem.has_auto_accuracy =
-      table.optional("accuracy", [](const Entry& entry) { return entry.word({"auto"}); }).has_value();
-  table.refuse_unless(!fem.has_auto_accuracy, {"refine"}, "left out: accuracy = \"auto\" finds it");
+  fem.has_auto_accuracy = table.optional("accuracy", [](const Entry& entry) {
+    return entry.word({"auto", "none"});
+  }) != "none";
+  fem.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   return fem;
 }
 
@@ -183,19 +196,9 @@ std::string design_needed(const Msm& msm, const Material& material) {
   return "";
 }
 
-std::vector<LoadPath> read_paths(const Entry& entry) {
-  std::vector<LoadPath> paths;
-  for (const Entry& element : entry.elements(alternatives(all_names<LoadPath>()))) {
-    paths.push_back(read_name<LoadPath>(element));
-    if (std::count(paths.begin(), paths.end(), paths.back()) > 1)
-      element.refuse("a path that is not in the list yet");
-  }
-  return paths;
-}
-
 /// What the designs that are fitted to curves are fitted to.
 void read_fit(Table& table, Msm& msm) {
-  msm.paths = table.optional("paths", read_paths).value_or(std::vector<LoadPath>{});
+  msm.paths = table.optional("paths", read_names<LoadPath>).value_or(std::vector<LoadPath>{});
   const std::size_t n_paths = msm.paths.empty() ? all_names<LoadPath>().size() : msm.paths.size();
   const std::string per_path = fmt::format("{} numbers, none below 0 and not all 0: one per path", n_paths);
   if (const auto weights = table.optional("weights", Numbers{per_path, n_paths, is_not_negative})) {
@@ -249,6 +252,7 @@ Msm read_msm(Table& table, const Material& material) {
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   read_fit(table, msm);
+  msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);
   if (!needed.empty()) table.entry("design").refuse(needed);
   return msm;

@@ -28,6 +28,11 @@ struct Solution {
   std::optional<int>
       negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
   int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
+
+  /// As far as the tangent's eigenvalues were looked at.
+  bool is_unstable() const {
+    return outcome == Outcome::unstable_equilibrium || negative_eigenvalues.value_or(0) > 0;
+  }
 };
 
 } // namespace springproof::cases

@@ -21,4 +21,13 @@ void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
 void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see solve/solve_jobs.hpp
 
+/// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
+inline void add_converge_option(CLI::App& command, int& meshes) {
+  command
+      .add_flag("--converge{3}", meshes,
+                "the limit from exactly N uniformly refined meshes (--converge=4; 3 by itself), with a table "
+                "of them")
+      ->check(CLI::Range(3, 6));
+}
+
 } // namespace springproof::compare

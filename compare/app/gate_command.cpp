@@ -20,8 +20,6 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr int meshes_of_a_study = 3; ///< the fewest that show an order
-
 struct GateOptions {
   std::vector<std::string> files;
   std::vector<std::string> settings;
@@ -29,20 +27,17 @@ struct GateOptions {
   std::string displacements;      ///< file of another simulator's, in place of our springs
   std::string junit, out;
   int workers = 0; ///< one per core
-  bool json = false, annotate = false, converge = false;
+  int meshes = 0;  ///< of the finite elements' limit; 0: as the cases' accuracy asks
+  bool json = false, annotate = false;
   std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
 };
 
-/// Every case is read, and its mesh and regions looked up, before any is solved. The reference's own error
-/// bar is asked for where the user or the case wants it.
+/// Every case is read, and its mesh and regions looked up, before any is solved.
 std::vector<Question> read_all(const GateOptions& options) {
   Request request;
   if (!options.displacements.empty()) request.only = cases::Side::fem;
-  std::vector<Question> questions = read_questions(options.files, options.settings, request);
-  for (Question& question : questions)
-    if (options.converge || asks_for_mesh_study(question.scene.definition))
-      question.request.meshes = meshes_of_a_study;
-  return questions;
+  request.meshes = options.meshes;
+  return read_questions(options.files, options.settings, request);
 }
 
 /// @throws InputError for a name that is no case's or has nothing to bless
@@ -121,9 +116,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
   command->add_option(
       "--msm-displacements", options->displacements,
       "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs");
-  command->add_flag(
-      "--converge", options->converge,
-      "the reference's own error bar for every case, not only where one is expected \"converged\"");
+  add_converge_option(*command, options->meshes);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
   CLI::Option* json = command->add_flag("--json", options->json,
                                         "one JSON document on standard output, and nothing else there");

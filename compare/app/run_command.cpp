@@ -22,7 +22,7 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;            ///< of the study of the finite elements' own error; 0: none
+  int meshes = 0;            ///< of the finite elements' limit; 0: as the case's accuracy asks
   std::string peer;          ///< a program that is asked too; empty: none
   std::string displacements; ///< file of another simulator's, in place of our springs
   bool json = false;
@@ -38,7 +38,7 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   const auto& [scene, request] = question;
   const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
                                   long_solve_text(scene.definition.name, models));
-  Answers answers = solve(scene, request, solve_fem);
+  Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question));
   if (mpi_rank() != 0) return answers;
   if (!request.peer.empty())
     answers.peer = ask_calculix(with_fem(scene, answers.resolved), answers.fem.solution);
@@ -62,9 +62,12 @@ int run(const RunOptions& options) {
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
-    failed = failed || answers.failed();
+    if (mpi_rank() != 0) { // the springs' side is on rank 0 alone
+      failed = failed || answers.failed();
+      continue;
+    }
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
-    if (mpi_rank() != 0) continue;
+    failed = failed || !done.back().is_sound();
     if (!options.json) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);
   }
@@ -84,11 +87,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->allow_extra_args(false);
   CLI::Option* only = command->add_option("--only", options->only, "solve one side")
                           ->check(CLI::IsMember({"both", "fem", "msm"}));
-  command
-      ->add_flag(
-          "--converge{3}", options->meshes,
-          "solve the finite elements on N uniformly refined meshes (--converge=4; 3 by itself): error bars")
-      ->check(CLI::Range(3, 6));
+  add_converge_option(*command, options->meshes);
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
   command

@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/solve/estimate.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
@@ -15,7 +16,11 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double largest_unknowns = 1.5e6; ///< of a mesh that is refined to by itself: minutes and gigabytes
+/// Budget of a mesh that is refined to by itself.
+constexpr double most_unknowns = 1.5e6, most_seconds = 60;
+constexpr double seconds_an_iteration =
+    1e-6;                           ///< of one unknown on grids; what is hard to solve takes more of them
+constexpr double default_width = 1; ///< percent: of an error that nobody has an expectation of
 
 /// The expectations that ask something of the finite elements, with the measure of each.
 std::vector<std::pair<cases::Expectation, cases::Measure>> gates_of(const cases::Case& definition) {
@@ -58,59 +63,125 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
   return {{}, scene.definition.fem, tried.choices};
 }
 
-/// The expectation whose measure's error bar is furthest above what is tolerated, as a sentence; empty when
-/// none is above.
-std::string furthest_off(const cases::Scene& scene, const std::vector<cases::Solution>& coarse_to_fine) {
+/// What the reference of a measure may be uncertain by, percent of it.
+double wanted_percent(const cases::Scene& scene, const std::string& measure, double reference) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [expectation, expected_of] : gates_of(scene.definition))
+    if (expected_of.name == measure) least = std::min(least, tolerated_error_percent(expectation, reference));
+  return std::isfinite(least) ? least : default_width / 4;
+}
+
+/// The measure whose reference is furthest from being known well enough, as a sentence; empty when all are.
+std::string furthest_off(const cases::Scene& scene, const MeshStudy& study) {
   double worst = 1;
   std::string which;
-  for (const auto& [expectation, measure] : gates_of(scene.definition)) {
-    std::vector<double> values;
-    for (const cases::Solution& solution : coarse_to_fine)
-      values.push_back(evaluate(measure, scene, solution));
-    const double error =
-        values.size() < 2 ? std::numeric_limits<double>::infinity() : finest_error_percent(values, 2);
-    const double tolerated = tolerated_error_percent(expectation, values.back());
-    if (error < tolerated * worst) continue;
-    worst = error / tolerated;
-    which = fmt::format("{} has an error bar of {:.3g} %, tolerated are {:.3g} %", measure.name, error,
-                        tolerated);
+  for (const StudiedMeasure& measure : study.measures) {
+    if (!measure.reference) return fmt::format("the reference of {}: {}", measure.name, measure.no_reference);
+    const auto& [value, uncertainty, note] = *measure.reference;
+    const double known = 100 * uncertainty / std::abs(value),
+                 wanted = wanted_percent(scene, measure.name, value);
+    if (!(known > wanted * worst)) continue; // a reference of zero has no relative error
+    worst = known / wanted;
+    which = fmt::format("the reference of {} is known to {:.2g} %, {:.2g} % is wanted", measure.name, known,
+                        wanted);
   }
   return which;
 }
 
-/// Refines from the first answer on, to that of the last mesh.
-void refine_until_accurate(const cases::Scene& scene, FemAnswer& fem) {
-  std::vector<cases::Solution> solutions{fem.answer.solution};
-  double total = fem.answer.seconds();
-  std::string off = furthest_off(scene, solutions), gave_up;
-  while (!off.empty()) {
-    const double next_unknowns = 8. * double(fem.answer.solution.unknowns);
-    if (next_unknowns > largest_unknowns) {
-      gave_up = fmt::format("; the next mesh would have about {:.2g} unknowns", next_unknowns);
-      break;
+/// The finite elements on further meshes, from an answer on the case's own.
+class Refinement {
+ public:
+  Refinement(const cases::Scene& scene, const FemAnswer& own, const KeptMeshes& kept)
+      : scene_(scene), own_(own), kept_(kept) {}
+
+  /// Solves one more mesh, coarser than the others or finer.  @return whether there is an answer
+  bool add(int refine) {
+    cases::Fem fem = own_.resolved;
+    fem.refine = refine;
+    Answer answer;
+    if (refine == own_.resolved.refine) {
+      answer = own_.answer;
+    } else if (auto earlier = kept_.find(fem)) {
+      answer = std::move(*earlier);
+    } else {
+      answer = solve_fem_as_given(with_fem(scene_, fem)).answer;
+      if (answer.converged()) kept_.keep(fem, answer);
     }
-    cases::Fem finer = fem.resolved;
-    ++finer.refine;
-    const FemAnswer next = solve_fem_as_given(with_fem(scene, finer));
-    total += next.answer.seconds();
-    if (!next.answer.converged()) {
-      gave_up = "; the next mesh was not solved: " + next.answer.solution.message;
-      break;
+    seconds_ += answer.seconds();
+    if (!answer.converged()) {
+      meshes_.reason =
+          fmt::format("the mesh refined {} times was not solved: {}", refine, answer.solution.message);
+      return false;
     }
-    fem.resolved = finer;
-    fem.answer = next.answer;
-    solutions.push_back(next.answer.solution);
-    off = furthest_off(scene, solutions);
+    const bool is_finer = meshes_.refine.empty() || refine > meshes_.refine.back();
+    meshes_.refine.insert(is_finer ? meshes_.refine.end() : meshes_.refine.begin(), refine);
+    meshes_.solutions.insert(is_finer ? meshes_.solutions.end() : meshes_.solutions.begin(), answer.solution);
+    return true;
   }
-  const std::string cost = fmt::format("{} meshes, {} unknowns in the last, {:.2f} s in all",
-                                       solutions.size(), fem.answer.solution.unknowns, total);
-  const int refine = fem.resolved.refine;
-  fem.choices.push_back(
-      off.empty()
-          ? fmt::format(
-                "accuracy refine = {}: every error bar is below a quarter of its expectation's width ({})",
-                refine, cost)
-          : fmt::format("accuracy NOT REACHED at refine = {}: {} ({}){}", refine, off, cost, gave_up));
+  const RefinedMeshes& meshes() const { return meshes_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  const cases::Scene& scene_;
+  const FemAnswer& own_;
+  const KeptMeshes& kept_;
+  RefinedMeshes meshes_;
+  double seconds_ = 0;
+};
+
+/// Exactly so many meshes, as far as they can be solved.
+RefinedMeshes solve_meshes(const cases::Scene& scene, const FemAnswer& own, int n_meshes,
+                           const KeptMeshes& kept) {
+  Refinement refinement(scene, own, kept);
+  const int own_refine = own.resolved.refine, finest = std::max(n_meshes - 1, own_refine);
+  refinement.add(own_refine);
+  for (int refine = own_refine - 1; refine > finest - n_meshes && refinement.add(refine);) --refine;
+  for (int refine = own_refine + 1; refine <= finest && refinement.add(refine);) ++refine;
+  return refinement.meshes();
+}
+
+/// Why a finer mesh is not solved without being asked for; empty when it is.
+/// @param last  on the mesh of twice the width
+std::string why_not_finer(const cases::Scene& finer, const cases::Solution& last) {
+  const Estimate next = estimate_fem(size_of(finer));
+  const double by_iterations =
+                   8 * static_cast<double>(last.unknowns) * static_cast<double>(last.linear_iterations),
+               seconds = std::max(next.seconds, by_iterations * seconds_an_iteration);
+  if (next.unknowns <= most_unknowns && seconds <= most_seconds && next.megabytes <= memory_limit().megabytes)
+    return "";
+  return fmt::format(
+      "the next mesh would have about {:.2g} unknowns, and take {:.0f} s and {:.0f} MB (--converge "
+      "asks for it)",
+      next.unknowns, seconds, next.megabytes);
+}
+
+/// As many meshes as it takes to know the reference well enough, or as the budget pays for.
+/// @param told  gets a line on what was done
+RefinedMeshes refine_until_known(const cases::Scene& scene, const FemAnswer& own, const KeptMeshes& kept,
+                                 std::vector<std::string>& told) {
+  Refinement refinement(scene, own, kept);
+  const int own_refine = own.resolved.refine;
+  refinement.add(own_refine);
+  // Coarser meshes cost next to nothing, and show whether the order is the same twice.
+  for (int refine = own_refine - 1; refine >= std::max(0, own_refine - 2) && refinement.add(refine);)
+    --refine;
+  std::string off, gave_up;
+  for (int refine = own_refine + 1;; ++refine) {
+    off = furthest_off(scene, study_meshes(scene, refinement.meshes(), own_refine));
+    if (off.empty()) break;
+    cases::Fem finer = own.resolved;
+    finer.refine = refine;
+    gave_up = why_not_finer(with_fem(scene, finer), refinement.meshes().solutions.back());
+    if (gave_up.empty() && !refinement.add(refine)) gave_up = refinement.meshes().reason;
+    if (!gave_up.empty()) break;
+  }
+  const RefinedMeshes& meshes = refinement.meshes();
+  const std::string cost =
+      fmt::format("refine = {} to {}, {} unknowns in the last, {:.2f} s in all", meshes.refine.front(),
+                  meshes.refine.back(), meshes.solutions.back().unknowns, refinement.seconds());
+  told.push_back(off.empty() ? fmt::format("accuracy: reached ({})", cost)
+                             : fmt::format("accuracy: NOT REACHED: {}; {} ({})", off, gave_up, cost));
+  return meshes;
 }
 
 } // namespace
@@ -133,16 +204,23 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
   return expectation.quantity == cases::Quantity::fem ? 100 * width / std::abs(fem) / 4 : width / 4;
 }
 
-FemAnswer solve_fem(const cases::Scene& scene) {
+FemAnswer solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
   const cases::Fem& asked = scene.definition.fem;
-  FemAnswer fem{{}, asked, {}};
+  FemAnswer fem{{}, asked, {}, {}};
+  if (const auto earlier = kept.find(asked); earlier && !asked.has_auto_formulation) fem.answer = *earlier;
   if (asked.has_auto_formulation) fem = try_small_strain(scene);
   if (!fem.answer.converged()) fem.answer = solve_fem_as_given(scene).answer;
-  if (!asked.has_auto_accuracy || !fem.answer.converged()) return fem;
-  if (const auto reason = reason_without_continuum_limit(scene))
-    fem.choices.push_back("accuracy refine = 0: " + *reason);
+  if ((n_meshes == 0 && !asked.has_auto_accuracy) || scene.definition.stress || !fem.answer.converged())
+    return fem;
+  if (const auto reason = reason_without_continuum_limit(scene)) {
+    fem.refined = RefinedMeshes{{}, {}, *reason};
+    return fem;
+  }
+  kept.keep(fem.resolved, fem.answer);
+  if (n_meshes > 0)
+    fem.refined = solve_meshes(scene, fem, n_meshes, kept);
   else
-    refine_until_accurate(scene, fem);
+    fem.refined = refine_until_known(scene, fem, kept, fem.choices);
   return fem;
 }
 

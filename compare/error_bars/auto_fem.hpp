@@ -2,8 +2,8 @@
 
 #include "compare/solve/solve.hpp"
 
-/// The finite elements' side of cases that leave its formulation or its refinement open: as accurate as the
-/// case's expectations ask for, and no more.
+/// The finite elements' side: its formulation, where a case leaves that open, and its limit under refinement,
+/// known as well as the case's expectations ask for and no better.
 namespace springproof::compare {
 
 /// The largest displacement gradient of a cell (2-norm of F - I at its centre): strains and rotations alike.
@@ -15,14 +15,19 @@ double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vec
 /// @param fem  the finite elements' value, in the measure's unit
 double tolerated_error_percent(const cases::Expectation& expectation, double fem);
 
-/// Solves the finite elements' side, with the formulation and refinement of the scene's definition or, where
-/// that says "auto", with those that are found.
+/// Solves the finite elements' side on the case's own mesh, with the formulation of the scene's definition
+/// or, where that says "auto", with the one that is found; and on further meshes for its limit.
 ///
 /// formulation: a linear solve estimates the largest gradient; when that is below what the narrowest
 /// expectation tolerates, small strain is chosen, and that solve is the answer. accuracy: refined until the
-/// error bar of each measure that is expected something of (finest_error_percent) is below what its
-/// expectations tolerate; concentrated forces have no limit to refine towards, and keep the body's own mesh.
-/// Collective over MPI_COMM_WORLD.
-FemAnswer solve_fem(const cases::Scene& scene);
+/// reference of every measure (find_limit) is known to what its expectations tolerate, without one to a
+/// quarter of a percent, or until the next mesh would have more than 1.5 million unknowns, take more than a
+/// minute by estimate, or more memory than there is. Concentrated forces have no limit to refine towards. A
+/// refined mesh that fails costs the others nothing. A hard case is not refined. Collective over
+/// MPI_COMM_WORLD.
+/// @param n_meshes  0: as the case's accuracy asks; else so many, from the body's own on, or the finest of
+/// them that of the case when that is refined further
+/// @param kept  answers on single meshes that an earlier command left
+FemAnswer solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept = {});
 
 } // namespace springproof::compare

@@ -6,9 +6,41 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace springproof::compare {
+
+namespace {
+
+using VectorField = std::vector<Eigen::Vector3d>;
+
+constexpr double mesh_ratio = 2;
+constexpr double with_order = 1.25, without_order = 3; ///< safety factors on what is left to the limit
+constexpr double highest_power = 4; ///< mesh_ratio to the order 2 of trilinear elements: more is an accident
+constexpr double same_order = 0.3;  ///< in how far the orders of two steps may differ
+constexpr double rounding = 1e-9;   ///< of a value, that a solve leaves undecided
+
+/// a + factor (a - b)
+VectorField beyond(const VectorField& a, double factor, const VectorField& b) {
+  VectorField result(a.size());
+  for (std::size_t n = 0; n < a.size(); ++n) result[n] = a[n] + factor * (a[n] - b[n]);
+  return result;
+}
+
+/// factor (a - b)
+VectorField difference(double factor, const VectorField& a, const VectorField& b) {
+  VectorField result(a.size());
+  for (std::size_t n = 0; n < a.size(); ++n) result[n] = factor * (a[n] - b[n]);
+  return result;
+}
+
+/// By which power of the mesh ratio the differences of four values shrink is the same in both steps.
+bool is_confirmed(double power, double power_before) {
+  return power_before > 1 && std::abs(std::log2(power / power_before)) < same_order;
+}
+
+const char* const unconfirmed = "an order that no second step confirms";
+
+} // namespace
 
 MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio, double resolved) {
   assert(coarse_to_fine.size() >= 3 && ratio > 1);
@@ -38,39 +70,117 @@ double discretisation_error_percent(double value, const MeshLimit& limit) {
   return 100 * safety_factor * std::abs((value - limit.extrapolated) / value);
 }
 
-double finest_error_percent(const std::vector<double>& coarse_to_fine, double ratio) {
-  assert(coarse_to_fine.size() >= 2 && ratio > 1);
-  if (coarse_to_fine.size() >= 3) {
-    const MeshVerdict verdict = judge_refinement(coarse_to_fine, ratio);
-    if (const auto* limit = std::get_if<MeshLimit>(&verdict)) return limit->index_percent;
-  }
-  constexpr double two_mesh_safety_factor = 3;
-  const double f1 = coarse_to_fine.back(), f2 = coarse_to_fine[coarse_to_fine.size() - 2];
-  const double error = 100 * two_mesh_safety_factor * std::abs((f1 - f2) / f1) / (ratio - 1);
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine, double highest_order) {
+  assert(!coarse_to_fine.empty());
+  const std::size_t n = coarse_to_fine.size();
+  const auto value = [&](std::size_t from_finest) { return coarse_to_fine[n - 1 - from_finest]; };
+  const auto change = [&](std::size_t step) { return value(step) - value(step + 1); };
+  if (n == 1) return "there is one mesh alone";
+  const double last = change(0), least = rounding * std::max(std::abs(value(0)), std::abs(value(1)));
+  if (!std::isfinite(last)) return "a value is not finite";
+  if (std::abs(last) <= least) return Limit{value(0), least, "the two finest meshes agree"};
+  if (n == 2) return Limit{value(0), without_order * std::abs(last), "two meshes, which show no order"};
+  const double power =
+      change(1) / last; // of the mesh ratio, to the order; negative when the values oscillate
+  if (!(std::abs(power) > 1))
+    return fmt::format("the values do not draw nearer: {:.6g}, {:.6g}, {:.6g} from coarse to fine", value(2),
+                       value(1), value(0));
+  if (power < 0) return Limit{value(0), without_order * std::abs(last), "the values oscillate"};
+  const double step = last / (std::min(power, std::pow(mesh_ratio, highest_order)) - 1);
+  const bool confirmed = n > 3 && is_confirmed(power, change(2) / change(1));
+  return Limit{value(0) + step, (confirmed ? with_order : without_order) * std::abs(step),
+               confirmed ? "" : unconfirmed};
 }
 
-MeshStudy study_meshes(const cases::Scene& scene, const Answers& answers) {
-  const RefinedMeshes& meshes = answers.refined.value();
-  MeshStudy study;
-  for (const cases::Measure& measure : scene.definition.measures)
-    study.measures.push_back({measure.name, {}, std::nullopt, std::nullopt, meshes.reason});
-  if (!meshes.reason.empty()) return study;
-  study.refine = meshes.refine;
-  const auto own = static_cast<std::size_t>(answers.resolved.refine - study.refine.front());
-  for (const cases::Solution& solution : meshes.solutions) study.unknowns.push_back(solution.unknowns);
-  for (std::size_t m = 0; m < study.measures.size(); ++m) {
-    StudiedMeasure& measure = study.measures[m];
-    for (const cases::Solution& solution : meshes.solutions)
-      measure.values.push_back(evaluate(scene.definition.measures[m], scene, solution));
-    const MeshVerdict verdict = judge_refinement(measure.values, 2);
-    if (const auto* limit = std::get_if<MeshLimit>(&verdict)) {
-      measure.limit = *limit;
-      measure.discretisation_error_percent = discretisation_error_percent(measure.values[own], *limit);
-    } else {
-      measure.reason = std::get<std::string>(verdict);
-    }
+std::variant<FieldLimit, std::string>
+find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm) {
+  assert(!coarse_to_fine.empty());
+  const std::size_t n = coarse_to_fine.size();
+  const auto field = [&](std::size_t from_finest) -> const VectorField& {
+    return *coarse_to_fine[n - 1 - from_finest];
+  };
+  const auto distance = [&](std::size_t a, std::size_t b) { return norm(difference(1, field(a), field(b))); };
+  if (n == 1) return "there is one mesh alone";
+  const double last = distance(0, 1);
+  if (!std::isfinite(last)) return "a value is not finite";
+  const VectorField three_changes = difference(without_order, field(0), field(1));
+  if (last <= rounding * norm(field(0)))
+    return FieldLimit{field(0), three_changes, "the two finest meshes agree"};
+  if (n == 2) return FieldLimit{field(0), three_changes, "two meshes, which show no order"};
+  // The distances of two meshes to a third, finer one are in the ratio (r^2p - 1)/(r^p - 1) = r^p + 1.
+  const double power = distance(0, 2) / last - 1;
+  if (!(power > 1)) return "the displacements do not draw nearer to each other";
+  const bool confirmed = n > 3 && is_confirmed(power, distance(1, 3) / distance(1, 2) - 1);
+  const double part = 1 / (std::min(power, highest_power) - 1);
+  return FieldLimit{beyond(field(0), part, field(1)),
+                    difference((confirmed ? with_order : without_order) * part, field(0), field(1)),
+                    confirmed ? "" : unconfirmed};
+}
+
+namespace {
+
+/// The order and the error bar of the finite elements on the case's own mesh.
+void find_order(StudiedMeasure& studied, std::size_t own) {
+  if (studied.values.size() < 3) {
+    studied.reason = "fewer than three meshes show no order";
+    return;
   }
+  const MeshVerdict verdict = judge_refinement(studied.values, mesh_ratio);
+  if (const auto* limit = std::get_if<MeshLimit>(&verdict)) {
+    studied.limit = *limit;
+    studied.discretisation_error_percent = discretisation_error_percent(studied.values[own], *limit);
+  } else {
+    studied.reason = std::get<std::string>(verdict);
+  }
+}
+
+/// Norms of the displacement have the limit of the field.
+void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const cases::HexMesh& mesh,
+                    const std::variant<FieldLimit, std::string>& field) {
+  if (!is_field_norm(kind)) {
+    auto limit = find_limit(studied.values);
+    if (const auto* found = std::get_if<Limit>(&limit))
+      studied.reference = *found;
+    else
+      studied.no_reference = std::get<std::string>(limit);
+  } else if (const auto* found = std::get_if<FieldLimit>(&field)) {
+    studied.reference =
+        Limit{field_norm(kind, mesh, found->value), field_norm(kind, mesh, found->uncertainty), found->note};
+  } else {
+    studied.no_reference = std::get<std::string>(field);
+  }
+}
+
+} // namespace
+
+MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine) {
+  MeshStudy study;
+  study.refine = meshes.refine;
+  std::vector<const VectorField*> fields;
+  for (const cases::Solution& solution : meshes.solutions) {
+    study.unknowns.push_back(solution.unknowns);
+    fields.push_back(&solution.displacement);
+  }
+  std::variant<FieldLimit, std::string> field = meshes.reason;
+  const auto& measures = scene.definition.measures;
+  if (!fields.empty() && std::any_of(measures.begin(), measures.end(),
+                                     [](const cases::Measure& m) { return is_field_norm(m.kind); }))
+    field = find_limit(fields, [&](const VectorField& difference) {
+      return field_norm(cases::MeasureKind::displacement_field_l2, scene.mesh, difference);
+    });
+  for (const cases::Measure& measure : measures) {
+    StudiedMeasure& studied = study.measures.emplace_back();
+    studied.name = measure.name;
+    for (const cases::Solution& solution : meshes.solutions)
+      studied.values.push_back(evaluate(measure, scene, solution));
+    if (studied.values.empty()) {
+      studied.reason = studied.no_reference = meshes.reason;
+      continue;
+    }
+    find_order(studied, cases::index(own_refine - meshes.refine.front()));
+    find_reference(studied, measure.kind, scene.mesh, field);
+  }
+  if (auto* found = std::get_if<FieldLimit>(&field)) study.field = std::move(*found);
   return study;
 }
 

@@ -3,6 +3,7 @@
 #include "cases/scene/scene.hpp"
 #include "compare/solve/answers.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -33,19 +34,46 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
 /// convergence index.
 double discretisation_error_percent(double value, const MeshLimit& limit);
 
-/// Error bar of the finest value, percent, from two meshes or more: the grid convergence index where three
-/// show a limit, else Roache's bar for two meshes, 3 |(f1 - f2)/f1| x 100, with order 1, the least that a
-/// boundary's edges leave. Infinite when the finest value is zero or not finite.
-double finest_error_percent(const std::vector<double>& coarse_to_fine, double ratio);
+/// A quantity's limit as the meshes that there are let it be known.
+struct Limit {
+  double value;       ///< in the quantity's unit
+  double uncertainty; ///< >= 0, in the same unit: the limit is expected within value -+ uncertainty
+  std::string note;   ///< how it was found; empty: extrapolated with an order that two steps confirm
+};
+
+/// The limit of a sequence, or why none is approached. From three meshes that draw nearer to each other the
+/// extrapolated value, with Roache's factor of 1.25 times its distance to the finest value once the mesh
+/// before shows the same order to within 0.3, and of 3 as long as the order is not confirmed (Oberkampf and
+/// Roy, Verification and Validation in Scientific Computing, 2010, section 8.7); an observed order above 2,
+/// that of trilinear elements, counts as 2. From two meshes, and where the values oscillate but draw nearer,
+/// the finest value -+ three times the last change: the order 1 is assumed, the least that an edge of the
+/// boundary leaves.
+/// @param coarse_to_fine  one value or more, of meshes each of half the width of the one before
+/// @param highest_order   what an observed order above it counts as
+std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine,
+                                            double highest_order = 2);
+
+/// The same of a field of vectors on nodes that all meshes have. The order is that of the distances in the
+/// norm, so that the field is extrapolated as a whole.
+struct FieldLimit {
+  std::vector<Eigen::Vector3d> value;
+  std::vector<Eigen::Vector3d> uncertainty; ///< whose norm, in any norm, is the uncertainty in that norm
+  std::string note;
+};
+using FieldNorm = std::function<double(const std::vector<Eigen::Vector3d>&)>;
+std::variant<FieldLimit, std::string>
+find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm);
 
 /// One measure on the meshes of a study.
 struct StudiedMeasure {
   std::string name;
   std::vector<double> values;     ///< from coarse to fine, in the measure's unit
-  std::optional<MeshLimit> limit; ///< absent when there is none to be seen
-  /// Error bar of the finite elements' value on the case's own mesh; absent with the limit.
+  std::optional<MeshLimit> limit; ///< of the three finest meshes; absent when no order is to be seen
+  /// Error bar of the finite elements' value on the case's own mesh; absent with the order.
   std::optional<double> discretisation_error_percent;
-  std::string reason; ///< why there is no limit; empty when there is one
+  std::string reason;               ///< why no order is to be seen; empty when one is
+  std::optional<Limit> reference{}; ///< what the springs are held against; absent when no limit is approached
+  std::string no_reference{};       ///< why; empty when there is one
 };
 
 /// The finite elements' own error, from the same case on uniformly refined meshes.
@@ -54,10 +82,11 @@ struct MeshStudy {
   std::vector<std::size_t> unknowns;
   std::vector<StudiedMeasure>
       measures; ///< all of the case's, in its order; without values when nothing was solved
+  std::optional<FieldLimit> field{}; ///< of the displacement, for measures that are norms of it
 };
 
 /// What the answers on refined meshes tell of the finite elements' own error, measure by measure.
-/// @param answers  with refined meshes
-MeshStudy study_meshes(const cases::Scene& scene, const Answers& answers);
+/// @param meshes  the scene's, its own among them   @param own_refine  the scene's own refinement
+MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine);
 
 } // namespace springproof::compare

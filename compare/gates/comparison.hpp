@@ -11,12 +11,18 @@ struct Comparison {
   Answers answers;
   std::vector<MeasuredValue> measures;
   std::vector<Gate> gates;             ///< one per expectation
-  std::optional<MeshStudy> mesh_study; ///< when asked for
+  std::optional<MeshStudy> mesh_study; ///< absent when the case has accuracy = "none"
 
-  /// What failed of the case as a whole: it expects nothing, a solve failed.
+  /// What a converged side must not be unless its case accepts that: with inverted cells, or in an unstable
+  /// equilibrium.
+  std::vector<std::string> doubts() const;
+  /// What failed of the case as a whole: it expects nothing, a solve failed or is in doubt.
   std::vector<std::string> failures() const;
-  /// All gates are met and nothing failed. Never met are: an expectation of a measure that is not there, or
-  /// has no finite value; a case that expects nothing; a case of which a solve has failed.
+  /// No solve failed or is in doubt, and no gate is missed but by a side that was not asked for: the success of
+  /// `run`.
+  bool is_sound() const;
+  /// The success of `gate`. Never met are: an expectation of a measure that is not there, or has no finite
+  /// value; a case that expects nothing; a case of which a solve has failed or is in doubt.
   bool met() const;
 };
 
@@ -27,9 +33,5 @@ Comparison comparison_of(cases::Scene scene, Answers answers);
 Comparison compare_case(const cases::Case& definition, const Request& request = {});
 
 bool all_met(const std::vector<Comparison>& cases);
-
-/// Whether a case asks for the reference's error bar by itself: an expectation against a converged reference
-/// does.
-bool asks_for_mesh_study(const cases::Case& definition);
 
 } // namespace springproof::compare

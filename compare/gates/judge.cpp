@@ -24,30 +24,70 @@ std::string why_without_value(const Answers& answers, Quantity quantity) {
   return reason.empty() ? "it has no finite value" : reason;
 }
 
-/// From an error bar of d percent of the finite elements' value f: d f/100 of f itself; of r = 100 (m/f - 1),
-/// to first order in d, (100 + r) d/100 points. The error of a field norm is of a difference of fields, of
-/// which the bar of the norm says nothing.
-std::optional<double> uncertainty(const Gate& gate, const cases::Measure* measure,
-                                  const StudiedMeasure* study) {
-  const Quantity quantity = gate.expectation.quantity;
-  if (!study || !measure || !study->discretisation_error_percent || !gate.value || quantity == Quantity::msm)
-    return std::nullopt;
-  const double part = *study->discretisation_error_percent / 100;
-  if (quantity == Quantity::fem) return part * std::abs(*gate.value);
-  if (is_field_norm(measure->kind)) return std::nullopt;
-  return part * std::abs(100 + *gate.value);
+bool needs_limit(const cases::Expectation& expected) {
+  return expected.reference == cases::ReferenceKind::converged && expected.quantity != Quantity::msm;
 }
 
-std::string warning_of(const Gate& gate, const StudiedMeasure* study) {
+std::optional<double> value_of(const cases::Expectation& expected, const MeasuredValue& measured) {
+  switch (expected.quantity) {
+  case Quantity::error_percent:
+    return measured.error_percent;
+  case Quantity::msm:
+    return measured.msm;
+  case Quantity::fem:
+    return needs_limit(expected) && measured.fem_limit ? measured.fem_limit->value : measured.fem;
+  }
+  return std::nullopt;
+}
+
+/// Of the value, in the gate's unit. From an error bar of d percent of the finite elements' value f: d f/100
+/// of f itself.
+std::optional<double> uncertainty(const cases::Expectation& expected, const MeasuredValue& measured,
+                                  const StudiedMeasure* study) {
+  switch (expected.quantity) {
+  case Quantity::error_percent:
+    return measured.error_uncertainty_percent;
+  case Quantity::msm:
+    return std::nullopt;
+  case Quantity::fem:
+    if (needs_limit(expected) && measured.fem_limit) return measured.fem_limit->uncertainty;
+    if (!study || !study->discretisation_error_percent || !measured.fem) return std::nullopt;
+    return *study->discretisation_error_percent / 100 * std::abs(*measured.fem);
+  }
+  return std::nullopt;
+}
+
+/// What would decide a gate that the reference's uncertainty leaves open.
+std::string what_decides(const MeshStudy& study) {
+  return fmt::format("a finer reference decides it: --converge={} (a mesh of about {:.2g} unknowns)",
+                     study.refine.size() + 1, 8. * static_cast<double>(study.unknowns.back()));
+}
+
+/// Of a converged reference: the interval has to hold for all that the reference may be.
+void judge_with_uncertainty(Gate& gate, const StudiedMeasure* studied, const MeshStudy* study) {
+  if (!gate.value) return;
+  if (!gate.uncertainty) {
+    gate.missed =
+        "there is no converged reference: " + (studied ? studied->no_reference : "no mesh study was made");
+    return;
+  }
+  const auto& [lower, upper] = gate.expectation.interval;
+  const double least = *gate.value - *gate.uncertainty, most = *gate.value + *gate.uncertainty;
+  if (lower <= least && most <= upper) return; // met
+  gate.is_undecided = least <= upper && lower <= most;
+  if (gate.is_undecided)
+    gate.missed =
+        fmt::format("undecided: {:.6g} +- {:.2g} is partly outside [{:.6g}, {:.6g}]; {}", *gate.value,
+                    *gate.uncertainty, lower, upper, study ? what_decides(*study) : "");
+}
+
+std::string warning_of(const Gate& gate) {
   const cases::Expectation& expected = gate.expectation;
   const double width = expected.interval[1] - expected.interval[0];
   if (gate.uncertainty && !(width >= 2 * *gate.uncertainty))
     return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}",
                        *gate.uncertainty, gate.unit);
-  if (expected.reference != cases::ReferenceKind::converged || gate.uncertainty ||
-      expected.quantity == Quantity::msm || !gate.value)
-    return "";
-  return "the reference has no error bar" + (study && !study->reason.empty() ? ": " + study->reason : "");
+  return "";
 }
 
 bool is_finite(const cases::Solution& s) {
@@ -62,9 +102,7 @@ bool is_finite(const cases::Solution& s) {
 Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
   const MeasuredValue* found = find_named(measures, expectation.measure);
   if (!found) return {expectation, std::nullopt, "there is no such measure"};
-  const std::optional<double> value = expectation.quantity == Quantity::error_percent ? found->error_percent
-                                      : expectation.quantity == Quantity::msm         ? found->msm
-                                                                                      : found->fem;
+  const std::optional<double> value = value_of(expectation, *found);
   if (!value) return {expectation, value, "it has no value: a side failed or was not solved"};
   if (!std::isfinite(*value)) return {expectation, std::nullopt, "it is not a finite number"};
   const auto& [lower, upper] = expectation.interval;
@@ -77,13 +115,14 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
   std::vector<Gate> gates;
   for (const cases::Expectation& expected : scene.definition.expectations) {
     const cases::Measure* measure = find_named(scene.definition.measures, expected.measure);
+    const MeasuredValue* measured = find_named(measures, expected.measure);
     const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
     Gate gate = judge(expected, measures);
     gate.unit = expected.quantity == Quantity::error_percent ? "%" : measure ? unit_of(*measure) : "";
-    if (!gate.met() && !gate.value && find_named(measures, expected.measure))
-      gate.cause = why_without_value(answers, expected.quantity);
-    gate.uncertainty = uncertainty(gate, measure, studied);
-    gate.warning = warning_of(gate, studied);
+    if (!gate.met() && !gate.value && measured) gate.cause = why_without_value(answers, expected.quantity);
+    if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied);
+    if (needs_limit(expected)) judge_with_uncertainty(gate, studied, study);
+    gate.warning = warning_of(gate);
     gates.push_back(gate);
   }
   return gates;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/measured_values.hpp"
 #include "compare/measure/measure.hpp"
 
 namespace springproof::compare {
@@ -12,15 +12,18 @@ struct Gate {
   std::optional<double> value;
   std::string missed{}; ///< why it is not met; empty when it is
   std::string unit{};   ///< of the interval and the value: "%", "mm", "deg", "mm3"
-  /// Half the width of the reference's own error bar from its mesh study, in the unit: shown, and added to
-  /// neither side. Absent where there is none, and for the springs' own value, which has no reference.
+  /// Half the width of the reference's own error bar from its mesh study, in the unit. A gate against a
+  /// converged reference is met when all of value -+ uncertainty is inside; for others it is shown alone.
+  /// Absent where there is none, and for the springs' own value, which has no reference.
   std::optional<double> uncertainty{};
-  std::string warning{}; ///< such as that the interval is narrower than the error bar; empty: none
-  std::string cause{};   ///< why a measure that is there has no value; empty when it has one
+  bool is_undecided = false; ///< not met, because the interval's end lies within the uncertainty
+  std::string warning{};     ///< such as that the interval is narrower than the error bar; empty: none
+  std::string cause{};       ///< why a measure that is there has no value; empty when it has one
   bool met() const { return missed.empty(); }
 };
 
-/// By the values alone.  @param measures  of the same case
+/// By what was measured alone. Of a converged reference the finite elements' value is their limit.
+/// @param measures  of the same case
 Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
 
 /// Judges every expectation of a case by what was measured.

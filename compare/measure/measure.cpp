@@ -62,16 +62,16 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
   return std::sqrt(integral / volume);
 }
 
-double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
-  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field);
-  const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
-  return vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
-}
-
 } // namespace
 
 bool is_field_norm(MeasureKind kind) {
   return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
+}
+
+double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
+  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field);
+  const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
+  return vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
 }
 
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
@@ -94,17 +94,20 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
   return std::nan(""); // not reached: every kind is above
 }
 
+std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh& mesh,
+                                          const std::vector<Vector3d>& reference,
+                                          const std::vector<Vector3d>& other) {
+  std::vector<Vector3d> difference;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) difference.push_back(other[n] - reference[n]);
+  const double size = field_norm(kind, mesh, reference), distance = field_norm(kind, mesh, difference);
+  return error_percent(size, size + distance); // distance/size, with its care for a zero field
+}
+
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
-  if (!is_field_norm(measure.kind))
-    return error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm));
-  std::vector<Vector3d> difference;
-  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n)
-    difference.push_back(msm.displacement[n] - fem.displacement[n]);
-  const double size = evaluate(measure, scene, fem);
-  const double distance = field_norm(measure.kind, scene.mesh, difference);
-  return error_percent(size,
-                       size + distance); // (size + distance - size)/size, with its care for a zero field
+  return is_field_norm(measure.kind)
+             ? field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement)
+             : error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm));
 }
 
 std::string unit_of(const cases::Measure& measure) {
@@ -124,23 +127,6 @@ std::optional<double> error_percent(double fem, double msm) {
   // A reference that is zero but for rounding has no relative error.
   if (!std::isfinite(error) || !(std::abs(fem) > 1e-9 * std::abs(msm))) return std::nullopt;
   return error;
-}
-
-std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers) {
-  std::vector<MeasuredValue> values;
-  for (const cases::Measure& measure : scene.definition.measures) {
-    const auto value_by = [&](const Answer& answer) -> std::optional<double> {
-      if (!answer.converged()) return std::nullopt;
-      return evaluate(measure, scene, answer.solution);
-    };
-    MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm),
-                        std::nullopt};
-    if (answers.peer) value.peer = value_by(answers.peer->answer);
-    if (value.fem && value.msm)
-      value.error_percent = measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
-    values.push_back(value);
-  }
-  return values;
 }
 
 } // namespace springproof::compare

@@ -12,8 +12,18 @@ namespace springproof::compare {
 /// Source: thesis sections 4.3.3 and 5.3.1.3 but for the two norms.
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
 
-/// Error of the springs in a measure, percent. For a field norm that of the difference of both fields over
-/// that of the finite elements', never negative; otherwise error_percent() of the two values.
+/// The norm of a field on a mesh's nodes that a measure of the displacement field is.
+/// @param kind  of which is_field_norm() holds   @param field  a vector per node
+double field_norm(cases::MeasureKind kind, const cases::HexMesh& mesh,
+                  const std::vector<Eigen::Vector3d>& field);
+
+/// Error of a displacement in a field's norm, percent of the reference's; never negative.
+std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::HexMesh& mesh,
+                                          const std::vector<Eigen::Vector3d>& reference,
+                                          const std::vector<Eigen::Vector3d>& other);
+
+/// Error of the springs in a measure, percent: field_error_percent() of a field norm, otherwise
+/// error_percent() of the two values.
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm);
 
@@ -27,13 +37,6 @@ std::string unit_of(const cases::Measure& measure);
 /// finite.
 std::optional<double> error_percent(double fem, double msm);
 
-/// A measure on both sides. A side that failed or was skipped has no value.
-struct MeasuredValue {
-  std::string name, unit;
-  std::optional<double> fem, msm, error_percent;
-  std::optional<double> peer = std::nullopt; ///< by another program, when it was asked
-};
-
 /// What has that name, or null.
 template<class Named>
 const Named* find_named(const std::vector<Named>& all, const std::string& name) {
@@ -41,8 +44,5 @@ const Named* find_named(const std::vector<Named>& all, const std::string& name) 
     if (one.name == name) return &one;
   return nullptr;
 }
-
-/// All measures of a case, in its order.
-std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers);
 
 } // namespace springproof::compare

@@ -26,9 +26,9 @@ struct Peer {
 
 /// The finite elements on uniformly refined meshes, the case's own among them, from coarse to fine.
 struct RefinedMeshes {
-  std::vector<int> refine; ///< refinements of the body's mesh, ascending
-  std::vector<cases::Solution> solutions;
-  std::string reason; ///< why there are no solutions; empty when there are
+  std::vector<int> refine;                ///< refinements of the body's mesh, ascending
+  std::vector<cases::Solution> solutions; ///< one for each
+  std::string reason; ///< why there are none or no more; empty when all that were tried are there
 };
 
 /// All that solving a case has found. Produced whole by solve(), and not changed afterwards.
@@ -38,7 +38,7 @@ struct Answers {
   Answer fem, msm;
   std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
-  std::optional<RefinedMeshes> refined;    ///< when asked for
+  std::optional<RefinedMeshes> refined;    ///< of the finite elements' limit, when asked for
   std::optional<Peer> peer;                ///< when asked for
 
   /// A side that was asked for did not converge.
@@ -51,7 +51,7 @@ struct Answers {
 /// What is asked of a case, besides what its file says.
 struct Request {
   std::optional<cases::Side> only; ///< absent: both sides
-  int meshes = 0;                  ///< of the finite elements' own error; 0: none
+  int meshes = 0;                  ///< of the finite elements' limit; 0: as many as [fem] accuracy asks for
   std::string peer{};              ///< a program that is asked too; empty: none
   int n_threads = 1;               ///< of the springs' multigrid path; numbers do not depend on it
   bool asks(cases::Side side) const { return !only || *only == side; }

@@ -7,6 +7,7 @@
 #include "compare/solve/kept.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <mpi.h>
@@ -23,6 +24,14 @@ std::string identity(const Question& question) {
 std::string path_of(const std::string& folder, const Question& question, FileNames names) {
   const std::string solved = folder + "/solved/";
   return solved + (names == FileNames::of_cases ? question.scene.definition.name : identity(question));
+}
+
+/// File of an answer on one of a question's meshes.
+std::string path_of_mesh(const std::string& folder, const std::string& identity) {
+  return folder + "/solved/mesh-" + identity;
+}
+std::string identity_of_mesh(const Question& question, const cases::Fem& fem) {
+  return identity({with_fem(question.scene, fem), question.request});
 }
 
 /// The kept answers' bytes; empty if there are none for this question.
@@ -79,8 +88,35 @@ std::optional<Answers> FinishedCases::find(const Question& question) const {
 }
 
 void FinishedCases::keep(const Question& question, const Answers& answers) const {
-  if (!folder_.empty())
-    write_kept(path_of(folder_, question, names_), identity(question), cases::to_bytes(answers));
+  if (folder_.empty()) return;
+  write_kept(path_of(folder_, question, names_), identity(question), cases::to_bytes(answers));
+  if (!answers.refined || answers.failed()) return;
+  cases::Fem fem = answers.resolved;
+  for (const int refine : answers.refined->refine) {
+    fem.refine = refine;
+    std::filesystem::remove(path_of_mesh(folder_, identity_of_mesh(question, fem)));
+  }
+}
+
+KeptMeshes FinishedCases::meshes_in(const std::string& folder, const Question& question) {
+  if (folder.empty()) return {};
+  const auto find = [folder, &question](const cases::Fem& fem) -> std::optional<Answer> {
+    const std::string identity = identity_of_mesh(question, fem);
+    const std::string bytes =
+        from_rank_0(mpi_rank() == 0 ? answers_in(path_of_mesh(folder, identity), identity) : "");
+    if (bytes.empty()) return std::nullopt;
+    if (mpi_rank() == 0)
+      std::cerr << question.scene.definition.name << ": the mesh refined " << fem.refine
+                << " times is solved already, taken from the earlier results in the same folder\n";
+    Answer answer;
+    cases::from_bytes(bytes, answer);
+    return answer;
+  };
+  const auto keep = [folder, &question](const cases::Fem& fem, const Answer& answer) {
+    const std::string identity = identity_of_mesh(question, fem);
+    if (mpi_rank() == 0) write_kept(path_of_mesh(folder, identity), identity, cases::to_bytes(answer));
+  };
+  return {find, keep};
 }
 
 Answers kept_answers(const std::string& folder, const Question& question, FileNames names) {

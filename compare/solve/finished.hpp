@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/answers.hpp"
+#include "compare/solve/solve.hpp"
 
 namespace springproof::compare {
 
@@ -27,8 +27,15 @@ class FinishedCases {
   /// reads, all get them.
   std::optional<Answers> find(const Question& question) const;
 
+  /// Single meshes of the case's mesh study are no longer needed then.
   /// @throws InputError if the file cannot be written
   void keep(const Question& question, const Answers& answers) const;
+
+  /// The finite elements' answers on single meshes of a question's study, for when it is interrupted: kept
+  /// one file a mesh, as soon as it is solved. May be used by a worker process.
+  /// @param folder  that a FinishedCases has claimed; empty: nothing is kept
+  static KeptMeshes meshes_in(const std::string& folder, const Question& question);
+  const std::string& folder() const { return folder_; }
 
  private:
   std::string folder_;

@@ -48,6 +48,12 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
           "displacement under it grows without bound as the mesh is refined; use a traction",
           i);
   }
+  for (std::size_t i = 0; i < scene.moved.size(); ++i)
+    if (!is_area(scene.moved[i].selection))
+      return fmt::format(
+          "moved[{}] is of points or edges, which meet no resistance in the continuum: what moves "
+          "with them shrinks without bound as the mesh is refined; move an area",
+          i);
   return std::nullopt;
 }
 
@@ -56,46 +62,27 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
   return scene;
 }
 
-RefinedMeshes solve_refined(const cases::Scene& scene, const cases::Solution& own, int n_meshes) {
-  if (const auto reason = reason_without_continuum_limit(scene)) return {{}, {}, *reason};
-  if (own.status != cases::Status::converged) return {{}, {}, "the case's own mesh was not solved"};
-  RefinedMeshes meshes;
-  cases::Fem fem = scene.definition.fem;
-  const int own_refine = fem.refine, finest = std::max(n_meshes - 1, own_refine);
-  for (fem.refine = finest - n_meshes + 1; fem.refine <= finest; ++fem.refine) {
-    meshes.refine.push_back(fem.refine);
-    try {
-      meshes.solutions.push_back(fem.refine == own_refine
-                                     ? own
-                                     : fem_reference::Model(with_fem(scene, fem), MPI_COMM_WORLD).solve());
-    } catch (const cases::SolveError& error) {
-      return {{}, {}, fmt::format("the mesh refined {} times was not solved: {}", fem.refine, error.what())};
-    }
-  }
-  return meshes;
-}
-
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   return {solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
                      [&](fem_reference::Model& model) { return model.solve(settings); }),
           scene.definition.fem,
+          {},
           {}};
 }
 
-Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem) {
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept) {
   Answers answers;
   answers.resolved = scene.definition.fem;
   if (request.asks(cases::Side::fem)) {
-    FemAnswer fem = solve_fem(scene);
+    FemAnswer fem = solve_fem(scene, request.meshes, kept);
     answers.fem = std::move(fem.answer);
     answers.resolved = fem.resolved;
     answers.choices = std::move(fem.choices);
+    answers.refined = std::move(fem.refined);
   }
   if (request.asks(cases::Side::msm))
     answers.msm = solve_springs_on_ranks(scene, request.n_threads, answers.design);
-  if (request.meshes > 0)
-    answers.refined = solve_refined(with_fem(scene, answers.resolved), answers.fem.solution, request.meshes);
   return answers;
 }
 

@@ -3,6 +3,8 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/answers.hpp"
 
+#include <functional>
+
 namespace springproof::compare {
 
 /// Solution of a failed solve; of a case that no model can be made of (InputError), refused.
@@ -44,11 +46,21 @@ struct FemAnswer {
   Answer answer;
   cases::Fem resolved;
   std::vector<std::string> choices; ///< a line for everything that was chosen, with the reason and the cost
+  std::optional<RefinedMeshes> refined{}; ///< absent when none was asked for
+};
+
+/// The finite elements' answers on single meshes that an interrupted command left; the others are to be kept.
+/// Both are collective over MPI_COMM_WORLD.
+struct KeptMeshes {
+  std::function<std::optional<Answer>(const cases::Fem&)> find = [](const cases::Fem&) {
+    return std::nullopt;
+  };
+  std::function<void(const cases::Fem&, const Answer&)> keep = [](const cases::Fem&, const Answer&) {};
 };
 
 /// How the finite elements' side is solved: solve_fem() of compare/error_bars, which knows how to find what
-/// "auto" in [fem] leaves open, or solve_fem_as_given().
-using SolveFem = FemAnswer (*)(const cases::Scene& scene);
+/// "auto" in [fem] leaves open and the limit.
+using SolveFem = FemAnswer (*)(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept);
 
 /// With the formulation and refinement of the scene's definition as they are. Collective over MPI_COMM_WORLD.
 FemAnswer solve_fem_as_given(const cases::Scene& scene);
@@ -60,16 +72,10 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
 /// The scene with another [fem], such as the one that "auto" was found to mean.
 cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem);
 
-/// Solves the finite elements on n_meshes meshes, from the body's own on, or on the finest of them around the
-/// case's own when that is refined further. Nothing is solved when there is no continuum limit. A solve that
-/// fails leaves its reason alone. Collective over MPI_COMM_WORLD.
-/// @param own       the solution at the scene's own refinement, used again
-/// @param n_meshes  at least 3
-RefinedMeshes solve_refined(const cases::Scene& scene, const cases::Solution& own, int n_meshes);
-
 /// Solves both sides of a case, or the one asked for, and the refined meshes if asked for. A solve that fails
 /// is a failed side. Collective over MPI_COMM_WORLD; the mass-spring side is solved on rank 0 alone.
 /// @throws InputError
-Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem);
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem,
+              const KeptMeshes& kept = {});
 
 } // namespace springproof::compare

@@ -23,9 +23,9 @@ Answers failed_answers(const Request& request, const std::exception& error) {
   return answers;
 }
 
-Answers solve_in_this_process(const Question& question, SolveFem solve_fem) {
+Answers solve_in_this_process(const Question& question, const std::string& folder, SolveFem solve_fem) {
   try {
-    return solve(question.scene, question.request, solve_fem);
+    return solve(question.scene, question.request, solve_fem, FinishedCases::meshes_in(folder, question));
   } catch (const std::exception& error) {
     return failed_answers(question.request, error);
   }
@@ -95,8 +95,9 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
 
 std::string answer_job(const std::string& bytes, SolveFem solve_fem) {
   Question question;
-  cases::from_bytes(bytes, question);
-  return cases::to_bytes(solve_in_this_process(question, solve_fem));
+  std::string folder;
+  cases::from_bytes(bytes, question, folder);
+  return cases::to_bytes(solve_in_this_process(question, folder, solve_fem));
 }
 
 std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
@@ -138,12 +139,13 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
     answers[next.question] = std::move(fresh);
   };
   if (!is_alone) {
-    for (const Open& next : open) take(next, solve_in_this_process(begin(next), solve_fem));
+    for (const Open& next : open)
+      take(next, solve_in_this_process(begin(next), finished.folder(), solve_fem));
     return answers;
   }
   run_in_processes(
       {{options.program, "worker"}, n_workers}, open.size(),
-      [&](std::size_t job) { return cases::to_bytes(begin(open[job])); },
+      [&](std::size_t job) { return cases::to_bytes(begin(open[job]), finished.folder()); },
       [&](std::size_t job, const JobAnswer& answer) {
         take(open[job], answers_from(answer, questions[open[job].question].request));
       });

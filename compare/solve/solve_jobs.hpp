@@ -23,15 +23,16 @@ struct SolveOptions {
 /// Answers every question; what an earlier command has left is taken up, what is solved is kept as soon as it
 /// is. Numbers do not depend on the number of workers, to the last bit. Questions are
 /// handed out in the order of their estimated time, the longest first; a worker gets the scene itself and
-/// reads no file. Whatever goes wrong, a crash of the worker included, is a failed side with its reason, and
-/// the others go on. Under MPI with several ranks this process answers one question after the other, each
-/// distributed (collective).
+/// reads no file but those that FinishedCases keeps. Whatever goes wrong, a crash of the worker included, is
+/// a failed side with its reason, and the others go on. Under MPI with several ranks this process answers one
+/// question after the other, each distributed (collective).
 /// @param solve_fem  as for solve(); workers have their own
 /// @throws InputError before anything is solved, if a question needs more memory than there is
 std::vector<Answers> answer_all(const std::vector<Question>& questions, const FinishedCases& finished,
                                 SolveFem solve_fem, const SolveOptions& options);
 
-/// What a worker does with a question's bytes.  @return the answers' bytes
+/// What a worker does with the bytes of a question and the folder of FinishedCases.  @return the answers'
+/// bytes
 /// @throws cereal's exception for bytes that are no question
 std::string answer_job(const std::string& bytes, SolveFem solve_fem);
 

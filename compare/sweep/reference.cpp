@@ -13,7 +13,6 @@ namespace {
 
 using Field = std::vector<Eigen::Vector3d>;
 
-constexpr double mesh_ratio = 2;
 constexpr double factor_with_order = 1.25, factor_without_order = 3; ///< Roache's (1994)
 constexpr double resolved_percent = 1e-7; ///< what a solve to a residual of 1e-9 leaves undecided
 
@@ -55,13 +54,15 @@ std::optional<double> difference_percent(const cases::Scene& scene, const Field&
   return measure_error_percent(field_measure(), scene, as_solution(scene, truth), as_solution(scene, other));
 }
 
+/// The finest value with three times the last change where no limit is approached.
 ReferenceValue judge(const std::string& name, const std::string& unit, const std::vector<double>& values) {
-  const MeshVerdict verdict = judge_refinement(values, mesh_ratio);
+  const auto found = find_limit(values, 4); // of triquadratic elements, where everything is smooth
   const double finest = values.back();
-  if (const auto* limit = std::get_if<MeshLimit>(&verdict))
-    return {name, unit, limit->extrapolated, limit->index_percent, ""};
-  const double change = 100 * std::abs((finest - values[values.size() - 2]) / finest);
-  return {name, unit, finest, factor_without_order * change, std::get<std::string>(verdict)};
+  const auto percent = [&](double uncertainty) { return 100 * std::abs(uncertainty / finest); };
+  if (const auto* limit = std::get_if<Limit>(&found))
+    return {name, unit, limit->value, percent(limit->uncertainty), limit->note};
+  return {name, unit, finest, percent(factor_without_order * (finest - values[values.size() - 2])),
+          std::get<std::string>(found)};
 }
 
 /// Extrapolates the displacement on the middle mesh.

@@ -61,20 +61,35 @@ void write_peer(std::ostream& out, const Peer& peer) {
   fmt::print(out, "\n");
 }
 
-/// The reason that all measures share, if there is one: then it is told once.
-std::string common_reason(const MeshStudy& study) {
-  const auto same = [&](const StudiedMeasure& m) { return m.reason == study.measures.front().reason; };
-  const bool is_common =
-      !study.measures.empty() && std::all_of(study.measures.begin(), study.measures.end(), same);
-  return is_common ? study.measures.front().reason : "";
+/// "9.23 +- 1.1", or without the error bar; "-" when there is no value.
+std::string with_bar(const std::optional<double>& value, const char* format,
+                     const std::optional<double>& bar) {
+  return number(value, format) + (bar ? fmt::format(" +- {:.2g}", *bar) : "");
 }
 
-/// A table of values, orders and error bars, or the one reason why there is none.
-void write_mesh_study(std::ostream& out, const MeshStudy& study) {
-  if (const std::string reason = common_reason(study); !reason.empty()) {
-    fmt::print(out, "  no discretisation error: {}\n", reason);
+/// What a value of all measures has in common, if it has: then it is told once.
+template<class Get>
+std::string common_text(const std::vector<StudiedMeasure>& measures, const Get& get) {
+  const bool is_common =
+      !measures.empty() && std::all_of(measures.begin(), measures.end(), [&](const StudiedMeasure& m) {
+        return get(m) == get(measures.front());
+      });
+  return is_common ? get(measures.front()) : "";
+}
+
+/// Why the errors are against the same mesh, of those measures of which they are.
+void write_missing_limits(std::ostream& out, const MeshStudy& study) {
+  const auto reason = [](const StudiedMeasure& m) { return m.no_reference; };
+  if (const std::string common = common_text(study.measures, reason); !common.empty()) {
+    fmt::print(out, "  errors are against the finite elements on the same mesh: {}\n", common);
     return;
   }
+  for (const StudiedMeasure& m : study.measures)
+    if (!m.reference) fmt::print(out, "  {}: error against the same mesh: {}\n", m.name, m.no_reference);
+}
+
+/// A table of the values on every mesh, with orders and error bars.
+void write_mesh_study(std::ostream& out, const MeshStudy& study) {
   fmt::print(out, "  fem on refined meshes    ");
   for (const int refine : study.refine) fmt::print(out, " {:>12}", fmt::format("refine {}", refine));
   fmt::print(out, " {:>7} {:>12} {:>10} {:>10}\n", "order", "limit", "GCI %", "fem +- %");
@@ -86,7 +101,36 @@ void write_mesh_study(std::ostream& out, const MeshStudy& study) {
                  measure.limit->extrapolated, measure.limit->index_percent,
                  *measure.discretisation_error_percent);
     else
-      fmt::print(out, "  no limit: {}\n", measure.reason);
+      fmt::print(out, "  no order: {}\n", measure.reason);
+  }
+}
+
+/// One line a measure: against the limit first, where there is one, then against the same mesh.
+void write_measures(std::ostream& out, const std::vector<MeasuredValue>& measures,
+                    const std::optional<Peer>& peer) {
+  const bool has_limits = std::any_of(measures.begin(), measures.end(),
+                                      [](const MeasuredValue& m) { return m.fem_limit.has_value(); });
+  const auto line = [&](const std::string& name, const std::string& unit, const std::string& fem,
+                        const std::string& msm, const std::string& limit, const std::string& error,
+                        const std::string& same_mesh, const std::string& fem_error,
+                        const std::string& other) {
+    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14}", name, unit, fem, msm);
+    if (has_limits)
+      fmt::print(out, " {:>22} {:>15} {:>11} {:>11}", limit, error, same_mesh, fem_error);
+    else
+      fmt::print(out, " {:>10}", error);
+    if (peer) fmt::print(out, " {:>14}", other);
+    fmt::print(out, "\n");
+  };
+  line("measure", "unit", "fem", "msm", "fem's limit", "error %", "same mesh %", "fem error %",
+       peer ? peer->program : "");
+  for (const MeasuredValue& m : measures) {
+    const auto& limit = m.fem_limit;
+    line(m.name, m.unit, number(m.fem, "{:.6g}"), number(m.msm, "{:.6g}"),
+         limit ? with_bar(limit->value, "{:.6g}", limit->uncertainty) : "-",
+         with_bar(m.error_percent, "{:+.2f}", m.error_uncertainty_percent),
+         number(m.error_same_mesh_percent, "{:+.2f}"), number(m.fem_error_percent, "{:+.2f}"),
+         number(m.peer, "{:.6g}"));
   }
 }
 
@@ -150,11 +194,22 @@ Json peer_to_json(const Peer& peer) {
 Json comparison_to_json(const Comparison& comparison) {
   Json measures = Json::array(), expectations = Json::array();
   for (const MeasuredValue& m : comparison.measures) {
+    const std::optional<Limit>& limit = m.fem_limit;
+    const StudiedMeasure* studied =
+        comparison.mesh_study ? find_named(comparison.mesh_study->measures, m.name) : nullptr;
+    const std::string reason = studied ? studied->no_reference : "no limit was asked for";
     measures.push_back({{"name", m.name},
                         {"unit", m.unit},
+                        {"reference", m.fem_limit ? "limit" : "same_mesh"},
                         {"fem", m.fem},
+                        {"fem_limit", limit ? Json(limit->value) : Json()},
+                        {"fem_limit_uncertainty", limit ? Json(limit->uncertainty) : Json()},
+                        {"fem_limit_note", limit ? limit->note : reason},
                         {"msm", m.msm},
-                        {"error_percent", m.error_percent}});
+                        {"error_percent", m.error_percent},
+                        {"error_uncertainty_percent", m.error_uncertainty_percent},
+                        {"error_same_mesh_percent", m.error_same_mesh_percent},
+                        {"fem_error_percent", m.fem_error_percent}});
     if (comparison.answers.peer) measures.back()["peer"] = m.peer;
   }
   for (const Gate& gate : comparison.gates)
@@ -164,6 +219,7 @@ Json comparison_to_json(const Comparison& comparison) {
                             {"reference", cases::name_of(gate.expectation.reference)},
                             {"value", gate.value},
                             {"met", gate.met()},
+                            {"undecided", gate.is_undecided},
                             {"reason", gate.missed}});
   Json document{{"name", comparison.scene.definition.name},
                 {"description", comparison.scene.definition.description},
@@ -171,7 +227,8 @@ Json comparison_to_json(const Comparison& comparison) {
                 {"msm", msm_to_json(comparison.answers)},
                 {"measures", measures},
                 {"expectations", expectations},
-                {"status", comparison.answers.failed() ? "failed" : "converged"}};
+                {"status", comparison.answers.failed() ? "failed" : "converged"},
+                {"doubts", comparison.doubts()}};
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);
   return document;
 }
@@ -194,16 +251,12 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) fmt::print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);
-  const auto in_column_of_peer = [&peer = answers.peer](const std::string& text) {
-    return peer ? fmt::format(" {:>14}", text) : "";
-  };
-  fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", "measure", "unit", "fem", "msm", "error %",
-             in_column_of_peer(answers.peer ? answers.peer->program : ""));
-  for (const MeasuredValue& m : measures)
-    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14} {:>10}{}\n", m.name, m.unit, number(m.fem, "{:.6g}"),
-               number(m.msm, "{:.6g}"), number(m.error_percent, "{:+.2f}"),
-               in_column_of_peer(number(m.peer, "{:.6g}")));
-  if (mesh_study) write_mesh_study(out, *mesh_study);
+  write_measures(out, measures, answers.peer);
+  if (mesh_study) {
+    write_missing_limits(out, *mesh_study);
+    if (mesh_study->refine.size() > 1) write_mesh_study(out, *mesh_study);
+  }
+  for (const std::string& doubt : comparison.doubts()) fmt::print(out, "  FAILED: {}\n", doubt);
   for (const Gate& gate : gates)
     fmt::print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED", gate.expectation.measure,
                cases::name_of(gate.expectation.reference),
@@ -251,13 +304,18 @@ Json to_json(const std::vector<Comparison>& comparisons) {
 void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
   CsvWriter csv(out, 10);
   csv.row("case", "measure", "unit", "fem", "msm", "error_percent", "fem_status", "msm_status",
-          "fem_discretisation_error_percent", "peer");
+          "fem_discretisation_error_percent", "peer", "reference", "fem_limit", "fem_limit_uncertainty",
+          "error_uncertainty_percent", "error_same_mesh_percent");
   for (const auto& [scene, answers, measures, gates, study] : comparisons)
     for (std::size_t i = 0; i < measures.size(); ++i) {
       const MeasuredValue& m = measures[i];
+      const std::optional<Limit>& limit = m.fem_limit;
       csv.row(scene.definition.name, m.name, m.unit, m.fem, m.msm, m.error_percent,
               cases::name_of(answers.fem.solution.status), cases::name_of(answers.msm.solution.status),
-              study ? study->measures[i].discretisation_error_percent : std::nullopt, m.peer);
+              study ? study->measures[i].discretisation_error_percent : std::nullopt, m.peer,
+              m.fem_limit ? "limit" : "same_mesh", limit ? std::optional(limit->value) : std::nullopt,
+              limit ? std::optional(limit->uncertainty) : std::nullopt, m.error_uncertainty_percent,
+              m.error_same_mesh_percent);
     }
 }
 
@@ -269,6 +327,10 @@ void write_vtu(std::ostream& out, const Comparison& comparison) {
     if (solution.displacement.empty()) return;
     displacements.push_back({side + "_displacement", solution.displacement});
     volumes.push_back({side + "_cell_volume", solution.cell_volume});
+    std::vector<double> inverted;
+    for (const bool is_inverted : cases::inverted_cells(comparison.scene.mesh, solution.displacement))
+      inverted.push_back(is_inverted ? 1 : 0);
+    volumes.push_back({side + "_inverted", inverted});
   };
   add("fem", fem);
   add("msm", msm);

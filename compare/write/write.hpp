@@ -22,7 +22,8 @@ nlohmann::ordered_json side_to_json(const Answer& side);
 nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
 
 /// One row per case and measure: case,measure,unit,fem,msm,error_percent,fem_status,msm_status,
-/// fem_discretisation_error_percent,peer; empty where there is no value.
+/// fem_discretisation_error_percent,peer,reference,fem_limit,fem_limit_uncertainty,error_uncertainty_percent,
+/// error_same_mesh_percent; empty where there is no value.
 void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
 
 /// The body's mesh as a VTK unstructured grid (.vtu, raw binary) with the displacements and cell volumes of

@@ -138,6 +138,7 @@ Json gate_to_json(const Comparison& judged, const Gate& gate) {
           {"value", gate.value},
           {"reference_uncertainty", gate.uncertainty},
           {"met", gate.met()},
+          {"undecided", gate.is_undecided},
           {"reason", reason_of(gate)},
           {"warning", gate.warning}};
 }
@@ -152,6 +153,9 @@ std::string describe(const Gate& gate) {
   const cases::Expectation& expected = gate.expectation;
   const std::string what = fmt::format("{} {}", expected.measure, cases::name_of(expected.quantity));
   if (!gate.value) return what + ": " + reason_of(gate);
+  // An undecided gate, or one without the reference that it asks for, says so in its reason.
+  const bool is_inside = expected.interval[0] <= *gate.value && *gate.value <= expected.interval[1];
+  if (gate.is_undecided || (is_inside && !gate.met())) return what + ": " + gate.missed;
   return what + fmt::format(" = {:.9g} {}, {} [{}, {}]", *gate.value, gate.unit, gate.met() ? "in" : "not in",
                             expected.interval[0], expected.interval[1]);
 }

@@ -86,8 +86,9 @@ TEST_CASE("a mistake in [fem] is refused where it is made") {
        19,
        "fem.formulation",
        {"is \"autom\"", "did you mean \"auto\"?"}},
-      {"refine = 1", "accuracy = 'fine'", 21, "fem.accuracy", {"\"auto\""}},
-      {"refine = 1", "refine = 1\naccuracy = 'auto'", 21, "fem.refine", {"accuracy = \"auto\" finds it"}},
+      {"refine = 1", "accuracy = 'fine'", 21, "fem.accuracy", {"\"auto\"", "\"none\""}},
+      {"refine = 1", "accept = ['inverted', 'inverted']", 21, "fem.accept[1]", {"not in the list yet"}},
+      {"refine = 1", "accept = ['loose']", 21, "fem.accept[0]", {"\"inverted\"", "\"unstable\""}},
   });
 }
 

@@ -114,6 +114,51 @@ TEST_CASE("run --converge gives each measure an error bar, or the reason why the
              Catch::Contains("no continuum limit"));
 }
 
+TEST_CASE("errors are against the limit where there is one, and against the same mesh where there is none") {
+  const std::string block = cases_folder + "/gates/sheared_block.toml";
+  const ProgramRun outcome = run_program("run --json " + block);
+  REQUIRE(outcome.status == 0);
+  for (const auto& m : nlohmann::json::parse(outcome.out)["cases"][0]["measures"]) {
+    CHECK(m["reference"] == "limit");
+    const double limit = m["fem_limit"], fem = m["fem"], msm = m["msm"];
+    CHECK(m["error_percent"].get<double>() == Approx(100 * (msm / limit - 1)).epsilon(1e-12)); // rounding
+    CHECK(m["error_same_mesh_percent"].get<double>() == Approx(100 * (msm / fem - 1)).epsilon(1e-12));
+    CHECK(m["fem_error_percent"].get<double>() == Approx(100 * (fem / limit - 1)).epsilon(1e-12));
+    CHECK(m["error_uncertainty_percent"].get<double>() ==
+          Approx(100 * m["fem_limit_uncertainty"].get<double>() / limit * msm / limit).epsilon(1e-12));
+    CHECK(std::abs(m["fem_error_percent"].get<double>()) > 3); // four cells across
+  }
+  const ProgramRun none = run_program("run --json " + block +
+                                      " --set fem.accuracy=none --set 'expect=[{measure=\"u_x\", "
+                                      "fem=[0, 1], reference=\"exact\", reason=\"a test\"}]'");
+  REQUIRE(none.status == 0);
+  const auto on_mesh = nlohmann::json::parse(none.out)["cases"][0]["measures"][0];
+  CHECK(on_mesh["reference"] == "same_mesh");
+  CHECK(on_mesh["error_percent"] == on_mesh["error_same_mesh_percent"]);
+  CHECK(on_mesh["fem_limit"].is_null());
+  const ProgramRun points = run_program("run " + shear);
+  REQUIRE(points.status == 0);
+  CHECK_THAT(points.out,
+             Catch::Contains("errors are against the finite elements on the same mesh: load[0] is a "
+                             "concentrated force"));
+}
+
+TEST_CASE("run ends with 1 when an expectation is missed or undecided, and gate says what decides it") {
+  const std::string block = cases_folder + "/gates/sheared_block.toml";
+  const auto expecting = [](const std::string& interval) {
+    return " --set 'expect=[{measure=\"u_x\", error_percent=" + interval +
+           ", reference=\"converged\", reason=\"a test\"}]'";
+  };
+  CHECK(run_program("run " + block + expecting("[-12, -5]")).status == 0);
+  CHECK(run_program("run " + block + expecting("[-5, 0]")).status == 1);
+  const ProgramRun undecided = run_program("gate " + block + expecting("[-8.9, 11.1]")); // -8.8 +- 0.6
+  CHECK(undecided.status == 1);
+  CHECK_THAT(undecided.out, Catch::Contains("undecided") && Catch::Contains("--converge="));
+  const ProgramRun refused = run_program("gate " + block + " --set fem.accuracy=none");
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.error, Catch::Contains("fem.accuracy"));
+}
+
 TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") {
   const ProgramRun outcome =
       run_program("run --json --only fem --peer ccx " + shear + " --set fem.element=q1_bbar");

@@ -68,3 +68,69 @@ TEST_CASE("a sequence without a visible limit is answered with the reason") {
   check_no_limit({nan, 2, 3}, "not finite");
   check_no_limit({1, infinity, 3}, "not finite");
 }
+
+namespace {
+
+Limit found_limit(const std::vector<double>& coarse_to_fine) {
+  const auto found = find_limit(coarse_to_fine);
+  REQUIRE(std::holds_alternative<Limit>(found));
+  return std::get<Limit>(found);
+}
+
+} // namespace
+
+TEST_CASE("a limit that one mesh, or meshes that move apart, cannot show is told so") {
+  const auto reason_of = [](const std::vector<double>& values) {
+    return std::get<std::string>(find_limit(values));
+  };
+  CHECK_THAT(reason_of({1}), Catch::Contains("one mesh"));
+  CHECK_THAT(reason_of({1, 2, 3.5}), Catch::Contains("do not draw nearer"));
+  CHECK_THAT(reason_of({1, 2, 0.5}), Catch::Contains("do not draw nearer"));
+  CHECK_THAT(reason_of({1, 2, std::numeric_limits<double>::quiet_NaN()}), Catch::Contains("not finite"));
+}
+
+TEST_CASE("two meshes, and values that oscillate, are known to three times the last change") {
+  CHECK(found_limit({4, 5}).value == 5);
+  CHECK(found_limit({4, 5}).uncertainty == 3);
+  CHECK(found_limit({0, 5, 4}).value == 4);
+  CHECK(found_limit({0, 5, 4}).uncertainty == 3);
+  CHECK(found_limit({0, 5, 4}).note == "the values oscillate");
+}
+
+TEST_CASE("an order is taken at its word once two steps show it", "[verification]") {
+  // 7 + h^p on four meshes: three are extrapolated to the limit, with three times the distance to it
+  for (const double p : {0.5, 1.0, 1.5, 2.0}) {
+    std::vector<double> values;
+    for (int mesh = 0; mesh < 4; ++mesh) values.push_back(7 + std::pow(2., -p * mesh));
+    const double left = values[3] - 7;
+    CHECK(found_limit(values).value == Approx(7).epsilon(1e-12));
+    CHECK(found_limit(values).uncertainty == Approx(1.25 * left).epsilon(1e-9));
+    CHECK(found_limit(values).note.empty());
+    values.erase(values.begin());
+    CHECK(found_limit(values).uncertainty == Approx(3 * left).epsilon(1e-9));
+    CHECK_FALSE(found_limit(values).note.empty());
+  }
+  // an accident: the last change is a hundredth of the one before. It counts as order 2.
+  CHECK(found_limit({0, 1, 1.01}).value == Approx(1.01 + 0.01 / 3));
+  CHECK(found_limit({0, 1, 1.01}).uncertainty == Approx(0.01));
+}
+
+TEST_CASE("a field has the limit of its values", "[verification]") {
+  using Vectors = std::vector<Eigen::Vector3d>;
+  const auto norm = [](const Vectors& field) { return std::hypot(field[0].norm(), field[1].norm()); };
+  std::vector<Vectors> fields;
+  for (int mesh = 0; mesh < 4; ++mesh) {
+    const double h = std::pow(2., -1.5 * mesh);
+    fields.push_back({{1 + h, 2, 0}, {0, 3 - 2 * h, 5 + h}});
+  }
+  const auto found = find_limit({&fields[0], &fields[1], &fields[2], &fields[3]}, norm);
+  REQUIRE(std::holds_alternative<FieldLimit>(found));
+  const auto& limit = std::get<FieldLimit>(found);
+  CHECK((limit.value[0] - Eigen::Vector3d(1, 2, 0)).norm() < 1e-12);
+  CHECK((limit.value[1] - Eigen::Vector3d(0, 3, 5)).norm() < 1e-12);
+  const double left = std::pow(2., -4.5) * std::sqrt(6.);
+  CHECK(norm(limit.uncertainty) == Approx(1.25 * left));
+  CHECK(norm(std::get<FieldLimit>(find_limit({&fields[2], &fields[3]}, norm)).uncertainty) ==
+        Approx(3 * (std::pow(2., 1.5) - 1) * left));
+  CHECK(std::holds_alternative<std::string>(find_limit({&fields[3], &fields[2], &fields[0]}, norm)));
+}

@@ -1,6 +1,6 @@
 #include "compare/error_bars/mesh_study.hpp"
 
-#include "compare/solve/solve.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "fem_reference/model.hpp"
 
 #include <catch2/catch.hpp>
@@ -45,11 +45,8 @@ std::optional<std::string> reason_for(const cases::Load& applied) {
   return reason_without_continuum_limit(cases::make_scene(block(applied)));
 }
 
-MeshStudy study_on_three(const cases::Scene& scene, const cases::Solution& own) {
-  Answers answers;
-  answers.resolved = scene.definition.fem;
-  answers.refined = solve_refined(scene, own, 3);
-  return study_meshes(scene, answers);
+MeshStudy study_on_three(const cases::Scene& scene) {
+  return study_meshes(scene, solve_fem(scene, 3).refined.value(), scene.definition.fem.refine);
 }
 
 } // namespace
@@ -66,7 +63,7 @@ TEST_CASE("forces on nodes and edges have no continuum limit, forces over an are
 }
 
 TEST_CASE("a study of concentrated forces solves nothing and says why") {
-  const MeshStudy study = study_on_three(cases::make_scene(block(load("z+ x+", LoadKind::total_force))), {});
+  const MeshStudy study = study_on_three(cases::make_scene(block(load("z+ x+", LoadKind::total_force))));
   REQUIRE(study.measures.size() == 1);
   CHECK(study.refine.empty());
   CHECK(study.measures[0].values.empty());
@@ -86,7 +83,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
   const cases::Scene scene = cases::make_scene(definition);
   const cases::Solution own = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
 
-  const MeshStudy study = study_on_three(scene, own);
+  const MeshStudy study = study_on_three(scene);
   CHECK(study.refine == std::vector<int>{0, 1, 2});
   const StudiedMeasure& measure = study.measures.at(0);
   REQUIRE(measure.limit.has_value());
@@ -110,10 +107,12 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
 
 TEST_CASE("a stretch that every mesh has exactly leaves nothing to extrapolate", "[verification]") {
   const cases::Scene scene = cases::make_scene(block(load("z+", LoadKind::traction)));
-  const cases::Solution own = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
-  const MeshStudy study = study_on_three(scene, own);
+  const MeshStudy study = study_on_three(scene);
   CHECK(study.measures.at(0).values.size() == 3);
   CHECK(study.measures.at(0).values[0] == Approx(2.2)); // 2 mm at 0.1 MPa and E = 1 MPa
   CHECK_FALSE(study.measures.at(0).limit.has_value());
   CHECK_THAT(study.measures.at(0).reason, Catch::Contains("agree"));
+  REQUIRE(study.measures.at(0).reference.has_value()); // which is what all of them say
+  CHECK(study.measures[0].reference->value == study.measures[0].values[2]);
+  CHECK(study.measures[0].reference->uncertainty == Approx(2.2e-9)); // to what a solve leaves undecided
 }

@@ -59,17 +59,19 @@ TEST_CASE("a solve that failed fails its case, even when nothing was expected of
   CHECK_FALSE(result.met());
 }
 
-TEST_CASE("the reference's error bar is shown in the gate's unit and moves neither side of the interval") {
+TEST_CASE("the reference's error bar is shown in the gate's unit, and moves no gate but a converged one's") {
   // 2 % of 10 mm are 0.2 mm; of an error of -10 % they are 0.02 (100 - 10) = 1.8 points.
-  const auto sure = judged::judge(judged::studied(
+  const auto sure = judged::judge(judged::with_limit(
       comparison({expectation(Quantity::fem, {9, 9.99}), expectation(Quantity::error_percent, {-9.9, 0}),
-                  expectation(Quantity::msm, {8, 10})}),
+                  expectation(Quantity::error_percent, {-11, 0}), expectation(Quantity::msm, {8, 10})}),
       2));
   CHECK(sure.gates[0].uncertainty.value() == Approx(0.2).epsilon(1e-12)); // rounding
   CHECK(sure.gates[1].uncertainty.value() == Approx(1.8).epsilon(1e-12));
-  CHECK_FALSE(sure.gates[2].uncertainty); // the springs' value needs no reference
+  CHECK(sure.gates[2].met());             // -10, though the bar reaches to -11.8
+  CHECK_FALSE(sure.gates[3].uncertainty); // the springs' value needs no reference
   CHECK_FALSE(sure.gates[0].met());       // 10 lies outside, though within the error bar
   CHECK_FALSE(sure.gates[1].met());
+  for (const auto& gate : sure.gates) CHECK_FALSE(gate.is_undecided);
   CHECK(sure.gates[0].warning.empty());
 }
 
@@ -84,15 +86,59 @@ TEST_CASE("an interval narrower than the error bar warns, a wider one does not")
 }
 
 TEST_CASE(
-    "who expects a converged reference asks for its mesh study, and is told when there is no error bar") {
-  const auto expected = expectation(Quantity::fem, {9, 11}, ReferenceKind::converged);
-  CHECK(compare::asks_for_mesh_study(comparison({expected}).scene.definition));
-  CHECK_FALSE(
-      compare::asks_for_mesh_study(comparison({expectation(Quantity::fem, {9, 11})}).scene.definition));
-  CHECK_FALSE(compare::asks_for_mesh_study(
-      comparison({expectation(Quantity::msm, {9, 11}, ReferenceKind::converged)}).scene.definition));
-  auto without = comparison({expected});
-  without.mesh_study = compare::MeshStudy{};
-  without.mesh_study->measures = {{"L", {}, std::nullopt, std::nullopt, "the values oscillate"}};
-  CHECK_THAT(judged::judge(without).gates[0].warning, Catch::Contains("no error bar: the values oscillate"));
+    "a gate against a converged reference is met, missed or undecided by value and uncertainty together") {
+  const auto judged_in = [](Quantity quantity, double lower, double upper) {
+    return judged::judge(
+               judged::with_limit(
+                   comparison({expectation(quantity, {lower, upper}, ReferenceKind::converged)}), 2))
+        .gates[0];
+  };
+  // -10 +- 1.8 %
+  CHECK(judged_in(Quantity::error_percent, -12, -8).met());
+  for (const auto& [lower, upper] :
+       {std::pair(-11., -8.), std::pair(-12., -9.), std::pair(-9., 0.), std::pair(-20., -11.)}) {
+    const auto gate = judged_in(Quantity::error_percent, lower, upper);
+    CAPTURE(lower, upper);
+    CHECK_FALSE(gate.met());
+    CHECK(gate.is_undecided);
+    CHECK_THAT(describe(gate), Catch::Contains("undecided: -10 +- 1.8") && Catch::Contains("--converge=4") &&
+                                   Catch::Contains("8e+04 unknowns"));
+  }
+  const auto outside = judged_in(Quantity::error_percent, -8, 0);
+  CHECK_FALSE(outside.met());
+  CHECK_FALSE(outside.is_undecided);
+  CHECK(describe(outside) == "L error_percent = -10 %, not in [-8, 0]");
+  CHECK(judged_in(Quantity::fem, 9.7, 10.3).met()); // the limit, 10 +- 0.2 mm
+  CHECK(judged_in(Quantity::fem, 9.9, 10.3).is_undecided);
+  CHECK(judged_in(Quantity::msm, 9, 9).met()); // needs no reference
+}
+
+TEST_CASE("without a limit nothing is met against a converged reference, and the reason is told") {
+  const auto expected = expectation(Quantity::error_percent, {-11, -9}, ReferenceKind::converged);
+  auto without = judged::studied(comparison({expected}), 2);
+  without.mesh_study->measures[0].no_reference = "the values do not draw nearer";
+  const auto gate = judged::judge(without).gates[0];
+  CHECK_FALSE(gate.met());
+  CHECK_THAT(describe(gate), Catch::Contains("no converged reference: the values do not draw nearer"));
+  CHECK_FALSE(judged::judge(comparison({expected})).gates[0].met()); // nor without a study
+}
+
+TEST_CASE(
+    "a side with inverted cells or in an unstable equilibrium fails its case, unless that is accepted") {
+  const auto doubtful = [](const std::vector<cases::Doubt>& accepted) {
+    auto result = comparison({expectation(Quantity::fem, {9, 11})});
+    result.answers.msm.solution.inverted_cells = 3;
+    result.answers.fem.solution.negative_eigenvalues = 1;
+    result.scene.definition.msm.accepted = result.scene.definition.fem.accepted = accepted;
+    return judged::judge(result);
+  };
+  const auto refused = doubtful({});
+  REQUIRE(refused.doubts().size() == 2);
+  CHECK_THAT(refused.doubts()[0], Catch::Contains("fem is in an unstable equilibrium"));
+  CHECK_THAT(refused.doubts()[1], Catch::Contains("msm has 3 inverted cells"));
+  CHECK_FALSE(refused.is_sound());
+  CHECK_FALSE(refused.met());
+  CHECK_FALSE(doubtful({cases::Doubt::inverted}).met());
+  CHECK(doubtful({cases::Doubt::inverted, cases::Doubt::unstable}).met());
+  CHECK(judged::judge(comparison({})).is_sound()); // what expects nothing is no failure of run
 }

@@ -30,10 +30,21 @@ inline compare::Comparison comparison(const std::vector<cases::Expectation>& exp
   return result;
 }
 
-/// With the reference's error bar of some percent of its value.
+/// With the finite elements' own error bar, of some percent of their value.
 inline compare::Comparison studied(compare::Comparison result, double percent) {
   result.mesh_study = compare::MeshStudy{};
+  result.mesh_study->refine = {0, 1, 2};
+  result.mesh_study->unknowns = {100, 1000, 10000};
   result.mesh_study->measures = {{"L", {}, compare::MeshLimit{1, 10, percent}, percent, ""}};
+  return result;
+}
+
+/// With a limit of 10 mm, known to some percent; the error of -10 % is against it.
+inline compare::Comparison with_limit(compare::Comparison result, double percent) {
+  result = studied(std::move(result), percent);
+  result.mesh_study->measures[0].reference = compare::Limit{10, percent / 10, ""};
+  result.measures[0].fem_limit = result.mesh_study->measures[0].reference;
+  result.measures[0].error_uncertainty_percent = 0.9 * percent; // of 9/10
   return result;
 }
 

@@ -22,7 +22,7 @@ namespace {
 std::vector<Comparison> mixed() {
   auto missing = expectation(Quantity::fem, {0, 1}, ReferenceKind::exact);
   missing.measure = "M";
-  auto first = judged::studied(
+  auto first = judged::with_limit(
       judged::comparison({expectation(Quantity::error_percent, {-11, -9}),
                           expectation(Quantity::msm, {9.5, 10}, ReferenceKind::regression), missing}),
       2);

@@ -78,6 +78,7 @@ TEST_CASE("a failed side is a failed row with its reason, and its values are nul
   std::ostringstream csv;
   compare::write_csv(csv, {one_cell_comparison()});
   CHECK(csv.str() == "case,measure,unit,fem,msm,error_percent,fem_status,msm_status,"
-                     "fem_discretisation_error_percent,peer\n"
-                     "cell,L,mm,,2.5,,failed,converged,,\n");
+                     "fem_discretisation_error_percent,peer,reference,fem_limit,fem_limit_uncertainty,"
+                     "error_uncertainty_percent,error_same_mesh_percent\n"
+                     "cell,L,mm,,2.5,,failed,converged,,,same_mesh,,,,\n");
 }

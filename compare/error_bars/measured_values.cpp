@@ -1,0 +1,56 @@
+#include "compare/error_bars/measured_values.hpp"
+
+#include "compare/measure/measure.hpp"
+
+#include <cmath>
+
+namespace springproof::compare {
+
+namespace {
+
+/// Errors against the limit, in place of those against the same mesh.
+void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, const cases::Scene& scene,
+                        const Answers& answers, const MeshStudy& study) {
+  const Limit& limit = value.fem_limit.value();
+  const auto error_of = [&](const Answer& answer,
+                            const std::optional<double>& of_side) -> std::optional<double> {
+    if (!of_side) return std::nullopt;
+    if (!is_field_norm(measure.kind)) return error_percent(limit.value, *of_side);
+    return field_error_percent(measure.kind, scene.mesh, study.field->value, answer.solution.displacement);
+  };
+  value.error_percent = error_of(answers.msm, value.msm);
+  value.fem_error_percent = error_of(answers.fem, value.fem);
+  if (!value.error_percent) return;
+  const double part = 100 * limit.uncertainty / std::abs(limit.value);
+  // A change d of the limit changes r = 100 (m/f - 1) by (100 + r) d/f, and a difference of fields by d.
+  value.error_uncertainty_percent =
+      is_field_norm(measure.kind) ? part : part * std::abs(1 + *value.error_percent / 100);
+}
+
+} // namespace
+
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers,
+                                   const MeshStudy* study) {
+  std::vector<MeasuredValue> values;
+  for (const cases::Measure& measure : scene.definition.measures) {
+    const auto value_by = [&](const Answer& answer) -> std::optional<double> {
+      if (!answer.converged()) return std::nullopt;
+      return evaluate(measure, scene, answer.solution);
+    };
+    MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm), {}};
+    if (answers.peer) value.peer = value_by(answers.peer->answer);
+    if (value.fem && value.msm)
+      value.error_same_mesh_percent =
+          measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
+    value.error_percent = value.error_same_mesh_percent;
+    const StudiedMeasure* studied = study ? find_named(study->measures, measure.name) : nullptr;
+    if (studied && studied->reference) {
+      value.fem_limit = studied->reference;
+      hold_against_limit(value, measure, scene, answers, *study);
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "compare/error_bars/mesh_study.hpp"
+
+namespace springproof::compare {
+
+/// A measure on both sides. A side that failed or was skipped has no value.
+///
+/// The reference is the limit of the finite elements under refinement where the case has one and its study
+/// shows it, else the finite elements on the case's own mesh. Errors are (value - reference)/reference; those
+/// of a field norm are of the difference of the fields, and never negative.
+struct MeasuredValue {
+  std::string name, unit;
+  std::optional<double> fem, msm;      ///< in the unit
+  std::optional<double> error_percent; ///< of the springs, against the reference
+  std::optional<double> peer{};        ///< by another program, when it was asked
+  std::optional<Limit> fem_limit{};    ///< the reference, in the unit; absent: the same mesh is the reference
+  std::optional<double> error_uncertainty_percent{}; ///< points; that the limit leaves; absent without it
+  std::optional<double> error_same_mesh_percent{};   ///< of the springs, against the finite elements' value
+  std::optional<double>
+      fem_error_percent{}; ///< of the finite elements' value against the limit; absent without it
+};
+
+/// All measures of a case, in its order.
+/// @param study  of the same case; null: there is none
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers, const MeshStudy* study);
+
+} // namespace springproof::compare
