@@ -121,7 +121,7 @@ def check_whole(out):
         elif file.suffix == ".vtu":
             assert content.endswith(b"</VTKFile>\n"), file
         elif file.suffix == ".csv":
-            assert content.endswith(b"\n") and all(row.count(b",") == 9 for row in content.splitlines()), file
+            assert content.endswith(b"\n") and all(row.count(b",") == 14 for row in content.splitlines()), file
         else:
             assert file.parent.name == "solved" and len(content) > 1000, file
 
