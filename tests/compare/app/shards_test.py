@@ -16,7 +16,7 @@ from pathlib import Path
 PROGRAM, SOURCE = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
 GATES = sorted((Path(SOURCE) / "cases/gates").glob("*.toml"))
 TINY = Path(SOURCE) / "tests/compare/sweep/tiny.toml"
-SECONDS = re.compile(r'("(?:setup|solve)": )[-+.e\d]+')
+SECONDS = re.compile(r'("(?:setup|solve)": |unknowns in the last, )[-+.e\d]+')
 
 
 def springproof(*words, **options):
