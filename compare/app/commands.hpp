@@ -27,7 +27,7 @@ inline void add_converge_option(CLI::App& command, int& meshes) {
       .add_flag("--converge{3}", meshes,
                 "the limit from exactly N uniformly refined meshes (--converge=4; 3 by itself), with a table "
                 "of them")
-      ->check(CLI::Range(3, 6));
+      ->check(CLI::Range(3, 9));
 }
 
 } // namespace springproof::compare
