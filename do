@@ -49,6 +49,9 @@ case $command in
     exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@" ;;
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;
-  bench)  build; exec build/springproof_bench "$@" ;;
+  bench)
+    build
+    build/springproof_bench "$@"
+    exec python3 tests/bench/finite_elements.py ;;
   *) sed -n '2,6s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
 esac

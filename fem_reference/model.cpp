@@ -24,10 +24,12 @@ void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
   MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, communicator);
 }
 
-/// Nodes from which the grid's backend is the faster one, and the bulk modulus over the shear modulus above
-/// which its iterations are too many, for bodies that can be factorised: 25 a linear solve at 1000, Newton's
-/// method fails at 5000.
-constexpr double grid_from = 500;
+/// Nodes of the elements from which the grid's backend is used. Below, a compact body takes milliseconds
+/// either way, and a slender one on a hard path less when it is factorised: bar_buckling_imperfect, 225
+/// nodes, 0.95 s against 1.7.
+constexpr double grid_from = 300;
+/// The bulk modulus over the shear modulus above which the grid's iterations are too many, for bodies that
+/// can be factorised: 25 a linear solve at 1000, Newton's method fails at 5000.
 constexpr double most_incompressible = 1500;
 
 } // namespace
@@ -36,7 +38,7 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   if (!grid::is_on_grid(scene)) return Backend::assembled;
   const bool can_factorise = takes_factorisation(n_nodes);
   const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible && can_factorise;
-  return n_nodes >= grid_from && !is_hard ? Backend::grid : Backend::assembled;
+  return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
 }
 
 bool takes_factorisation(double n_nodes) {
@@ -110,9 +112,8 @@ std::vector<double> Model::Assembled::body_cell_volumes() {
 }
 
 struct Model::OnGrid : Model::Implementation {
-  OnGrid(const cases::Scene& the_scene, MPI_Comm the_communicator, bool may_assemble)
-      : scene(the_scene), communicator(the_communicator), may_assemble_instead(may_assemble),
-        model(scene, communicator, 1) {}
+  OnGrid(const cases::Scene& scene, MPI_Comm the_communicator, bool may_assemble)
+      : communicator(the_communicator), may_assemble_instead(may_assemble), model(scene, communicator, 1) {}
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
   void back_to_rest() override {
     model.back_to_rest();
@@ -125,7 +126,6 @@ struct Model::OnGrid : Model::Implementation {
     return nodes;
   }
 
-  cases::Scene scene;
   MPI_Comm communicator;
   bool may_assemble_instead;
   grid::GridModel model;
@@ -137,18 +137,21 @@ cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumS
   if (!assembled) try {
       return model.solve(load_factor, settings);
     } catch (const cases::SolveError&) {
-      const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible;
+      const bool is_hard = grid::bulk_over_shear(model.scene()) > most_incompressible;
       if (!may_assemble_instead || (!is_hard && model.can_leave_rest())) throw;
-      assembled = std::make_unique<Assembled>(scene, communicator);
+      assembled = std::make_unique<Assembled>(model.scene(), communicator);
     }
-  return assembled->solve(load_factor, settings);
+  cases::Solution solution = assembled->solve(load_factor, settings);
+  solution.message = "by the assembled tangent: the matrix-free multigrid does not converge for this body";
+  return solution;
 }
 
 Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) {
   const bool may_assemble_instead = backend == Backend::automatic;
+  const cases::Fem& fem = scene.definition.fem;
+  const int halvings = fem.refine + (fem.element == cases::Element::q2 ? 1 : 0);
   if (backend == Backend::automatic)
-    backend =
-        choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, scene.definition.fem.refine));
+    backend = choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, halvings));
   if (backend == Backend::grid && !grid::is_on_grid(scene))
     throw cases::InputError(scene.definition.fem.where,
                             "the grid's backend needs a body that is a grid of cells, and no q2_p1");

@@ -10,9 +10,6 @@ namespace springproof::msm {
 
 namespace {
 
-/// Nodes from which the multigrid path was measured to be the faster one.
-constexpr std::size_t multigrid_from = 500;
-
 bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
   const auto is_negative = [](const CellStiffness& k) {
     return k.edge < 0 || k.face_diagonal < 0 || k.internal_diagonal < 0 || k.volume < 0;

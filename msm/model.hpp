@@ -12,6 +12,9 @@ enum class Path {
              ///< cycle
 };
 
+/// Nodes from which the multigrid path was measured to be the faster one.
+constexpr std::size_t multigrid_from = 500;
+
 struct ModelOptions {
   Path path = Path::automatic;
   int n_threads = 1;           ///< of the multigrid path; results do not depend on it

@@ -11,7 +11,7 @@ SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 /// Result of a solve of either model. A failed one has a message and counters but no displacement.
 struct Solution {
   Status status = Status::skipped;
-  std::string message;
+  std::string message; ///< why it failed; of another one, what is to be said of how it was solved
   Outcome outcome = Outcome::unknown;
   std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "compare/solve/progress.hpp"
 #include "fem_reference/model.hpp"
+#include "msm/model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +17,23 @@ namespace {
 
 using cases::Element;
 
-/// Measured at commits 874c2b4 and 6eb550a on two cores of an Intel Xeon with AVX-512, one thread, user time:
-/// cases/sweep/cube_shear.toml with 20^3 to 80^3 cells, and the same block with one edge moved, which is no
-/// grid, with 6^3 to 46^3. Iterations of an easy load are in them; hard loads and nearly incompressible
-/// bodies take up to ten times as long.
-struct Linear { ///< iterative solvers: in proportion to the unknowns
-  double bytes, seconds;
+/// Measured on two cores of an Intel Xeon with AVX-512, one thread: seconds (of user time, at commits 874c2b4
+/// and 6eb550a) with cases/sweep/cube_shear.toml, 20^3 to 80^3 cells, and with the same block with one edge
+/// moved, which is no grid, 6^3 to 46^3; megabytes with all of cases/sweep, 10^3 to 4x10^5 unknowns, and
+/// 100^3 cells. Iterations of an easy load are in them; hard loads and nearly incompressible bodies take up
+/// to ten times as long.
+struct Linear {                     ///< iterative solvers
+  double megabytes, bytes, seconds; ///< at least; per entry of a field; per unknown
 };
 struct Factorised { ///< factorised at every iteration: what 26,460 unknowns take
-  double megabytes, seconds;
+  double least_megabytes, megabytes, seconds;
 };
-constexpr Linear grid_linear_element{850, 10e-6};
-constexpr Linear grid_quadratic_element{1800, 25e-6};
-constexpr Linear grid_springs{300, 5.5e-6};
-constexpr Linear algebraic_multigrid{4000, 115e-6};
-constexpr Factorised finite_elements{650, 6.5};
-constexpr Factorised springs_lattice{245, 3};
+constexpr Linear grid_linear_element{5, 750, 10e-6};
+constexpr Linear grid_quadratic_element{5, 1250, 25e-6};
+constexpr Linear grid_springs{5, 320, 5.5e-6};
+constexpr Linear algebraic_multigrid{25, 4000, 115e-6};
+constexpr Factorised finite_elements{25, 650, 6.5};
+constexpr Factorised springs_lattice{5, 245, 3};
 constexpr double factorised_unknowns = 26460;
 
 /// A nested dissection of a body takes memory as n^(4/3) and time as n^2; of 10,000 to 60,000 unknowns less
@@ -41,13 +43,13 @@ constexpr double memory_power = 1.25, time_power = 1.7;
 /// Of the time of finite strain: one factorisation for four or five, three inexact linear solves for five.
 constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
 
-Estimate linear(const std::string& model, double unknowns, const Linear& per_unknown) {
-  return {model, unknowns, 1e-6 * per_unknown.bytes * unknowns, per_unknown.seconds * unknowns};
+Estimate linear(const std::string& model, double unknowns, double n_entries, const Linear& per) {
+  return {model, unknowns, per.megabytes + 1e-6 * per.bytes * n_entries, per.seconds * unknowns};
 }
 
 Estimate factorised(const std::string& model, double unknowns, const Factorised& at) {
   const double ratio = unknowns / factorised_unknowns;
-  return {model, unknowns, at.megabytes * std::pow(ratio, memory_power),
+  return {model, unknowns, at.least_megabytes + at.megabytes * std::pow(ratio, memory_power),
           at.seconds * std::pow(ratio, time_power)};
 }
 
@@ -55,6 +57,22 @@ Estimate factorised(const std::string& model, double unknowns, const Factorised&
 /// others.
 double refined_nodes(const BodySize& body, int n) {
   return body.n_cells * std::pow(8, n) + (body.n_nodes - body.n_cells) * std::pow(4, n);
+}
+
+/// Nodes along the axes of a body's grid after n halvings.
+Eigen::Array3d nodes_along(const BodySize& body, int n) {
+  const std::array<int, 3>& cells = body.outline.mesh.grid->cells;
+  return std::pow(2, n) * Eigen::Array3d(cells[0], cells[1], cells[2]) + 1;
+}
+
+/// Of a field of the finite elements: rows are filled up to packs of 16, planes have neighbours.
+double element_entries(const Eigen::Array3d& nodes) {
+  return 3 * (16 * std::ceil(nodes.x() / 16) * nodes.y() + 16) * (nodes.z() + 2);
+}
+
+/// Of a field of the springs.
+double spring_entries(const Eigen::Array3d& nodes) {
+  return 3 * ((nodes.x() + 1) * (nodes.y() + 1) + 56) * (nodes.z() + 2);
 }
 
 std::string memory_text(double megabytes) {
@@ -87,27 +105,29 @@ std::optional<BodySize> size_of(const cases::Case& definition) {
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
   const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
-  const double unknowns = 3 * refined_nodes(body, fem.refine + (is_quadratic ? 1 : 0));
-  const double n_vertices = refined_nodes(body, fem.refine);
-  const auto backend = fem_reference::choose_backend(body.outline, n_vertices);
+  const int halvings = fem.refine + (is_quadratic ? 1 : 0);
+  const double unknowns = 3 * refined_nodes(body, halvings);
+  const auto backend = fem_reference::choose_backend(body.outline, unknowns / 3);
   const bool is_on_grid = backend == fem_reference::Backend::grid;
   const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3);
   Estimate estimate;
   if (is_on_grid)
-    estimate = linear("finite elements (matrix-free)", unknowns,
+    estimate = linear("finite elements (matrix-free)", unknowns, element_entries(nodes_along(body, halvings)),
                       is_quadratic ? grid_quadratic_element : grid_linear_element);
   else if (is_factorised)
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
-    estimate = linear("finite elements (assembled)", unknowns, algebraic_multigrid);
+    estimate = linear("finite elements (assembled)", unknowns, unknowns, algebraic_multigrid);
   if (fem.formulation == cases::Formulation::small_strain)
     estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
   return estimate;
 }
 
 Estimate estimate_springs(const BodySize& body) {
-  return body.outline.mesh.grid ? linear("springs (matrix-free)", 3 * body.n_nodes, grid_springs)
-                                : factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice);
+  const double unknowns = 3 * body.n_nodes;
+  if (!body.outline.mesh.grid || body.n_nodes < msm::multigrid_from)
+    return factorised("springs (factorised)", unknowns, springs_lattice);
+  return linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
 }
 
 std::vector<Estimate> estimate(const BodySize& body, const Request& request) {

@@ -32,7 +32,11 @@ std::tuple<double, double> speed_first(const Point& p) {
 }
 
 std::string describe(const Point& p) {
-  return fmt::format("{} ({}, {:.2g} %)", p.name, time_text(p.seconds), p.error_percent);
+  const std::string error = p.more_cells_percent
+                                ? fmt::format("{:.2g} % by accident, more cells lead to {:.2g} %",
+                                              p.error_percent, *p.more_cells_percent)
+                                : fmt::format("{:.2g} %", p.error_percent);
+  return fmt::format("{} ({}, {})", p.name, time_text(p.seconds), error);
 }
 
 const char* name_of(Family family) {
@@ -73,6 +77,11 @@ std::vector<std::string> floor_sentences(const Sweep& sweep, Error error) {
     if (method.rfind("springs ", 0) == 0)
       sentences.push_back(floor_sentence(method, levels, errors_by_level(sweep, method, error)));
   return sentences;
+}
+
+/// Whether errors of mesh and model cancel, so that the error is less than more cells leave of it.
+bool is_accidental(double error, double with_most_cells) {
+  return error < (1 - floor_fraction) * with_most_cells;
 }
 
 /// Median of the repetitions; nothing without any.
@@ -144,7 +153,12 @@ std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock) {
 std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock) {
   std::vector<Point> points;
   for (const SweepRow& row : sweep.rows)
-    if (const auto point = point_of(row, error, clock)) points.push_back(*point);
+    if (auto point = point_of(row, error, clock)) {
+      const auto with_most_cells = errors_by_level(sweep, method_name(row.variant), error).back();
+      if (with_most_cells && is_accidental(point->error_percent, *with_most_cells))
+        point->more_cells_percent = with_most_cells;
+      points.push_back(std::move(*point));
+    }
   return points;
 }
 
@@ -235,7 +249,7 @@ std::string floor_sentence(const std::string& design, const std::vector<std::str
         fmt::format("{}: more cells than {} do not help: from there on the error stays within {:g} % of its "
                     "floor, {:.2g} %",
                     design, levels[*level], 100 * floor_fraction, floor);
-  if (*errors[least_level] < (1 - floor_fraction) * floor)
+  if (is_accidental(*errors[least_level], floor))
     sentence += fmt::format(" (the least, {:.2g} %, is that of {}, where errors of mesh and model cancel)",
                             *errors[least_level], levels[least_level]);
   return sentence + ".";

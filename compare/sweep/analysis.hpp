@@ -11,6 +11,9 @@ struct Point {
   Family family;
   double seconds;       ///< > 0
   double error_percent; ///< >= 0
+  /// The method's error with the most cells, where that is clearly larger: then errors of mesh and model
+  /// cancel here, by accident.
+  std::optional<double> more_cells_percent{};
 };
 
 /// The points that no other one beats: none is at most as slow and at most as wrong. Of equal ones the first.
@@ -48,7 +51,7 @@ std::optional<double> worst_measure_error(const SweepRow& row);
 std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock);
 std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock);
 
-/// Errors of a spring design at its tightest tolerance, per level of the plan.
+/// Errors of a method at its tightest tolerance, per level of the plan.
 std::vector<std::optional<double>> errors_by_level(const Sweep& sweep, const std::string& method,
                                                    Error error);
 

@@ -36,6 +36,7 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
     fmt::print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
   if (s.lowest_eigenvalue) fmt::print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
   fmt::print(out, "\n");
+  if (!s.message.empty()) fmt::print(out, "       {}\n", s.message);
 }
 
 std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {

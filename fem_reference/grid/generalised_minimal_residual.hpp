@@ -3,6 +3,7 @@
 #include "fem_reference/grid/conjugate_gradients.hpp"
 
 #include <Eigen/QR>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -49,7 +50,9 @@ ConjugateGradients generalised_minimal_residual(const Operator& apply, const Pre
     apply(result.solution, residual);
     residual = right_side - residual;
     const double before = std::exchange(norm, grid::norm(space, residual));
-    if (!(norm < 0.9 * before)) return result; // no use in going on
+    const double cycles_left = std::log(target / norm) / std::log(norm / before);
+    if (!(norm < before && cycles_left * restart <= max_iterations - result.iterations))
+      break; // at this rate it would not get there
   }
   result.converged = norm <= target;
   return result;

@@ -2,19 +2,10 @@
 
 #include "fem_reference/grid/multigrid.hpp"
 #include "fem_reference/grid/quadratic_elements.hpp"
+#include "fem_reference/grid/supported.hpp"
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
-#include <functional>
-
 namespace springproof::fem_reference::grid {
-
-/// What acts on a body.
-struct Supported {
-  Field<double> load;                ///< N at full load; 0 on constrained entries
-  std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
-  /// Their displacement (mm) at a load factor; empty when no rank has any. Collective.
-  std::function<std::vector<double>(double load_factor)> prescribed;
-};
 
 /// The equilibrium equations of a body on a grid, without a factorisation. A state is the displacement of the
 /// nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank, those of all nodes and

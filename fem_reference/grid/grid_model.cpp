@@ -2,7 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "fem_reference/grid/coarse_guess.hpp"
-#include "fem_reference/grid/traction.hpp"
+#include "fem_reference/grid/supported.hpp"
 #include "mechanics/elastic_moduli.hpp"
 #include "mechanics/laws/ogden.hpp"
 
@@ -52,8 +52,6 @@ bool is_quadratic(const cases::Scene& scene) {
   return scene.definition.fem.element == cases::Element::q2;
 }
 
-using Place = Eigen::Vector3i; ///< of a node in its grid
-
 /// Every rank's numbers, one after the other.
 std::vector<double> gather(const std::vector<double>& own, MPI_Comm communicator) {
   int n_ranks = 1;
@@ -100,65 +98,41 @@ double bulk_over_shear(const cases::Scene& scene) {
 struct GridModel::Implementation {
   Implementation(const cases::Scene& the_scene, MPI_Comm the_communicator, int threads)
       : scene(the_scene), communicator(the_communicator), n_threads(threads),
-        fine(cases::refine(scene, scene.definition.fem.refine)),
         cell_factor(1 << scene.definition.fem.refine), factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
-        slab(deal(cells_along(factor), communicator, factor / cell_factor)),
-        body(make_body(factor, slab, slab.first_of_grid())), supported(make_supported()),
+        body(make_body(factor, deal(cells_along(factor), communicator, factor / cell_factor))),
+        places{scene.mesh.grid->origin, scene.mesh.grid->spacing / factor, body},
+        supported(make_supported(cases::refine(scene, scene.definition.fem.refine), is_quadratic(scene),
+                                 places, body)),
         quadratic(is_quadratic(scene) ? make_quadratic() : nullptr),
         equations(body, supported, n_threads, quadratic.get()), last(equations.rest()) {}
 
   cases::Scene scene; ///< on the body's own mesh
   MPI_Comm communicator;
   int n_threads;
-  cases::Scene fine; ///< refined
-  int cell_factor;   ///< elements along an edge of the body's own cells
-  int factor;        ///< the same of the grid of nodes
-  Slab slab;         ///< of the nodes
+  int cell_factor; ///< elements along an edge of the body's own cells
+  int factor;      ///< the same of the grid of nodes
   Body body;
+  Places places;
   Supported supported;
   std::unique_ptr<QuadraticElements> quadratic;
   GridEquations equations;
   Vector last;
   double last_load_factor = 0;
 
-  Eigen::Vector3d spacing() const { return scene.mesh.grid->spacing / factor; }
-  Place place_of(std::size_t node) const {
-    const Eigen::Vector3d at = (fine.mesh.nodes[node] - scene.mesh.grid->origin).cwiseQuotient(spacing());
-    return at.array().round().cast<int>();
-  }
-  bool holds(const Place& at) const { return is_in({0, slab.n_planes()}, at); }
-  bool owns(const Place& at) const { return is_in(slab.computed(), at); }
-  bool is_in(const Slab::Range& planes, const Place& at) const {
-    const int plane = at.z() - slab.first_of_grid();
-    return plane >= planes.begin && plane < planes.end;
-  }
-  /// Of a node that is held.
-  std::ptrdiff_t entry_of(const Place& at) const {
-    return body.layout.at(at.x(), at.y(), at.z() - slab.first_of_grid());
-  }
   Eigen::Vector3d displacement_at(const Place& at) const {
-    const std::ptrdiff_t entry = entry_of(at), size = body.layout.size;
+    const std::ptrdiff_t entry = places.entry(at), size = body.layout.size;
     return {last[entry], last[entry + size], last[entry + 2 * size]};
-  }
-  /// Calls action(place) for the nodes of the elements that the rank computes.
-  template<class Action>
-  void for_each_node(const Action& action) const {
-    const auto [begin, end] = slab.computed();
-    for (int k = begin; k < end; ++k)
-      for (int j = 0; j <= body.cells[1]; ++j)
-        for (int i = 0; i <= body.cells[0]; ++i)
-          if (has_cell(body, i, j, k)) action(Place(i, j, slab.first_of_grid() + k));
   }
   std::array<int, 3> cells_along(int along) const {
     std::array<int, 3> cells = scene.mesh.grid->cells;
     for (int& n : cells) n *= along;
     return cells;
   }
+  Body make_body(int cells_along_edge, const Slab& of_nodes) const {
+    return make_body(cells_along_edge, of_nodes, of_nodes.first_of_grid());
+  }
   Body make_body(int cells_along_edge, const Slab& of_nodes, int first_layer) const;
   std::unique_ptr<QuadraticElements> make_quadratic() const;
-  std::vector<Place> places_on(const cases::Selection& selection) const;
-  void add_loads(Field<double>& load) const;
-  Supported make_supported();
   std::vector<double> cell_volumes() const;
   double count_free() const;
 };
@@ -201,6 +175,7 @@ Body GridModel::Implementation::make_body(int along, const Slab& of_nodes, int f
 }
 
 std::unique_ptr<QuadraticElements> GridModel::Implementation::make_quadratic() const {
+  const Slab& slab = body.slab;
   const auto [begin, end] = slab.computed();
   const int first = slab.first_of_grid() + begin,
             beyond = std::min(slab.first_of_grid() + end, slab.n_planes_of_grid() - 1);
@@ -208,97 +183,13 @@ std::unique_ptr<QuadraticElements> GridModel::Implementation::make_quadratic() c
       body, make_body(cell_factor, Slab((beyond - first) / 2 + 1), first / 2), n_threads);
 }
 
-/// Nodes on a selection's vertices and, of quadratic elements, on its edges and faces.
-std::vector<Place> GridModel::Implementation::places_on(const cases::Selection& selection) const {
-  std::vector<Place> places;
-  for (const int node : selection.nodes) places.push_back(place_of(index(node)));
-  if (!is_quadratic(scene)) return places;
-  const auto add_middle = [&](int a, int b) {
-    places.push_back((place_of(index(a)) + place_of(index(b))) / 2);
-  };
-  for (const auto& edge : selection.edges) add_middle(edge[0], edge[1]);
-  for (const auto& face : selection.faces) {
-    for (std::size_t v = 0; v < 4; ++v) add_middle(face[v], face[(v + 1) % 4]);
-    add_middle(face[0], face[2]);
-  }
-  const auto is_before = [](const Place& a, const Place& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
-  std::sort(places.begin(), places.end(), is_before);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
-}
-
-void GridModel::Implementation::add_loads(Field<double>& load) const {
-  const auto add_force = [&](const Place& at, const Eigen::Vector3d& force) {
-    if (!owns(at)) return;
-    for (int c = 0; c < 3; ++c) load[c * body.layout.size + entry_of(at)] += force[c];
-  };
-  const std::vector<Eigen::Vector3d> forces =
-      is_quadratic(scene) ? cases::point_forces(fine) : cases::nodal_forces(fine);
-  for (std::size_t n = 0; n < forces.size(); ++n) add_force(place_of(n), forces[n]);
-  if (!is_quadratic(scene)) return;
-  for (const auto& applied : fine.loads) {
-    const bool is_torque = applied.load.kind == cases::LoadKind::torque;
-    if (!is_torque && applied.load.kind != cases::LoadKind::traction) continue;
-    const double moment = is_torque ? cases::polar_moment(fine.mesh, applied) : 1;
-    for (const auto& face : applied.selection.faces) {
-      std::array<Eigen::Vector3d, 4> vertices;
-      std::array<Place, 4> places;
-      for (std::size_t v = 0; v < 4; ++v) {
-        vertices[v] = fine.mesh.nodes[index(face[v])];
-        places[v] = place_of(index(face[v]));
-      }
-      const NineForces nine = traction_on(applied, vertices, moment);
-      for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-          add_force(places[0] + (a * (places[1] - places[0]) + b * (places[3] - places[0])) / 2,
-                    nine[index(a + 3 * b)]);
-    }
-  }
-}
-
-Supported GridModel::Implementation::make_supported() {
-  for_each_node([&](const Place& at) {
-    for (int c = 0; c < 3; ++c) body.free[c * body.layout.size + entry_of(at)] = 1;
-  });
-  for (const auto& fixed : fine.constrained)
-    for (const Place& at : places_on(fixed.selection))
-      for (int c = 0; owns(at) && c < 3; ++c)
-        if (fixed.components[index(c)]) body.free[c * body.layout.size + entry_of(at)] = 0;
-  slab.update_ghosts(body.layout, body.free.data());
-  Supported made;
-  made.load.setZero(3 * body.layout.size);
-  add_loads(made.load);
-  made.load.array() *= body.free.cast<double>().array();
-  struct MovedNode {
-    Eigen::Vector3d rest;
-    cases::Moved motion;
-  };
-  std::vector<MovedNode> nodes;
-  for (const auto& [selection, motion] : fine.moved)
-    for (const Place& at : places_on(selection)) {
-      if (!holds(at)) continue;
-      nodes.push_back({scene.mesh.grid->origin + at.cast<double>().cwiseProduct(spacing()), motion});
-      for (int c = 0; c < 3; ++c)
-        if (motion.components[index(c)]) made.moved.push_back(c * body.layout.size + entry_of(at));
-    }
-  if (!fine.moved.empty())
-    made.prescribed = [nodes](double load_factor) {
-      std::vector<double> values;
-      for (const auto& [rest, motion] : nodes) {
-        const Eigen::Vector3d by = cases::moved_by(motion, rest, load_factor);
-        for (std::size_t c = 0; c < 3; ++c)
-          if (motion.components[c]) values.push_back(by[static_cast<int>(c)]);
-      }
-      return values;
-    };
-  return made;
-}
-
 GridModel::GridModel(const cases::Scene& scene, MPI_Comm communicator, int n_threads)
     : implementation_(std::make_unique<Implementation>(scene, communicator, n_threads)) {}
 GridModel::~GridModel() = default;
+
+const cases::Scene& GridModel::scene() const {
+  return implementation_->scene;
+}
 
 void GridModel::back_to_rest() {
   implementation_->last = implementation_->equations.rest();
@@ -308,6 +199,7 @@ void GridModel::back_to_rest() {
 /// Of the body's cells; of each as much as the rank computes.
 std::vector<double> GridModel::Implementation::cell_volumes() const {
   const std::vector<double> of_entries = equations.cell_volumes(last);
+  const Slab& slab = body.slab;
   const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
   // the rank's elements have layers of their own
   const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
@@ -333,18 +225,22 @@ std::vector<double> GridModel::Implementation::cell_volumes() const {
 
 double GridModel::Implementation::count_free() const {
   double n = 0;
-  for_each_node([&](const Place& at) {
-    for (int c = 0; c < 3; ++c) n += body.free[c * body.layout.size + entry_of(at)] > 0 ? 1 : 0;
+  places.for_each([&](const Place& at) {
+    for (int c = 0; c < 3; ++c) n += body.free[c * body.layout.size + places.entry(at)] > 0 ? 1 : 0;
   });
   return n;
 }
 
 bool GridModel::can_leave_rest() {
   GridEquations& equations = implementation_->equations;
+  constexpr double part = 1e-6; // of the load: so small that Newton's step is the answer to it
+  constexpr double forcing = 1e-3, enough = 0.1;
   const Vector rest = equations.rest();
-  constexpr double forcing = 1e-5; // as of the assembled equations' iterative solver
-  const Vector residual = equations.residual(rest, 1, mechanics::Expect::direction);
-  return equations.direction(rest, residual, 1, forcing, mechanics::Convexity::exact).has_value();
+  const Vector residual = equations.residual(rest, part, mechanics::Expect::direction);
+  const auto step = equations.direction(rest, residual, part, forcing, mechanics::Convexity::exact);
+  if (!step) return false;
+  const Vector left = equations.residual(rest + *step, part, mechanics::Expect::residual);
+  return equations.dot(left, left) <= enough * enough * equations.dot(residual, residual);
 }
 
 cases::Solution GridModel::solve(double load_factor, const mechanics::EquilibriumSettings& given) {
@@ -360,18 +256,18 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   cases::Solution solution = mechanics::to_solution(equilibrium);
   // each entry is one rank's
   const auto gather = [&](double* values, std::size_t n) {
-    if (m.slab.is_shared())
+    if (m.body.slab.is_shared())
       MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, m.communicator);
   };
   solution.displacement.assign(m.scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
   for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
-    const Place at = m.place_of(n); // the refined mesh begins with the body's own nodes
-    if (m.owns(at)) solution.displacement[n] = m.displacement_at(at);
+    const Place at = m.places.of(m.scene.mesh.nodes[n]);
+    if (m.places.owns(at)) solution.displacement[n] = m.displacement_at(at);
   }
   gather(solution.displacement.front().data(), 3 * solution.displacement.size());
   solution.cell_volume = m.cell_volumes();
   gather(solution.cell_volume.data(), solution.cell_volume.size());
-  solution.unknowns = static_cast<std::size_t>(m.slab.total(m.count_free()));
+  solution.unknowns = static_cast<std::size_t>(m.body.slab.total(m.count_free()));
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = m.equations.negative_eigenvalues();
   for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
@@ -384,13 +280,12 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
 std::vector<GridModel::NodeValue> GridModel::node_displacements() const {
   const Implementation& m = *implementation_;
   std::vector<double> numbers;
-  m.for_each_node([&](const Place& at) {
-    const Eigen::Vector3d rest = m.scene.mesh.grid->origin + at.cast<double>().cwiseProduct(m.spacing()),
-                          displacement = m.displacement_at(at);
+  m.places.for_each([&](const Place& at) {
+    const Eigen::Vector3d rest = m.places.rest(at), displacement = m.displacement_at(at);
     numbers.insert(numbers.end(), rest.begin(), rest.end());
     numbers.insert(numbers.end(), displacement.begin(), displacement.end());
   });
-  if (m.slab.is_shared()) numbers = gather(numbers, m.communicator);
+  if (m.body.slab.is_shared()) numbers = gather(numbers, m.communicator);
   std::vector<NodeValue> values;
   for (const double* at = numbers.data(); at != numbers.data() + numbers.size(); at += 6)
     values.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});

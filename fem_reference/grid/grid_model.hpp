@@ -24,10 +24,13 @@ class GridModel {
   GridModel(const cases::Scene& scene, MPI_Comm communicator, int n_threads);
   ~GridModel();
 
+  const cases::Scene& scene() const;
   /// As of Model.
   cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings);
   void back_to_rest();
-  /// Whether the linear solver finds Newton's first step from rest to the full load.
+  /// Whether the linear solver finds Newton's first step from rest to a small load, and the step leaves
+  /// almost nothing of the residual. Where stiffnesses differ by six orders and more it does not: the tangent
+  /// in single precision has lost the soft ones.
   bool can_leave_rest();
   struct NodeValue {
     Eigen::Vector3d rest, displacement; ///< mm

@@ -45,6 +45,14 @@ TEST_CASE("the most accurate in a time is named, or the fastest when none answer
              Contains("no model answers in that time") && Contains("A (0.5 ms"));
 }
 
+TEST_CASE("an error that is small by accident is told with what more cells leave of it") {
+  std::vector<Point> some = points;
+  some[0].error_percent = 0.9;
+  some[0].more_cells_percent = 2.4;
+  CHECK_THAT(fastest_sentence(some, 1, 0.1),
+             Contains("A (0.5 ms, 0.9 % by accident, more cells lead to 2.4 %) is the fastest"));
+}
+
 TEST_CASE("without any measured model both sentences say so") {
   CHECK_THAT(fastest_sentence({}, 10, 0.1), Contains("no model was measured"));
   CHECK_THAT(most_accurate_sentence({}, 1, 0.1), Contains("no model was measured"));

@@ -172,6 +172,16 @@ TEST_CASE("failed variants and missing values give no points") {
   CHECK_FALSE(worst_measure_error(failed(spring_variant(4))));
 }
 
+TEST_CASE("points whose error is less than more cells leave of it are told apart") {
+  Sweep sweep = synthetic();
+  sweep.rows.back() = measured(spring_variant(4), 5, 8.5); // after 9, 8 and 7
+  const auto points = points_of(sweep, Error::field, Clock::first_answer);
+  REQUIRE(points.size() == 4);
+  for (const Point& point : points)
+    CHECK(point.more_cells_percent ==
+          (point.error_percent == 7 ? std::optional<double>(8.5) : std::nullopt)); // 8 is within a tenth
+}
+
 TEST_CASE("the errors of a design by level are those of its tightest tolerance") {
   const auto errors = errors_by_level(synthetic(), "springs moduli", Error::field);
   CHECK(errors == std::vector<std::optional<double>>{9., 7., std::nullopt});

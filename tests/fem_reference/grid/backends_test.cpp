@@ -206,4 +206,17 @@ TEST_CASE("the grid's backend knows whether its multigrid serves a body") {
   }
 }
 
+TEST_CASE("a body that the grid's multigrid does not serve is solved by the other backend, which is said",
+          "[verification]") {
+  auto definition = cube(cases::Formulation::small_strain, Element::q1);
+  std::get<cases::Box>(definition.body).cells = {8, 8, 8};
+  definition.region_materials.push_back({cases::LinearElastic{3e7, 0.35}, "", {2, 2, 2}, {6, 6, 6}, {}});
+  const cases::Scene scene = cases::make_scene(definition);
+  CHECK_THROWS_AS(solve(scene, Backend::grid), cases::SolveError);
+  const cases::Solution found = solve(scene, Backend::automatic), assembled = solve(scene, Backend::assembled);
+  CHECK_THAT(found.message, Catch::Contains("by the assembled tangent"));
+  CHECK(assembled.message.empty());
+  CHECK(found.displacement == assembled.displacement);
+}
+
 } // namespace two_backends

@@ -1,0 +1,107 @@
+#include "fem_reference/grid/supported.hpp"
+
+#include "fem_reference/grid/traction.hpp"
+
+#include <algorithm>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+using cases::index;
+
+/// Nodes on a selection's vertices and, of quadratic elements, on its edges and faces.
+std::vector<Place> places_on(const cases::Scene& scene, const cases::Selection& selection, bool is_quadratic,
+                             const Places& places) {
+  const auto place_of = [&](int node) { return places.of(scene.mesh.nodes[index(node)]); };
+  std::vector<Place> found;
+  for (const int node : selection.nodes) found.push_back(place_of(node));
+  if (!is_quadratic) return found;
+  const auto add_middle = [&](int a, int b) { found.push_back((place_of(a) + place_of(b)) / 2); };
+  for (const auto& edge : selection.edges) add_middle(edge[0], edge[1]);
+  for (const auto& face : selection.faces) {
+    for (std::size_t v = 0; v < 4; ++v) add_middle(face[v], face[(v + 1) % 4]);
+    add_middle(face[0], face[2]);
+  }
+  const auto is_before = [](const Place& a, const Place& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::sort(found.begin(), found.end(), is_before);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Places& places) {
+  const Layout& layout = places.body.layout;
+  Field<double> load = Field<double>::Zero(3 * layout.size);
+  const auto add_force = [&](const Place& at, const Eigen::Vector3d& force) {
+    if (!places.owns(at)) return;
+    for (int c = 0; c < 3; ++c) load[c * layout.size + places.entry(at)] += force[c];
+  };
+  const std::vector<Eigen::Vector3d> forces =
+      is_quadratic ? cases::point_forces(scene) : cases::nodal_forces(scene);
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    if (!forces[n].isZero(0)) add_force(places.of(scene.mesh.nodes[n]), forces[n]);
+  if (!is_quadratic) return load;
+  for (const auto& applied : scene.loads) {
+    const bool is_torque = applied.load.kind == cases::LoadKind::torque;
+    if (!is_torque && applied.load.kind != cases::LoadKind::traction) continue;
+    const double moment = is_torque ? cases::polar_moment(scene.mesh, applied) : 1;
+    for (const auto& face : applied.selection.faces) {
+      std::array<Eigen::Vector3d, 4> vertices;
+      std::array<Place, 4> corners;
+      for (std::size_t v = 0; v < 4; ++v) {
+        vertices[v] = scene.mesh.nodes[index(face[v])];
+        corners[v] = places.of(vertices[v]);
+      }
+      const NineForces nine = traction_on(applied, vertices, moment);
+      for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
+          add_force(corners[0] + (a * (corners[1] - corners[0]) + b * (corners[3] - corners[0])) / 2,
+                    nine[index(a + 3 * b)]);
+    }
+  }
+  return load;
+}
+
+} // namespace
+
+Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Places& places, Body& body) {
+  const std::ptrdiff_t size = body.layout.size;
+  places.for_each([&](const Place& at) {
+    for (int c = 0; c < 3; ++c) body.free[c * size + places.entry(at)] = 1;
+  });
+  for (const auto& fixed : scene.constrained)
+    for (const Place& at : places_on(scene, fixed.selection, is_quadratic, places))
+      for (int c = 0; places.owns(at) && c < 3; ++c)
+        if (fixed.components[index(c)]) body.free[c * size + places.entry(at)] = 0;
+  body.slab.update_ghosts(body.layout, body.free.data());
+  Supported made;
+  made.load = make_load(scene, is_quadratic, places);
+  made.load.array() *= body.free.cast<double>().array();
+  struct MovedNode {
+    Eigen::Vector3d rest;
+    cases::Moved motion;
+  };
+  std::vector<MovedNode> nodes;
+  for (const auto& [selection, motion] : scene.moved)
+    for (const Place& at : places_on(scene, selection, is_quadratic, places)) {
+      if (!places.holds(at)) continue;
+      nodes.push_back({places.rest(at), motion});
+      for (int c = 0; c < 3; ++c)
+        if (motion.components[index(c)]) made.moved.push_back(c * size + places.entry(at));
+    }
+  if (!scene.moved.empty())
+    made.prescribed = [nodes](double load_factor) {
+      std::vector<double> values;
+      for (const auto& [rest, motion] : nodes) {
+        const Eigen::Vector3d by = cases::moved_by(motion, rest, load_factor);
+        for (std::size_t c = 0; c < 3; ++c)
+          if (motion.components[c]) values.push_back(by[static_cast<int>(c)]);
+      }
+      return values;
+    };
+  return made;
+}
+
+} // namespace springproof::fem_reference::grid
