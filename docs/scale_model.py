@@ -28,7 +28,7 @@ class Measured:
 
 
 SPRINGS = Measured("springs, bricks", 5.9e-6, 23, 7, 200, 57, 3, 1000)
-FINITE_ELEMENTS = Measured("finite elements, slabs", 10.5e-6, 18, 8, 710, 80, 1, 500)
+FINITE_ELEMENTS = Measured("finite elements, slabs", 10.3e-6, 18, 8, 720, 40, 1, 500)
 PROGRAM_BYTES = 168e6  # on every rank
 LEAST_NODES = 2  # of a brick or slab along an axis that is divided
 
