@@ -1,35 +1,16 @@
 #pragma once
 
 #include "fem_reference/grid/slab.hpp"
+#include "mechanics/grid/field.hpp"
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 namespace springproof::fem_reference::grid {
 
-/// Three arrays of a layout: a vector at every node of a grid.
-template<class Real>
-using Field = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-
-/// Pieces of a field for threads.
-constexpr std::ptrdiff_t piece = 1 << 14;
-
-/// Calls action(first, length) for the pieces of n entries on n_threads threads.
-template<class Action>
-void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
-  const std::ptrdiff_t n_pieces = (n + piece - 1) / piece;
-#pragma omp parallel for num_threads(n_threads) schedule(static) if (n_threads > 1 && n_pieces > 1)
-  for (std::ptrdiff_t p = 0; p < n_pieces; ++p) action(p * piece, std::min(piece, n - p * piece));
-}
-
-/// a += factor * b
-template<class Real>
-void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {
-  for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    a.segment(first, n) += factor * b.segment(first, n);
-  });
-}
+using mechanics::grid::add;
+using mechanics::grid::Field;
+using mechanics::grid::for_each_piece;
+using mechanics::grid::piece;
 
 /// Calls action(plane), or layer, for a range of them on n_threads threads; which are neighbours does not
 /// matter.

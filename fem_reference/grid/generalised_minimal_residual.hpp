@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fem_reference/grid/conjugate_gradients.hpp"
+#include "fem_reference/grid/field.hpp"
+#include "mechanics/grid/conjugate_gradients.hpp"
 
 #include <Eigen/QR>
 #include <cmath>
@@ -12,10 +13,11 @@ namespace springproof::fem_reference::grid {
 /// Flexible GMRES (Saad 1993), for what conjugate gradients cannot solve: an operator that is not symmetric,
 /// or of either sign. It keeps two vectors an iteration until it restarts.
 template<class Operator, class Preconditioner>
-ConjugateGradients generalised_minimal_residual(const Operator& apply, const Preconditioner& precondition,
-                                                const Field<double>& right_side, double target,
-                                                int max_iterations, int restart, const Space& space) {
-  ConjugateGradients result;
+mechanics::grid::LinearSolution
+generalised_minimal_residual(const Operator& apply, const Preconditioner& precondition,
+                             const Field<double>& right_side, double target, int max_iterations, int restart,
+                             const Space& space) {
+  mechanics::grid::LinearSolution result;
   const std::ptrdiff_t n = right_side.size();
   result.solution.setZero(n);
   Field<double> residual = right_side;

@@ -16,7 +16,7 @@ using cases::index;
 constexpr double volume_tolerance = 1e-12; ///< as of the assembled equations
 /// 15 iterations in all for the sheared cube of 40^3 cells, 19 with a polynomial of degree 2; quadratic
 /// elements gain nothing from the better one, because trilinear ones are only near them.
-constexpr Multigrid::Smoother linear_smoother{3, 12}, quadratic_smoother{2, 6};
+constexpr mechanics::grid::Chebyshev linear_smoother{3, 12}, quadratic_smoother{2, 6};
 constexpr int max_linear_iterations = 500;
 /// Of GMRES; twice as many vectors are kept.
 constexpr int max_unsymmetric_iterations = 400, max_indefinite_iterations = 80;
@@ -126,7 +126,9 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
     auto found = minimise(max_unsymmetric_iterations);
     return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
   }
-  auto found = conjugate_gradients(times, precondition, right_side, target, max_linear_iterations, space_);
+  const auto dot = [&](const Field<double>& a, const Field<double>& b) { return grid::dot(space_, a, b); };
+  auto found = mechanics::grid::conjugate_gradients(times, precondition, right_side, target,
+                                                    max_linear_iterations, dot, space_.n_threads);
   work_.linear_iterations += found.iterations;
   if (!found.converged && found.met_negative_curvature) found = minimise(max_indefinite_iterations);
   if (!found.converged) return std::nullopt;

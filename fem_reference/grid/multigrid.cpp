@@ -12,6 +12,8 @@ namespace springproof::fem_reference::grid {
 
 namespace {
 
+using mechanics::grid::apply_blocks;
+
 using cases::index;
 
 constexpr std::ptrdiff_t most_coarsest_nodes = 125;
@@ -36,7 +38,7 @@ void fill(const Space& space, Field<float>& field) {
 
 } // namespace
 
-Multigrid::Multigrid(const Body& body, int n_threads, const Smoother& smoother)
+Multigrid::Multigrid(const Body& body, int n_threads, const mechanics::grid::Chebyshev& smoother)
     : body_(body), smoother_(smoother) {
   std::array<int, 3> cells = body.cells_of_grid();
   Eigen::Vector3d spacing = body.spacing;
@@ -150,32 +152,14 @@ void Multigrid::invert_diagonal(Level& level) const {
   });
 }
 
-/// out = keep * out + factor * (inverse diagonal blocks) in
-void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
-                                       float keep, float factor) const {
-  const std::ptrdiff_t n = level.layout().size;
-  const float* const d = level.inverse_diagonal.data();
-  for_each_piece(n, level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
-    const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
-    float *u = out.data() + first, *v = u + n, *w = v + n;
-#pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < length; ++i) {
-      const float xx = block[i], yy = block[i + n], zz = block[i + 2 * n], yz = block[i + 3 * n],
-                  xz = block[i + 4 * n], xy = block[i + 5 * n];
-      u[i] = keep * u[i] + factor * (xx * x[i] + xy * y[i] + xz * z[i]);
-      v[i] = keep * v[i] + factor * (xy * x[i] + yy * y[i] + yz * z[i]);
-      w[i] = keep * w[i] + factor * (xz * x[i] + yz * y[i] + zz * z[i]);
-    }
-  });
-}
-
 /// Of the inverse diagonal times the matrix, by the power method; its vector is kept for the next time.
 void Multigrid::estimate_largest_eigenvalue(Level& level) const {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 8;
   for (int step = 0; step < n_steps; ++step) {
     const double norm = grid::norm(level.space, level.rough);
     product(level, level.rough, level.product);
-    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / norm));
+    apply_blocks(level.inverse_diagonal.data(), level.product, level.rough, 0, static_cast<float>(1 / norm),
+                 level.space.n_threads);
     level.largest_eigenvalue = grid::norm(level.space, level.rough);
   }
 }
@@ -226,26 +210,22 @@ void Multigrid::factorise_coarsest() {
   coarsest_.compute(modes.eigenvectors() * sizes.asDiagonal() * modes.eigenvectors().transpose());
 }
 
-/// Chebyshev's iteration from the level's solution and residual, both of which it updates; the residual of
-/// the last step only when it is wanted.
+/// Adds the correction to the solution, and takes its product from the residual when that is wanted.
+void Multigrid::correct(Level& level, bool keeps_residual) const {
+  add(level.solution, 1.0f, level.correction, level.space.n_threads);
+  if (!keeps_residual) return;
+  product(level, level.correction, level.product);
+  add(level.residual, -1.0f, level.product, level.space.n_threads);
+}
+
 void Multigrid::smooth(Level& level, bool keeps_residual) const {
-  const double upper = 1.1 * level.largest_eigenvalue; // the power method comes from below
-  const double lower = upper / smoother_.share;
-  const double centre = (upper + lower) / 2, half_width = (upper - lower) / 2;
-  const double sigma = centre / half_width;
-  double rho = 1 / sigma;
-  apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
-  for (int step = 1;; ++step) {
-    add(level.solution, 1.0f, level.correction, level.space.n_threads);
-    if (step == smoother_.degree && !keeps_residual) return;
-    product(level, level.correction, level.product);
-    add(level.residual, -1.0f, level.product, level.space.n_threads);
-    if (step == smoother_.degree) return;
-    const double next = 1 / (2 * sigma - rho);
-    apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
-                           static_cast<float>(2 * next / half_width));
-    rho = next;
-  }
+  const auto precondition = [&](float keep, float factor) {
+    apply_blocks(level.inverse_diagonal.data(), level.residual, level.correction, keep, factor,
+                 level.space.n_threads);
+  };
+  mechanics::grid::smooth(
+      smoother_, 1.1 * level.largest_eigenvalue, // the power method comes from below
+      precondition, [&](bool keeps) { correct(level, keeps); }, keeps_residual);
 }
 
 /// Solves for the residual of level l; the level's solution is the answer.
@@ -268,26 +248,15 @@ void Multigrid::cycle(std::size_t l) {
   cycle(l + 1);
   prolong(coarser.space, level.space, level.axes, coarser.solution, level.correction);
   if (is_finest(level)) level.correction.array() *= body_.free.array();
-  add(level.solution, 1.0f, level.correction, level.space.n_threads);
-  product(level, level.correction, level.product);
-  add(level.residual, -1.0f, level.product, level.space.n_threads);
+  correct(level, true);
   smooth(level, false);
 }
 
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const double norm = grid::norm(level.space, right_side); // keeps single precision in range
-  if (!(norm > 0)) {
-    solution.setZero();
-    return;
-  }
-  for_each_piece(right_side.size(), level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    level.residual.segment(first, n) = (right_side.segment(first, n) / norm).cast<float>();
-  });
-  cycle(0);
-  for_each_piece(right_side.size(), level.space.n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    solution.segment(first, n) = norm * level.solution.segment(first, n).cast<double>();
-  });
+  mechanics::grid::apply_in_single_precision(
+      right_side, grid::norm(level.space, right_side), level.residual, level.solution, solution,
+      [&] { cycle(0); }, level.space.n_threads);
 }
 
 } // namespace springproof::fem_reference::grid

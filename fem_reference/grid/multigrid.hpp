@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/grid/body.hpp"
+#include "mechanics/grid/smoother.hpp"
 
 #include <Eigen/Cholesky>
 #include <deque>
@@ -14,11 +15,7 @@ namespace springproof::fem_reference::grid {
 /// symmetric part.
 class Multigrid {
  public:
-  struct Smoother {
-    int degree;   ///< of Chebyshev's polynomial
-    double share; ///< it works on eigenvalues down to that part of the largest
-  };
-  Multigrid(const Body& body, int n_threads, const Smoother& smoother);
+  Multigrid(const Body& body, int n_threads, const mechanics::grid::Chebyshev& smoother);
 
   /// Assembles the tangent at a state and prepares the cycle.
   void linearise(const double* displacement, const double* pressure);
@@ -47,7 +44,7 @@ class Multigrid {
   };
 
   const Body& body_;
-  Smoother smoother_;
+  mechanics::grid::Chebyshev smoother_;
   std::deque<Level> levels_;
   std::vector<std::ptrdiff_t> coarsest_unknowns_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
@@ -57,8 +54,7 @@ class Multigrid {
   void invert_diagonal(Level& level) const;
   void estimate_largest_eigenvalue(Level& level) const;
   void factorise_coarsest();
-  void apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out, float keep,
-                              float factor) const;
+  void correct(Level& level, bool keeps_residual) const;
   void smooth(Level& level, bool keeps_residual) const;
   void cycle(std::size_t l);
 };

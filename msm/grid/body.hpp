@@ -1,9 +1,9 @@
 #pragma once
 
+#include "mechanics/grid/field.hpp"
 #include "msm/grid/kernels.hpp"
 #include "msm/grid/part.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,21 +61,12 @@ bool has_cell(const Body& body, int i, int j, int k);
 /// the fine node at its place is. Of a part, the coarser body that it brings.
 std::optional<Body> coarsen(const Body& fine);
 
-/// Three arrays of a layout: a vector at every node of a grid. Ghosts and constrained entries are 0.
-template<class Real>
-using Field = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+/// Ghosts and constrained entries are 0.
+using mechanics::grid::Field;
 
-/// Fixed pieces of a field: sums add piece by piece in order, so that they do not depend on the number of
-/// threads.
-constexpr std::ptrdiff_t piece = 1 << 14;
-
-/// Calls action(first, length) for the pieces of n entries on n_threads threads.
-template<class Action>
-void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
-  const std::ptrdiff_t n_pieces = (n + piece - 1) / piece;
-#pragma omp parallel for num_threads(n_threads) schedule(static) if (n_threads > 1 && n_pieces > 1)
-  for (std::ptrdiff_t p = 0; p < n_pieces; ++p) action(p * piece, std::min(piece, n - p * piece));
-}
+using mechanics::grid::add;
+using mechanics::grid::for_each_piece;
+using mechanics::grid::piece;
 
 /// Calls action(k) for the planes of nodes on n_threads threads.
 template<class Action>
@@ -132,14 +123,6 @@ inline bool on_all_ranks(const Body& body, bool here) {
   double n_not = here ? 0 : 1;
   if (body.part) body.part->ranks->sum(&n_not, 1);
   return n_not == 0;
-}
-
-/// a += factor * b
-template<class Real>
-void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {
-  for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
-    a.segment(first, length) += factor * b.segment(first, length);
-  });
 }
 
 template<class Real>

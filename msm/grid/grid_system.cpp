@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
+#include "mechanics/grid/conjugate_gradients.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <utility>
@@ -216,52 +217,16 @@ class GridSystem : public SpringSystem {
     // fly off that may be wrong, and then a new cycle has to start afresh.
     for (const bool may_be_misled : {true, false}) {
       multigrid_->linearise(displacement);
-      const ConjugateGradients found = conjugate_gradients(apply, right_side, forcing);
+      const auto found = mechanics::grid::conjugate_gradients(
+          apply, [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); }, right_side,
+          forcing * norm(problem_.body, right_side, n_threads_), max_iterations,
+          [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_);
+      work_.linear_iterations += found.iterations;
       if (found.converged) return found.solution;
       if (found.met_negative_curvature || !may_be_misled) break;
       multigrid_.emplace(bodies_, n_threads_);
     }
     return std::nullopt;
-  }
-
-  struct ConjugateGradients {
-    Vector solution;
-    bool converged = false;
-    bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
-  };
-
-  /// Conjugate gradients with the multigrid cycle, until the residual is at most `forcing` of the right side.
-  /// The cycle is symmetric but for the rounding of single precision; Polak and Ribiere's formula does not
-  /// mind.
-  template<class Operator>
-  ConjugateGradients conjugate_gradients(const Operator& apply, const Vector& right_side, double forcing) {
-    ConjugateGradients result;
-    result.solution.setZero(right_side.size());
-    Vector residual = right_side, preconditioned(right_side.size()), product = result.solution;
-    multigrid_->apply(residual, preconditioned);
-    Vector direction = preconditioned;
-    double slope = dot(residual, preconditioned);
-    const double target = forcing * norm(problem_.body, right_side, n_threads_);
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      apply(direction, product);
-      ++work_.linear_iterations;
-      const double curvature = dot(direction, product);
-      result.met_negative_curvature = curvature <= 0;
-      if (!(curvature > 0) || !(slope > 0)) return result;
-      const double length = slope / curvature;
-      add(result.solution, length, direction, n_threads_);
-      add(residual, -length, product, n_threads_);
-      result.converged = norm(problem_.body, residual, n_threads_) <= target;
-      if (result.converged) return result;
-      const double crossed = dot(residual, preconditioned);
-      multigrid_->apply(residual, preconditioned);
-      const double now = dot(residual, preconditioned), keep = (now - crossed) / slope;
-      slope = now;
-      for_each_piece(direction.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-        direction.segment(first, n) = preconditioned.segment(first, n) + keep * direction.segment(first, n);
-      });
-    }
-    return result;
   }
 };
 

@@ -4,9 +4,9 @@ namespace springproof::msm::grid {
 
 namespace {
 
-constexpr int smoothing_degree = 3;
-/// The smoother takes care of this part of the spectrum, from the largest eigenvalue downwards.
-constexpr double smoothed_part = 8;
+using mechanics::grid::apply_blocks;
+
+constexpr mechanics::grid::Chebyshev smoother{3, 8};
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
 } // namespace
@@ -60,32 +60,14 @@ void Multigrid::linearise(const Field<double>& displacement) {
   factorise_coarsest();
 }
 
-/// out = keep * out + factor * (inverse diagonal blocks) in
-void Multigrid::apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out,
-                                       float keep, float factor) const {
-  const std::ptrdiff_t n = in.size() / 3;
-  const float* d = level.inverse_diagonal.data();
-  for_each_piece(n, n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
-    const float *x = in.data() + first, *y = x + n, *z = y + n, *block = d + first;
-    float *u = out.data() + first, *v = u + n, *w = v + n;
-#pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < length; ++i) {
-      const float xx = block[i], yy = block[i + n], zz = block[i + 2 * n], yz = block[i + 3 * n],
-                  xz = block[i + 4 * n], xy = block[i + 5 * n];
-      u[i] = keep * u[i] + factor * (xx * x[i] + xy * y[i] + xz * z[i]);
-      v[i] = keep * v[i] + factor * (xy * x[i] + yy * y[i] + yz * z[i]);
-      w[i] = keep * w[i] + factor * (xz * x[i] + yz * y[i] + zz * z[i]);
-    }
-  });
-}
-
 /// Of the inverse diagonal times the tangent, by the power method; its vector is kept for the next time.
 void Multigrid::estimate_largest_eigenvalue(Level& level) {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 12;
   for (int step = 0; step < n_steps; ++step) {
     const double length = norm(level.body, level.rough, n_threads_);
     level.springs.product(Clamp::yes, level.displacement, level.rough, level.product);
-    apply_inverse_diagonal(level, level.product, level.rough, 0, static_cast<float>(1 / length));
+    apply_blocks(level.inverse_diagonal.data(), level.product, level.rough, 0, static_cast<float>(1 / length),
+                 n_threads_);
     level.largest_eigenvalue = norm(level.body, level.rough, n_threads_);
   }
 }
@@ -122,23 +104,13 @@ void Multigrid::correct(Level& level, bool keeps_residual) {
   add(level.residual, -1.0f, level.product, n_threads_);
 }
 
-/// Chebyshev's iteration from the level's solution and residual, both of which it updates; the residual of
-/// the last step only when it is wanted.
 void Multigrid::smooth(Level& level, bool keeps_residual) {
-  const double upper = 1.15 * level.largest_eigenvalue; // the power method comes from below
-  const double lower = upper / smoothed_part;
-  const double centre = (upper + lower) / 2, half_width = (upper - lower) / 2;
-  const double sigma = centre / half_width;
-  double rho = 1 / sigma;
-  apply_inverse_diagonal(level, level.residual, level.correction, 0, static_cast<float>(1 / centre));
-  for (int step = 1;; ++step) {
-    correct(level, keeps_residual || step < smoothing_degree);
-    if (step == smoothing_degree) return;
-    const double next = 1 / (2 * sigma - rho);
-    apply_inverse_diagonal(level, level.residual, level.correction, static_cast<float>(next * rho),
-                           static_cast<float>(2 * next / half_width));
-    rho = next;
-  }
+  const auto precondition = [&](float keep, float factor) {
+    apply_blocks(level.inverse_diagonal.data(), level.residual, level.correction, keep, factor, n_threads_);
+  };
+  mechanics::grid::smooth(
+      smoother, 1.15 * level.largest_eigenvalue, // the power method comes from below
+      precondition, [&](bool keeps) { correct(level, keeps); }, keeps_residual);
 }
 
 /// Solves for the residual of level l; the level's solution is the answer.
@@ -161,20 +133,14 @@ void Multigrid::cycle(std::size_t l) {
 
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const double size = norm(level.body, right_side, n_threads_); // keeps single precision in range
-  if (!(size > 0)) {
-    solution.setZero();
-    return;
-  }
-  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    level.residual.segment(first, n) = (right_side.segment(first, n) / size).cast<float>();
-  });
-  cycle(0);
-  // Every rank has coarse levels of its own, which another kind of machine rounds differently.
-  update_ghosts(level.body, level.solution);
-  for_each_piece(right_side.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    solution.segment(first, n) = size * level.solution.segment(first, n).cast<double>();
-  });
+  const auto whole_cycle = [&] {
+    cycle(0);
+    // Every rank has coarse levels of its own, which another kind of machine rounds differently.
+    update_ghosts(level.body, level.solution);
+  };
+  mechanics::grid::apply_in_single_precision(right_side, norm(level.body, right_side, n_threads_),
+                                             level.residual, level.solution, solution, whole_cycle,
+                                             n_threads_);
 }
 
 } // namespace springproof::msm::grid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/grid/smoother.hpp"
 #include "msm/grid/spring_field.hpp"
 #include "msm/grid/transfer.hpp"
 
@@ -44,8 +45,6 @@ class Multigrid {
 
   void estimate_largest_eigenvalue(Level& level);
   void factorise_coarsest();
-  void apply_inverse_diagonal(const Level& level, const Field<float>& in, Field<float>& out, float keep,
-                              float factor) const;
   void correct(Level& level, bool keeps_residual);
   void smooth(Level& level, bool keeps_residual);
   void cycle(std::size_t l);
