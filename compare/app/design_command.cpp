@@ -5,11 +5,11 @@
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/write/json.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -50,7 +50,7 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
 void write_files(const CommandOptions& options, const msm::DesignRequest& request,
                  const std::vector<DesignAttempt>& attempts) {
   write_file(options.out + "/design.json",
-             [&](std::ostream& out) { out << to_json(options, attempts).dump(2) << '\n'; });
+             [&](std::ostream& out) { out << json_text(to_json(options, attempts)); });
   if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
   if (options.has_many()) return;
   if (request.options.design == cases::Design::linear_method)
@@ -68,7 +68,7 @@ int run(const CommandOptions& options) {
   if (options.measure) measure_on_cube(attempts, request);
   if (mpi_rank() != 0) return 0;
   if (options.json)
-    std::cout << to_json(options, attempts).dump(2) << '\n';
+    std::cout << json_text(to_json(options, attempts));
   else if (options.has_many())
     write_comparison_text(std::cout, attempts);
   else

@@ -5,10 +5,10 @@
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/write/json.hpp"
 
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -54,7 +54,7 @@ int run(EigenOptions options) {
     nlohmann::ordered_json document{{"schema", 1}, {"poissons_ratio", material.poissons_ratio}};
     document.update(eigenspaces_to_json(analysis));
     if (modes) document["free_body"] = free_modes_to_json(*modes);
-    std::cout << document.dump(2) << '\n';
+    std::cout << json_text(document);
   } else {
     write_eigenspaces_text(std::cout, analysis);
     if (modes) write_free_modes_text(std::cout, *modes);

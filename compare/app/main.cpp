@@ -1,15 +1,20 @@
 #include "cases/case/error.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/solve/process_pool.hpp"
 #include "fem_reference/session.hpp"
 
 #include <iostream>
+#include <system_error>
 
 using namespace springproof;
 
 namespace {
 
-enum ExitStatus { wrong_input = 2, internal_error = 3 };
+enum ExitStatus { failed_solve = 1, wrong_input = 2, internal_error = 3 };
+
+const char* const lost_output = "springproof: standard output cannot be written";
 
 enum class BlasWarning { give, withhold };
 
@@ -20,7 +25,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     std::cerr
         << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
            "(install libopenblas0-pthread)\n";
-  std::string message = "springproof: standard output cannot be written";
+  std::string message = lost_output;
   int status = wrong_input;
   try {
     const int done = action();
@@ -28,12 +33,34 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     if (std::cout) return done;
   } catch (const cases::InputError& error) {
     message = error.what();
+  } catch (const cases::SolveError& error) { // of a design; those of cases are rows
+    message = error.what();
+    status = failed_solve;
+  } catch (const std::system_error& error) { // a folder that cannot be read, a process that cannot be started
+    message = std::string("springproof: ") + error.what();
   } catch (const std::exception& error) {
     message = std::string("springproof: internal error: ") + error.what();
     status = internal_error;
   }
-  session.give_up(message, status);
+  session.give_up(compare::one_line(message), status);
   return status;
+}
+
+/// Help, the version, or what is wrong with the command line.
+int run_usage(const CLI::App& program, const CLI::ParseError& answer) {
+  const int status = answer.get_exit_code() == 0 ? 0 : wrong_input;
+  if (compare::is_under_mpi_launcher()) { // one rank says it for all
+    const auto tell = [&] {
+      if (compare::mpi_rank() == 0) program.exit(answer);
+      return status;
+    };
+    return run_action(tell, BlasWarning::withhold);
+  }
+  program.exit(answer);
+  std::cout.flush();
+  if (std::cout) return status;
+  std::cerr << lost_output << std::endl;
+  return wrong_input;
 }
 
 } // namespace
@@ -50,9 +77,8 @@ int main(int argc, char** argv) {
     add(program, chosen);
   try {
     program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const int status = program.exit(error);
-    return status == 0 ? 0 : wrong_input;
+  } catch (const CLI::ParseError& answer) {
+    return run_usage(program, answer);
   }
   // A worker's parent has given the warning.
   return run_action(chosen, program.got_subcommand("worker") ? BlasWarning::withhold : BlasWarning::give);

@@ -7,11 +7,11 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -71,7 +71,7 @@ int run(const RunOptions& options) {
     if (!options.json) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);
   }
-  if (mpi_rank() == 0 && options.json) std::cout << to_json(done).dump(2) << '\n';
+  if (mpi_rank() == 0 && options.json) std::cout << json_text(to_json(done));
   return failed ? 1 : 0;
 }
 

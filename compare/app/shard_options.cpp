@@ -2,9 +2,9 @@
 
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 
 #include <algorithm>
-#include <fmt/ostream.h>
 #include <iostream>
 
 namespace springproof::compare {
@@ -45,8 +45,8 @@ CLI::Option* add_shard_options(CLI::App& command, const std::shared_ptr<ShardOpt
 
 void print_shard(const Shard& shard, std::size_t n_done, std::size_t n_all, std::size_t n_failed,
                  const std::string& out) {
-  fmt::print(std::cout, "shard {} of {}: {} of {} solved{}, kept in {}\n", shard.index, shard.count, n_done,
-             n_all, n_failed == 0 ? "" : fmt::format(", {} of them failed", n_failed), out);
+  print(std::cout, "shard {} of {}: {} of {} solved{}, kept in {}\n", shard.index, shard.count, n_done, n_all,
+        n_failed == 0 ? "" : fmt::format(", {} of them failed", n_failed), out);
 }
 
 int solve_shard(const ShardOptions& options, const std::vector<Question>& all, FileNames names,

@@ -7,13 +7,13 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write_stress.hpp"
 
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -113,7 +113,7 @@ void write_results(const std::string& folder, const std::vector<StressResult>& r
     write_stress_summary(out, results, skipped);
   });
   write_file(folder + "/stress.json",
-             [&](std::ostream& out) { out << stress_to_json(results, skipped).dump(2) << '\n'; });
+             [&](std::ostream& out) { out << json_text(stress_to_json(results, skipped)); });
 }
 
 int run(const StressOptions& options) {
@@ -136,7 +136,7 @@ int run(const StressOptions& options) {
   }
   if (rank != 0) return 0; // the springs' rows are rank 0's
   if (options.json)
-    std::cout << stress_to_json(results, skipped).dump(2) << '\n';
+    std::cout << json_text(stress_to_json(results, skipped));
   else
     write_stress_summary(std::cout, results, skipped);
   return met ? 0 : 1;

@@ -2,16 +2,17 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
+#include "compare/write/json.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <unistd.h>
 
@@ -47,7 +48,7 @@ void write_csv_of(const Sweep& sweep, const std::string& folder) {
 
 void write_files(const std::string& folder, const Sweep& sweep) {
   write_file(folder + "/sweep.txt", [&](std::ostream& out) { write_sweep_text(out, sweep); });
-  write_file(folder + "/sweep.json", [&](std::ostream& out) { out << sweep_to_json(sweep).dump(2) << '\n'; });
+  write_file(folder + "/sweep.json", [&](std::ostream& out) { out << json_text(sweep_to_json(sweep)); });
   plot_sweep(folder, sweep);
 }
 
@@ -93,7 +94,7 @@ int sweep(const SweepOptions& options) {
       });
   if (mpi_rank() != 0) return failed;
   if (options.json)
-    std::cout << sweep_to_json(result).dump(2) << '\n';
+    std::cout << json_text(sweep_to_json(result));
   else
     write_sweep_text(std::cout, result);
   if (!options.out.empty()) write_files(options.out, result);
@@ -104,11 +105,11 @@ int count(const SweepOptions& options) {
   if (mpi_rank() != 0) return 0;
   const InstructionCounts counts = count_instructions();
   if (!counts.reason.empty()) {
-    std::cerr << counts.reason << '\n';
+    print(std::cerr, "{}\n", counts.reason);
     return 2;
   }
   if (options.json)
-    std::cout << instructions_to_json(counts).dump(2) << '\n';
+    std::cout << json_text(instructions_to_json(counts));
   else
     write_instructions_text(std::cout, counts);
   return 0;

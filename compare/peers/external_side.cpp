@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/mesh/vtk.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "msm/problem.hpp"
 
@@ -112,6 +113,7 @@ std::vector<GivenDisplacement> read_displacements(const std::string& path) {
   if (ending != ".csv" && ending != ".vtu")
     throw cases::InputError(
         fmt::format("{}: displacements must be in a file .csv ({}) or .vtu", path, header));
+  if (one_line(path) != path) refuse(one_line(path), "the file's name must be one line of UTF-8 text");
   const std::string text = read_file(path);
   return ending == ".csv" ? read_displacement_csv(text, path) : read_displacement_vtu(text, path);
 }

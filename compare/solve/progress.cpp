@@ -1,6 +1,7 @@
 #include "compare/solve/progress.hpp"
 
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +24,7 @@ std::size_t columns() {
 }
 
 /// Cut to the terminal's width, not within a character of UTF-8.
-std::string in_one_line(const std::string& text) {
+std::string within_columns(const std::string& text) {
   std::size_t size = std::min(text.size(), columns());
   while (size > 0 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
   return text.substr(0, size);
@@ -89,7 +90,7 @@ void ProgressLine::begin(const std::string& name, double estimated_seconds, cons
   running_.push_back({name, estimated_seconds, now()});
   if (!note.empty()) {
     clear();
-    show(in_one_line(note) + '\n');
+    show(within_columns(one_line(note)) + '\n');
   }
   if (!drawer_.joinable()) drawer_ = std::thread([this] { draw_now_and_then(); });
 }
@@ -126,10 +127,10 @@ void ProgressLine::draw() {
   }
   const double left = remaining_.seconds();
   const auto done = static_cast<std::size_t>(bar_width * remaining_.part_done());
-  const std::string line =
-      in_one_line(fmt::format("[{:<{}}] {} of {}, {} left, {}", std::string(done, '#'), bar_width,
-                              remaining_.finished.n_pieces, remaining_.expected.n_pieces,
-                              left < 1 ? "not long" : "about " + clock_text(left), running_.back().name));
+  const std::string line = within_columns(
+      fmt::format("[{:<{}}] {} of {}, {} left, {}", std::string(done, '#'), bar_width,
+                  remaining_.finished.n_pieces, remaining_.expected.n_pieces,
+                  left < 1 ? "not long" : "about " + clock_text(left), one_line(running_.back().name)));
   show('\r' + line + std::string(n_drawn_ > line.size() ? n_drawn_ - line.size() : 0, ' '));
   n_drawn_ = std::max(n_drawn_, line.size());
 }

@@ -1,9 +1,9 @@
 #include "compare/sweep/costs.hpp"
 
+#include "compare/provenance/print.hpp"
 #include "compare/solve/progress.hpp"
 
 #include <algorithm>
-#include <fmt/ostream.h>
 #include <numeric>
 
 namespace springproof::compare {
@@ -84,13 +84,12 @@ void check_memory(const Sweep& sweep) {
 }
 
 void write_plan(std::ostream& out, const Sweep& sweep) {
-  fmt::print(out, "{}: {} variants, about {} in all (minutes:seconds)\n", sweep.definition.name,
-             sweep.plan.variants.size(), clock_text(sum(estimated_seconds(sweep))));
+  print(out, "{}: {} variants, about {} in all (minutes:seconds)\n", sweep.definition.name,
+        sweep.plan.variants.size(), clock_text(sum(estimated_seconds(sweep))));
   for (const auto& [name, n_variants, largest] : methods_of_plan(sweep))
-    fmt::print(out, "  {:<34} {:>3} variants, up to {:>9.0f} unknowns and {:>6.0f} MB, {:>7}\n", name,
-               n_variants, largest.unknowns, largest.megabytes, clock_text(largest.seconds));
-  for (const LeftOut& left : sweep.plan.left_out)
-    fmt::print(out, "  left out: {}: {}\n", left.what, left.reason);
+    print(out, "  {:<34} {:>3} variants, up to {:>9.0f} unknowns and {:>6.0f} MB, {:>7}\n", name, n_variants,
+          largest.unknowns, largest.megabytes, clock_text(largest.seconds));
+  for (const LeftOut& left : sweep.plan.left_out) print(out, "  left out: {}: {}\n", left.what, left.reason);
 }
 
 } // namespace springproof::compare

@@ -241,7 +241,7 @@ void write_thesis_files(const std::string& folder, const ThesisResults& results)
     write_csv_file(folder + "/" + name, [&](CsvWriter& csv) { write(csv, results); });
   };
   file("tables.txt", [&](std::ostream& out) { write_tables_text(out, results, Commands::one_per_table); });
-  file("tables.json", [&](std::ostream& out) { out << results_to_json(results).dump(2) << '\n'; });
+  file("tables.json", [&](std::ostream& out) { out << json_text(results_to_json(results)); });
   csv_file("tables.csv", write_tables);
   if (!results.designs.empty()) csv_file("designs.csv", write_designs);
   if (!results.advice.empty()) csv_file("advice.csv", write_advice);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +13,8 @@
 
 namespace springproof::compare {
 
-/// Writes comma-separated rows: numbers to so many digits, whole numbers and texts as they are, nothing for a
-/// value that is absent, the fields of a vector one after the other.
+/// Writes comma-separated rows: numbers to so many digits, whole numbers as they are, texts as one_line(),
+/// nothing for a value that is absent, the fields of a vector one after the other.
 class CsvWriter {
  public:
   explicit CsvWriter(std::ostream& out, int digits = 8) : out_(out), digits_(digits) {}
@@ -28,10 +29,10 @@ class CsvWriter {
   void end_block() { out_ << "\n\n"; }
 
  private:
-  /// As RFC 4180 has it: a text with a comma, a quote or a line break stands in quotes, and its quotes are
-  /// doubled.
-  std::string field(const std::string& text) const {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  /// As RFC 4180 has it: a text with a comma or a quote stands in quotes, and its quotes are doubled.
+  std::string field(const std::string& any_text) const {
+    const std::string text = one_line(any_text);
+    if (text.find_first_of(",\"") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + "\"";

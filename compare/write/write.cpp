@@ -2,12 +2,12 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 
 #include <algorithm>
-#include <fmt/ostream.h>
 
 namespace springproof::compare {
 
@@ -22,21 +22,21 @@ std::string number(const std::optional<double>& value, const char* format) {
 void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side) {
   const cases::Solution& s = side.solution;
   if (s.status == cases::Status::skipped) return;
-  fmt::print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
+  print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
   if (s.status == cases::Status::failed) {
-    fmt::print(out, " at {:.4g} of the load: {}\n", s.load_reached, s.message);
+    print(out, " at {:.4g} of the load: {}\n", s.load_reached, s.message);
     return;
   }
   const bool is_relaxed = s.relaxation_iterations > 0;
-  fmt::print(out, ", {} unknowns, {} {} iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s",
-             s.unknowns, is_relaxed ? s.relaxation_iterations : s.newton_iterations,
-             is_relaxed ? "explicit" : "Newton", s.residual, side.setup_seconds, side.solve_seconds);
-  if (s.inverted_cells > 0) fmt::print(out, ", {} INVERTED CELLS", s.inverted_cells);
+  print(out, ", {} unknowns, {} {} iterations, residual {:.1e}, setup {:.3f} s, solve {:.3f} s", s.unknowns,
+        is_relaxed ? s.relaxation_iterations : s.newton_iterations, is_relaxed ? "explicit" : "Newton",
+        s.residual, side.setup_seconds, side.solve_seconds);
+  if (s.inverted_cells > 0) print(out, ", {} INVERTED CELLS", s.inverted_cells);
   if (s.negative_eigenvalues.value_or(0) > 0)
-    fmt::print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
-  if (s.lowest_eigenvalue) fmt::print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
-  fmt::print(out, "\n");
-  if (!s.message.empty()) fmt::print(out, "       {}\n", s.message);
+    print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
+  if (s.lowest_eigenvalue) print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
+  print(out, "\n");
+  if (!s.message.empty()) print(out, "       {}\n", s.message);
 }
 
 std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {
@@ -50,16 +50,16 @@ std::string describe(const std::optional<msm::DesignResult>& design, cases::Desi
 /// One line: what became of the peer, and how far it is from the finite elements.
 void write_peer(std::ostream& out, const Peer& peer) {
   const cases::Solution& s = peer.answer.solution;
-  fmt::print(out, "  peer {}: {}", peer.program, cases::name_of(s.status));
+  print(out, "  peer {}: {}", peer.program, cases::name_of(s.status));
   if (s.status != cases::Status::converged) {
-    fmt::print(out, ": {}\n", s.message);
+    print(out, ": {}\n", s.message);
     return;
   }
-  fmt::print(out, ", {} unknowns, {} iterations, {:.3f} s", s.unknowns, s.newton_iterations,
-             peer.answer.solve_seconds);
+  print(out, ", {} unknowns, {} iterations, {:.3f} s", s.unknowns, s.newton_iterations,
+        peer.answer.solve_seconds);
   if (peer.largest_difference)
-    fmt::print(out, ", displacements within {:.1e} of fem's (of the largest)", *peer.largest_difference);
-  fmt::print(out, "\n");
+    print(out, ", displacements within {:.1e} of fem's (of the largest)", *peer.largest_difference);
+  print(out, "\n");
 }
 
 /// "9.23 +- 1.1", or without the error bar; "-" when there is no value.
@@ -82,27 +82,26 @@ std::string common_text(const std::vector<StudiedMeasure>& measures, const Get& 
 void write_missing_limits(std::ostream& out, const MeshStudy& study) {
   const auto reason = [](const StudiedMeasure& m) { return m.no_reference; };
   if (const std::string common = common_text(study.measures, reason); !common.empty()) {
-    fmt::print(out, "  errors are against the finite elements on the same mesh: {}\n", common);
+    print(out, "  errors are against the finite elements on the same mesh: {}\n", common);
     return;
   }
   for (const StudiedMeasure& m : study.measures)
-    if (!m.reference) fmt::print(out, "  {}: error against the same mesh: {}\n", m.name, m.no_reference);
+    if (!m.reference) print(out, "  {}: error against the same mesh: {}\n", m.name, m.no_reference);
 }
 
 /// A table of the values on every mesh, with orders and error bars.
 void write_mesh_study(std::ostream& out, const MeshStudy& study) {
-  fmt::print(out, "  fem on refined meshes    ");
-  for (const int refine : study.refine) fmt::print(out, " {:>12}", fmt::format("refine {}", refine));
-  fmt::print(out, " {:>7} {:>12} {:>10} {:>10}\n", "order", "limit", "GCI %", "fem +- %");
+  print(out, "  fem on refined meshes    ");
+  for (const int refine : study.refine) print(out, " {:>12}", fmt::format("refine {}", refine));
+  print(out, " {:>7} {:>12} {:>10} {:>10}\n", "order", "limit", "GCI %", "fem +- %");
   for (const StudiedMeasure& measure : study.measures) {
-    fmt::print(out, "  {:<24}", measure.name);
-    for (const double value : measure.values) fmt::print(out, " {:>12.6g}", value);
+    print(out, "  {:<24}", measure.name);
+    for (const double value : measure.values) print(out, " {:>12.6g}", value);
     if (measure.limit)
-      fmt::print(out, " {:>7.2f} {:>12.6g} {:>10.2g} {:>10.2g}\n", measure.limit->order,
-                 measure.limit->extrapolated, measure.limit->index_percent,
-                 *measure.discretisation_error_percent);
+      print(out, " {:>7.2f} {:>12.6g} {:>10.2g} {:>10.2g}\n", measure.limit->order,
+            measure.limit->extrapolated, measure.limit->index_percent, *measure.discretisation_error_percent);
     else
-      fmt::print(out, "  no order: {}\n", measure.reason);
+      print(out, "  no order: {}\n", measure.reason);
   }
 }
 
@@ -115,13 +114,13 @@ void write_measures(std::ostream& out, const std::vector<MeasuredValue>& measure
                         const std::string& msm, const std::string& limit, const std::string& error,
                         const std::string& same_mesh, const std::string& fem_error,
                         const std::string& other) {
-    fmt::print(out, "  {:<24} {:>4} {:>14} {:>14}", name, unit, fem, msm);
+    print(out, "  {:<24} {:>4} {:>14} {:>14}", name, unit, fem, msm);
     if (has_limits)
-      fmt::print(out, " {:>22} {:>15} {:>11} {:>11}", limit, error, same_mesh, fem_error);
+      print(out, " {:>22} {:>15} {:>11} {:>11}", limit, error, same_mesh, fem_error);
     else
-      fmt::print(out, " {:>10}", error);
-    if (peer) fmt::print(out, " {:>14}", other);
-    fmt::print(out, "\n");
+      print(out, " {:>10}", error);
+    if (peer) print(out, " {:>14}", other);
+    print(out, "\n");
   };
   line("measure", "unit", "fem", "msm", "fem's limit", "error %", "same mesh %", "fem error %",
        peer ? peer->program : "");
@@ -239,29 +238,29 @@ Json comparison_to_json(const Comparison& comparison) {
 void write_text(std::ostream& out, const Comparison& comparison) {
   const auto& [scene, answers, measures, gates, mesh_study] = comparison;
   const cases::Case& definition = scene.definition;
-  fmt::print(out, "{}: {}\n", definition.name, definition.description);
+  print(out, "{}: {}\n", definition.name, definition.description);
   write_side(out, "fem",
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
              answers.fem);
-  for (const std::string& choice : answers.choices) fmt::print(out, "       {}\n", choice);
+  for (const std::string& choice : answers.choices) print(out, "       {}\n", choice);
   if (const cases::Solution& msm = answers.msm.solution; answers.msm_source.empty())
     write_side(out, "msm", describe(answers.design, definition.msm.design), answers.msm);
   else
-    fmt::print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source, msm.displacement.size(),
-               msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
+    print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source, msm.displacement.size(),
+          msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
   if (answers.design)
-    for (const std::string& warning : answers.design->warnings) fmt::print(out, "  warning: {}\n", warning);
+    for (const std::string& warning : answers.design->warnings) print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);
   write_measures(out, measures, answers.peer);
   if (mesh_study) {
     write_missing_limits(out, *mesh_study);
     if (mesh_study->refine.size() > 1) write_mesh_study(out, *mesh_study);
   }
-  for (const std::string& doubt : comparison.doubts()) fmt::print(out, "  FAILED: {}\n", doubt);
+  for (const std::string& doubt : comparison.doubts()) print(out, "  FAILED: {}\n", doubt);
   for (const Gate& gate : gates)
-    fmt::print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED", gate.expectation.measure,
-               cases::name_of(gate.expectation.reference),
-               gate.met() ? number(gate.value, "{:.6g}") : gate.missed);
+    print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED", gate.expectation.measure,
+          cases::name_of(gate.expectation.reference),
+          gate.met() ? number(gate.value, "{:.6g}") : gate.missed);
 }
 
 Json side_to_json(const Answer& side) {
@@ -352,7 +351,7 @@ void write_results(const std::string& folder, const std::vector<Comparison>& don
   write_file(folder + "/" + last.scene.definition.name + ".vtu",
              [&](std::ostream& out) { write_vtu(out, last); });
   write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
-  write_file(folder + "/results.json", [&](std::ostream& out) { out << to_json(done).dump(2) << '\n'; });
+  write_file(folder + "/results.json", [&](std::ostream& out) { out << json_text(to_json(done)); });
 }
 
 } // namespace springproof::compare

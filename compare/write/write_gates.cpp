@@ -1,12 +1,12 @@
 #include "compare/write/write_gates.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/write/escape.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 namespace springproof::compare {
@@ -44,14 +44,11 @@ std::string describe_uncertainty(const Gate& gate) {
 
 void write_line(std::ostream& out, bool met, const std::string& kind, const std::string& name,
                 const std::string& what) {
-  fmt::print(out, "{} {:<10} {}: {}\n", met ? "met   " : "FAILED", kind, name, what);
+  print(out, "{} {:<10} {}: {}\n", met ? "met   " : "FAILED", kind, name, what);
 }
 
-/// XML 1.0 has no place for control characters, however they are written.
-std::string in_xml(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') c = '?';
-  return escape(text);
+std::string in_xml(const std::string& text) {
+  return escape(one_line(text));
 }
 
 /// A test suite of JUnit's.
@@ -60,23 +57,27 @@ struct TestSuite {
   std::string tests{}; ///< as XML
   int n = 0, n_failures = 0, n_errors = 0;
 
-  /// @param element  "failure" or "error"; empty: passed    @param output  what a server shows besides
+  /// @param element  "failure" or "error"; empty: passed    @param output  lines that a server shows besides
   void add(const std::string& test, const std::string& of_case, const std::string& element,
-           const std::string& message, const std::string& output) {
+           const std::string& message, const std::vector<std::string>& output) {
     ++n;
     n_failures += element == "failure";
     n_errors += element == "error";
     tests += fmt::format("    <testcase name=\"{}\" classname=\"{}\">\n", in_xml(test), in_xml(of_case));
     if (!element.empty())
       tests += fmt::format("      <{0} message=\"{1}\" type=\"{0}\">{1}</{0}>\n", element, in_xml(message));
-    if (!output.empty()) tests += fmt::format("      <system-out>{}</system-out>\n", in_xml(output));
+    if (!output.empty()) {
+      tests += "      <system-out>";
+      for (const std::string& line : output) tests += in_xml(line) + "\n";
+      tests += "</system-out>\n";
+    }
     tests += "    </testcase>\n";
   }
   void add(const Comparison& judged, const Gate& gate) {
     const cases::Expectation& expected = gate.expectation;
-    std::string output =
-        fmt::format("{}{}\ninterval: {}\n", describe(gate), describe_uncertainty(gate), expected.reason);
-    if (!gate.warning.empty()) output += "warning: " + gate.warning + "\n";
+    std::vector<std::string> output{describe(gate) + describe_uncertainty(gate),
+                                    "interval: " + expected.reason};
+    if (!gate.warning.empty()) output.push_back("warning: " + gate.warning);
     add(fmt::format("{} {} in [{}, {}]", expected.measure, cases::name_of(expected.quantity),
                     expected.interval[0], expected.interval[1]),
         judged.scene.definition.name,
@@ -97,7 +98,7 @@ std::vector<TestSuite> make_suites(const std::vector<Comparison>& cases) {
     int n = 0; // of the case's failures
     for (const std::string& failure : judged.failures())
       suites.front().add("solved and judged" + (n++ == 0 ? "" : fmt::format(" ({})", n)),
-                         judged.scene.definition.name, "error", failure, "");
+                         judged.scene.definition.name, "error", failure, {});
   }
   if (suites.front().n == 0) suites.clear();
   for (const GateCount& count : count_by_kind(cases)) {
@@ -120,8 +121,8 @@ std::string in_annotation(const std::string& text, const std::string& special) {
 void annotate(std::ostream& out, const char* level, const std::string& file, int line,
               const std::string& title, const std::string& message) {
   const std::string in_message = "%\r\n", in_property = "%\r\n:,";
-  fmt::print(out, "::{} file={},line={},title={}::{}\n", level, in_annotation(file, in_property), line,
-             in_annotation(title, in_property), in_annotation(message, in_message));
+  print(out, "::{} file={},line={},title={}::{}\n", level, in_annotation(file, in_property), line,
+        in_annotation(title, in_property), in_annotation(message, in_message));
 }
 
 Json gate_to_json(const Comparison& judged, const Gate& gate) {
@@ -167,14 +168,14 @@ void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases) {
     for (const Gate& gate : judged.gates) {
       write_line(out, gate.met(), cases::name_of(gate.expectation.reference), judged.scene.definition.name,
                  describe(gate) + describe_uncertainty(gate));
-      if (!gate.warning.empty()) fmt::print(out, "       warning: {}\n", gate.warning);
+      if (!gate.warning.empty()) print(out, "       warning: {}\n", gate.warning);
     }
   }
   std::vector<std::string> counts;
   for (const auto& [kind, met, all] : count_by_kind(cases))
     counts.push_back(fmt::format("{} {} of {}", cases::name_of(kind), met, all));
   if (counts.empty()) counts = {"there are none"};
-  fmt::print(out, "{}: {}\n", all_met(cases) ? "all gates met" : "GATES FAILED", fmt::join(counts, ", "));
+  print(out, "{}: {}\n", all_met(cases) ? "all gates met" : "GATES FAILED", fmt::join(counts, ", "));
 }
 
 void write_gates_junit(std::ostream& out, const std::vector<Comparison>& cases) {

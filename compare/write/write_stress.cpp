@@ -1,11 +1,11 @@
 #include "compare/write/write_stress.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <fmt/ostream.h>
 
 namespace springproof::compare {
 
@@ -22,11 +22,11 @@ std::string eigenvalue_text(const cases::Solution& s) {
 
 void write_row(std::ostream& out, const StressRow& row) {
   const cases::Solution& s = row.answer.solution;
-  fmt::print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n", row.expected.model,
-             cases::name_of(s.outcome), s.load_reached, s.residual, s.newton_iterations, eigenvalue_text(s),
-             s.inverted_cells, row.answer.seconds(), row.misses.empty() ? "as expected" : "DIFFERS");
-  for (const std::string& miss : row.misses) fmt::print(out, "         {}\n", miss);
-  if (!s.message.empty()) fmt::print(out, "         {}\n", s.message);
+  print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n", row.expected.model,
+        cases::name_of(s.outcome), s.load_reached, s.residual, s.newton_iterations, eigenvalue_text(s),
+        s.inverted_cells, row.answer.seconds(), row.misses.empty() ? "as expected" : "DIFFERS");
+  for (const std::string& miss : row.misses) print(out, "         {}\n", miss);
+  if (!s.message.empty()) print(out, "         {}\n", s.message);
 }
 
 Json row_to_json(const StressRow& row) {
@@ -42,13 +42,13 @@ Json row_to_json(const StressRow& row) {
 } // namespace
 
 void write_stress_text(std::ostream& out, const StressResult& result) {
-  fmt::print(out, "{}: {}\n", result.hard_case.name, result.hard_case.description);
-  fmt::print(out, "  {:<7}{:<21} {:>8} {:>9} {:>6} {:>11} {:>9} {:>9}\n", "model", "outcome", "load",
-             "residual", "iter.", "eig. N/mm", "inverted", "seconds");
+  print(out, "{}: {}\n", result.hard_case.name, result.hard_case.description);
+  print(out, "  {:<7}{:<21} {:>8} {:>9} {:>6} {:>11} {:>9} {:>9}\n", "model", "outcome", "load", "residual",
+        "iter.", "eig. N/mm", "inverted", "seconds");
   for (const StressRow& row : result.rows) write_row(out, row);
   if (const auto ratio = result.hybrid_over_springs())
-    fmt::print(out, "  hybrid over springs: {:.2f} x the time ({} thread{})\n", *ratio, result.n_threads,
-               result.n_threads == 1 ? "" : "s");
+    print(out, "  hybrid over springs: {:.2f} x the time ({} thread{})\n", *ratio, result.n_threads,
+          result.n_threads == 1 ? "" : "s");
   out.flush();
 }
 
@@ -56,11 +56,11 @@ void write_stress_summary(std::ostream& out, const std::vector<StressResult>& re
                           const std::vector<std::string>& skipped) {
   const auto n_met =
       std::count_if(results.begin(), results.end(), [](const StressResult& r) { return r.met(); });
-  fmt::print(out, "{} of {} hard cases ended as expected\n", n_met, results.size());
+  print(out, "{} of {} hard cases ended as expected\n", n_met, results.size());
   for (const StressResult& result : results)
-    if (!result.met()) fmt::print(out, "  DIFFERS: {}\n", result.hard_case.name);
+    if (!result.met()) print(out, "  DIFFERS: {}\n", result.hard_case.name);
   for (const std::string& name : skipped)
-    fmt::print(out, "  left out, because it is heavy: {} (--all runs it, or its name)\n", name);
+    print(out, "  left out, because it is heavy: {} (--all runs it, or its name)\n", name);
 }
 
 Json stress_to_json(const std::vector<StressResult>& results, const std::vector<std::string>& skipped) {

@@ -73,6 +73,14 @@ def test_width_and_names(folder):
         assert all(len(part.encode()) < columns for part in said.split("\r")), said
 
 
+def test_names_are_data(folder):
+    """A name that a terminal would take for a command is shown, not obeyed."""
+    case = folder / "case.toml"
+    case.write_text(Path(SHEAR).read_text().replace('name = "sweep-cube-shear"', r'name = "\u009b2J"', 1))
+    status, _, said = on_a_terminal(["run", str(case), "--set", "body.cells=[32,32,32]"])
+    assert status == 0 and LINE.search(said) and r"left, \x9b2J" in said and "\x9b" not in said, said
+
+
 def refused(words, said, before=()):
     done = subprocess.run([*before, PROGRAM, *words], capture_output=True, text=True, timeout=600)
     assert done.returncode == 2 and not done.stdout and done.stderr.count("\n") == 1, (words, done)

@@ -79,15 +79,19 @@ TEST_CASE("gates as JUnit: a suite per kind, failures and errors apart, valid wh
   CHECK_THAT(
       xml, Catch::Contains("<testsuite name=\"springproof.cases\" tests=\"2\" failures=\"0\" errors=\"2\">"));
   CHECK_THAT(xml, Catch::Contains("<failure message=\"L msm = 9 mm, not in [9.5, 10]\""));
-  CHECK_THAT(xml, Catch::Contains("a &lt; b &amp; &quot;c&quot;?\n50 %"));
+  CHECK_THAT(xml, Catch::Contains("a &lt; b &amp; &quot;c&quot;\\x01\\n50 %"));
   const TemporaryFolder folder;
   const std::string schema = SPRINGPROOF_SOURCE_DIR "/tests/compare/gates/junit.xsd";
+  auto strange = mixed();
+  strange[0].gates[0].expectation.measure = "\uffff\ufffe\x1b[0m\xff";
+  strange[0].gates[0].expectation.reason = "]]>\x0c";
   const auto is_valid = [&](const std::string& text) {
     const std::string path = (folder.path / "gates.xml").string();
     std::ofstream(path) << text;
     return std::system(("xmllint --noout --schema " + schema + " " + path + " 2>/dev/null").c_str()) == 0;
   };
   CHECK(is_valid(xml));
+  CHECK(is_valid(written(compare::write_gates_junit, strange)));
   CHECK(is_valid(written(compare::write_gates_junit, {})));
   std::string broken = xml; // the schema does say no
   CHECK_FALSE(is_valid(broken.replace(broken.find("<failure"), 8, "<failing")));
@@ -101,8 +105,24 @@ TEST_CASE("gates as annotations: file and line of the expectation, line breaks a
              Catch::Contains("::error file=cube.toml,line=12,title=cube (regression)::L msm = 9 mm, not in"));
   CHECK_THAT(text,
              Catch::Contains("::warning file=cube.toml,line=12,title=cube (published)::L: the interval"));
-  CHECK_THAT(text, Catch::Contains("%0A50 %25\n"));
+  CHECK_THAT(text, Catch::Contains("\\x01%0A50 %25\n"));
   auto odd = mixed();
   odd[0].scene.definition.file = "a,b:c.toml";
   CHECK_THAT(written(compare::write_gates_annotations, odd), Catch::Contains("file=a%2Cb%3Ac.toml,"));
+}
+
+TEST_CASE("names and reasons are data in every format: none begins a line, a command or an escape") {
+  auto cases = mixed();
+  const std::string strange = "L\n::add-mask::0\r##[add-mask]1\x1b[2J";
+  cases[0].scene.definition.name = cases[0].gates[0].expectation.measure = strange;
+  cases[0].gates[0].expectation.reason = cases[1].answers.msm.solution.message = strange;
+  cases[0].gates[0].warning = strange;
+  for (const auto write :
+       {compare::write_gates_text, compare::write_gates_junit, compare::write_gates_annotations}) {
+    const std::string text = written(write, cases);
+    CHECK(text.find("\n::add-mask") == std::string::npos);
+    CHECK(text.find_first_of("\r\x1b") == std::string::npos);
+    CHECK(text.find("##[") == std::string::npos);
+    CHECK(text.find("add-mask") != std::string::npos);
+  }
 }

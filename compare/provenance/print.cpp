@@ -1,0 +1,67 @@
+#include "compare/provenance/print.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace springproof::compare {
+
+namespace {
+
+/// Ranges of code points, first and last.
+constexpr std::pair<char32_t, char32_t> not_shown[] = {
+    {0x00, 0x08},     {0x0a, 0x1f},     {0x7f, 0x9f},     // control characters but the tab
+    {0x061c, 0x061c}, {0x200e, 0x200f}, {0x202a, 0x202e}, // which turn the direction of a line
+    {0x2066, 0x2069}, {0x2028, 0x2029},                   // and which end a line
+    {0xfffe, 0xffff}};                                    // of which XML 1.0 has none
+
+bool is_shown(char32_t c) {
+  return std::none_of(std::begin(not_shown), std::end(not_shown),
+                      [c](const auto& range) { return range.first <= c && c <= range.second; });
+}
+
+/// A character of UTF-8, or a byte that is none.
+struct Character {
+  char32_t code;
+  std::size_t size;
+  bool is_valid;
+};
+
+/// Unicode 15, table 3-7: the shortest form alone, without surrogates.
+Character character_at(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[at + n]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return {lead, 1, true};
+  const std::size_t size = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  char32_t code = lead & (0xffu >> (size + 1));
+  bool is_valid = lead >= 0xc2 && lead <= 0xf4 && at + size <= text.size();
+  for (std::size_t n = 1; is_valid && n < size; ++n) {
+    is_valid = (byte(n) & 0xc0) == 0x80;
+    code = code << 6 | (byte(n) & 0x3f);
+  }
+  is_valid = is_valid && code >= least[size] && code <= 0x10ffff && !(code >= 0xd800 && code <= 0xdfff);
+  return is_valid ? Character{code, size, true} : Character{lead, 1, false};
+}
+
+std::string escaped(char32_t code) {
+  if (code == '\n') return "\\n";
+  if (code == '\r') return "\\r";
+  return code < 0x100 ? fmt::format("\\x{:02x}", static_cast<unsigned>(code))
+                      : fmt::format("\\u{:04x}", static_cast<unsigned>(code));
+}
+
+} // namespace
+
+std::string one_line(const std::string& text) {
+  std::string line;
+  const std::size_t begin = text.find_first_not_of(" \t\n\r\v\f");
+  for (std::size_t at = 0; at < text.size();) {
+    const auto [code, size, is_valid] = character_at(text, at);
+    const bool is_command = (at == begin && code == ':') || (code == '#' && at > 0 && text[at - 1] == '#');
+    line += is_valid && is_shown(code) && !is_command ? text.substr(at, size) : escaped(code);
+    at += size;
+  }
+  return line;
+}
+
+} // namespace springproof::compare
