@@ -1,21 +1,20 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/call_program.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve.hpp"
 #include "msm/lattice.hpp"
 #include "msm/problem.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/ostream.h>
 #include <fstream>
-#include <memory>
 #include <sstream>
 
 namespace springproof::compare {
 
-namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 namespace {
@@ -27,17 +26,6 @@ constexpr double force_unit = 1e6;
 /// Fields of CalculiX's input are 20 characters wide at most.
 std::string number(double value) {
   return fmt::format("{:.12e}", value);
-}
-
-/// A folder in the system's place for temporary files, removed with everything in it.
-std::shared_ptr<const fs::path> temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "springproof-ccx-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw cases::InputError(name + ": the folder cannot be made");
-  return {new fs::path(name), [](const fs::path* path) {
-            std::error_code ignored;
-            fs::remove_all(*path, ignored);
-            delete path;
-          }};
 }
 
 void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
@@ -139,7 +127,8 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
   const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
   const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  fmt::print(out, "*HEADING\n{}\n", scene.definition.name);
+  // The case's name could be a card of CalculiX's.
+  fmt::print(out, "*HEADING\nspringproof\n");
   write_mesh(out, scene.mesh);
   fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
              number(material.poissons_ratio));
@@ -188,21 +177,20 @@ CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
 cases::Solution solve_with_calculix(const cases::Scene& scene) {
   cases::Solution solution;
   solution.message = reason_without_calculix(scene.definition).value_or("");
-  if (solution.message.empty() && std::system("command -v ccx >/dev/null 2>&1") != 0)
-    solution.message = "CalculiX (ccx) is not installed";
   if (!solution.message.empty()) return solution; // skipped
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
-  const auto folder = temporary_folder();
-  {
-    std::ofstream input(*folder / "case.inp");
-    write_calculix_input(input, refined);
+  const ScratchFolder scratch("ccx");
+  write_file(scratch.path() / "case.inp", [&](std::ostream& out) { write_calculix_input(out, refined); });
+  const auto end = call_program(
+      {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
+  if (!end) {
+    solution.message = "CalculiX (ccx) is not installed";
+    return solution; // skipped
   }
-  const std::string command = "cd '" + folder->string() +
-                              "' && OMP_NUM_THREADS=1 CCX_NPROC_EQUATION_SOLVER=1 ccx -i case >ccx.log 2>&1";
-  const int status = std::system(command.c_str());
-  std::ifstream log(*folder / "ccx.log"), data(*folder / "case.dat"), progress(*folder / "case.sta");
+  std::istringstream log(end->said);
+  std::ifstream data(scratch.path() / "case.dat"), progress(scratch.path() / "case.sta");
   const std::string error = last_error(log);
-  if (status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error, 0, 0);
+  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error, 0, 0);
   const CalculixOutput output = read_calculix_output(data, refined.mesh.nodes.size());
   if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
     throw cases::SolveError("CalculiX stopped: " + error, output.load_reached, 0);
@@ -225,7 +213,7 @@ Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem) {
   Stopwatch stopwatch;
   try {
     peer.answer.solution = solve_with_calculix(scene);
-  } catch (const cases::SolveError& error) {
+  } catch (const std::runtime_error& error) { // a solve that failed, a folder that cannot be made or written
     peer.answer.solution = failed_solution(error);
   }
   peer.answer.solve_seconds = stopwatch.lap();

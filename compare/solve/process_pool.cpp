@@ -1,5 +1,6 @@
 #include "compare/solve/process_pool.hpp"
 
+#include "compare/provenance/call_program.hpp"
 #include "compare/solve/frame.hpp"
 
 #include <algorithm>
@@ -30,14 +31,6 @@ const std::vector<std::string>& initial_environment() {
     return copies;
   }();
   return variables;
-}
-
-/// Pointers into the words, with a null at the end, as the system wants them.
-std::vector<char*> pointers(std::vector<std::string>& words) {
-  std::vector<char*> result;
-  for (std::string& word : words) result.push_back(word.data());
-  result.push_back(nullptr);
-  return result;
 }
 
 std::string describe_end(int status) {
@@ -73,7 +66,7 @@ class Worker {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     std::vector<std::string> words = command, variables = initial_environment();
     const int error = posix_spawnp(&process_, words.front().c_str(), &actions, nullptr,
-                                   pointers(words).data(), pointers(variables).data());
+                                   pointers_to(words).data(), pointers_to(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error == 0) return;

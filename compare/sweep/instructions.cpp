@@ -1,5 +1,6 @@
 #include "compare/sweep/instructions.hpp"
 
+#include "compare/provenance/call_program.hpp"
 #include "compare/write/write.hpp"
 
 #include <cstdlib>
@@ -8,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace springproof::compare {
 
@@ -23,24 +24,29 @@ constexpr int cells_of_cube = 10; ///< along each edge
 constexpr double nodes_of_cube = (cells_of_cube + 1.) * (cells_of_cube + 1.) * (cells_of_cube + 1.);
 
 /// Instructions of one call of each kernel. One run for all: valgrind takes seconds to start.
-std::vector<double> instructions(const std::string& instruction_set) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("springproof-callgrind-{}", ::getpid());
-  fs::create_directories(folder);
-  std::vector<double> totals;
+/// @return nothing if valgrind is not installed
+std::optional<std::vector<double>> instructions(const std::string& instruction_set) {
+  const ScratchFolder scratch("callgrind");
   // The driver is beside this program; see kernel_calls.cpp for what it takes.
-  const std::string command =
-      fmt::format("SPRINGPROOF_INSTRUCTION_SET={} valgrind --tool=callgrind --collect-atstart=no "
-                  "--toggle-collect=springproof_counted_call --dump-after=springproof_counted_call "
-                  "--callgrind-out-file='{}/out' '{}/springproof_kernel_calls' {} {}",
-                  instruction_set, folder.string(), fs::read_symlink("/proc/self/exe").parent_path().string(),
-                  cells_of_cube, fmt::join(kernels, " "));
-  const int status = std::system((command + " >/dev/null 2>&1").c_str());
-  for (std::size_t n = 1; status == 0 && n <= std::size(kernels); ++n) {
-    std::ifstream counted(folder / fmt::format("out.{}", n));
+  std::vector<std::string> words{"valgrind",
+                                 "--tool=callgrind",
+                                 "--collect-atstart=no",
+                                 "--toggle-collect=springproof_counted_call",
+                                 "--dump-after=springproof_counted_call",
+                                 "--callgrind-out-file=out",
+                                 fs::read_symlink("/proc/self/exe").parent_path() /
+                                     "springproof_kernel_calls",
+                                 std::to_string(cells_of_cube)};
+  words.insert(words.end(), std::begin(kernels), std::end(kernels));
+  const auto end = call_program({words, scratch.path(), {"SPRINGPROOF_INSTRUCTION_SET=" + instruction_set}});
+  if (!end) return std::nullopt;
+  std::vector<double> totals;
+  for (std::size_t n = 1; end->status == 0 && n <= std::size(kernels); ++n) {
+    std::ifstream counted(scratch.path() / fmt::format("out.{}", n));
     if (counted) totals.push_back(callgrind_total(counted));
   }
-  fs::remove_all(folder);
-  if (totals.size() != std::size(kernels)) throw std::runtime_error("it failed: " + command);
+  if (totals.size() != std::size(kernels))
+    throw std::runtime_error(fmt::format("{} failed: {}", fmt::join(words, " "), end->said));
   return totals;
 }
 
@@ -57,15 +63,14 @@ double callgrind_total(std::istream& in) {
 
 InstructionCounts count_instructions() {
   InstructionCounts result;
-  if (std::system("command -v valgrind >/dev/null 2>&1") != 0) {
-    result.reason = "sweep --perf needs valgrind, which is not installed (apt-get install valgrind)";
-    return result;
-  }
   const char* asked = std::getenv("SPRINGPROOF_INSTRUCTION_SET");
   result.instruction_set = asked && *asked ? asked : "avx2";
   try {
-    for (const double total : instructions(result.instruction_set))
-      result.per_call.emplace_back(kernels[result.per_call.size()], total);
+    const auto counted = instructions(result.instruction_set);
+    if (!counted)
+      result.reason = "sweep --perf needs valgrind, which is not installed (apt-get install valgrind)";
+    for (std::size_t k = 0; counted && k < counted->size(); ++k)
+      result.per_call.emplace_back(kernels[k], (*counted)[k]);
   } catch (const std::exception& error) {
     result.reason = std::string("sweep --perf: ") + error.what();
   }

@@ -1,16 +1,13 @@
 #include "compare/write/gnuplot.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/provenance/call_program.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <cmath>
 #include <cstring>
-#include <fcntl.h>
-#include <filesystem>
 #include <fmt/ostream.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace springproof::compare {
 
@@ -19,8 +16,7 @@ namespace {
 /// gnuplot interprets nothing between single quotes; a quote is doubled there, and a line break would end it.
 std::string literal(const std::string& text) {
   std::string result = "'";
-  for (const char c : text)
-    result += c == '\'' ? "''" : std::string(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+  for (const char c : one_line(text)) result += c == '\'' ? "''" : std::string(1, c);
   return result + "'";
 }
 
@@ -51,35 +47,22 @@ void write_script(std::ostream& out, const std::string& name, const std::string&
                read_file(plots + script + ".gp"));
 }
 
-/// Runs gnuplot on FOLDER/NAME.gp, without a shell and without the user's settings.
+/// Runs gnuplot on FOLDER/NAME.gp, without the user's settings.
 /// @param part  ending of the pictures' names
 void run_gnuplot(const std::string& folder, const std::string& name, const std::string& part) {
-  const std::string script = name + ".gp", setting = "part = " + literal(part),
-                    log = name + ".gnuplot.log" + part;
-  const char* words[] = {"gnuplot", "-d", "-e", setting.c_str(), script.c_str(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t process = 0;
-  const int error = posix_spawnp(&process, words[0], &actions, nullptr, const_cast<char**>(words), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw cases::InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(error)));
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  const std::string said = read_file(folder + "/" + log);
-  std::filesystem::remove(folder + "/" + log);
-  if (status != 0) throw cases::InputError(fmt::format("{}/{}: gnuplot failed: {}", folder, script, said));
+  const std::string script = name + ".gp";
+  const auto end = call_program({{"gnuplot", "-d", "-e", "part = " + literal(part), script}, folder, {}});
+  if (!end) throw cases::InputError("gnuplot, which draws the figures, is not installed");
+  if (end->status != 0)
+    throw cases::InputError(fmt::format("{}/{}: gnuplot failed: {}", folder, script, end->said));
 }
 
 /// gnuplot does not notice a full disk.
-void check_end(const std::string& picture, const std::string& end) {
-  const std::string content = read_file(picture);
+/// @param picture  its name when it is whole
+void check_end(const std::string& drawn, const std::string& picture, const std::string& end) {
+  const std::string content = read_file(drawn);
   if (content.size() < end.size() || content.compare(content.size() - end.size(), end.size(), end) != 0)
-    throw cases::InputError("cannot write '" + picture + "'");
+    throw cases::InputError("cannot write '" + picture + "': gnuplot has drawn a part of it");
 }
 
 } // namespace
@@ -91,8 +74,8 @@ void draw(const std::string& folder, const std::string& name, const std::string&
   make_file(file + ".svg", [&](const std::string& svg) {
     make_file(file + ".png", [&](const std::string& png) {
       run_gnuplot(folder, name, svg.substr(file.size() + std::strlen(".svg")));
-      check_end(svg, "</svg>\n\n");
-      check_end(png, "IEND\xae\x42\x60\x82");
+      check_end(svg, file + ".svg", "</svg>\n\n");
+      check_end(png, file + ".png", "IEND\xae\x42\x60\x82");
     });
   });
 }

@@ -66,6 +66,15 @@ void check_agrees(const cases::Case& definition) {
 
 } // namespace
 
+TEST_CASE("nothing of a case's name gets into CalculiX's input") {
+  cases::Case definition = cube("tensile_small", {"fem.formulation=small_strain"});
+  definition.name = "*STEP";
+  const std::string input = input_of(definition);
+  CHECK(input.find("*STEP") == input.rfind("*STEP"));
+  definition.name = "*INCLUDE, INPUT=x";
+  CHECK(input_of(definition) == input);
+}
+
 TEST_CASE("a cell of CalculiX's input goes around its bottom, then around its top") {
   cases::Case definition =
       cube("tensile_small", {"body.cells=[1, 1, 1]", "body.size=[1, 2, 3]", "fem.formulation=small_strain"});

@@ -62,3 +62,9 @@ TEST_CASE("a row has numbers to the writer's digits, texts in quotes where neede
   csv.row(1.23456, 7, "a,b", "say \"so\"", std::optional<double>(), std::vector<double>{0.5, 2});
   CHECK(out.str() == "1.23,7,\"a,b\",\"say \"\"so\"\"\",,0.5,2\n");
 }
+
+TEST_CASE("a text makes no second line in a row, and no escape of a terminal") {
+  std::ostringstream out;
+  compare::CsvWriter(out).row("case\n::add-mask::x", "\x1b[2J");
+  CHECK(out.str() == "case\\n::add-mask::x,\\x1b[2J\n");
+}
