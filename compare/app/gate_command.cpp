@@ -8,13 +8,13 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -51,10 +51,13 @@ void check_blessing(const GateOptions& options, const std::vector<Question>& que
     if (found == known.end())
       throw cases::InputError("--bless: is \"" + name +
                               "\", must be the name of a case given: " + cases::alternatives(known));
-    if (!has_regression(questions[static_cast<std::size_t>(found - known.begin())].scene.definition))
+    const cases::Case& definition =
+        questions[static_cast<std::size_t>(found - known.begin())].scene.definition;
+    if (!has_regression(definition))
       throw cases::InputError(
           "--bless: " + name +
           " has no expectation of reference \"regression\", and no other kind is ever blessed");
+    check_named_file(blessed_file(definition));
   }
 }
 
@@ -69,12 +72,12 @@ Comparison judge_or_bless(Comparison comparison, const GateOptions& options, std
 
 void write(const GateOptions& options, const std::vector<Comparison>& judged) {
   if (options.json)
-    std::cout << gates_to_json(judged).dump(2) << '\n';
+    std::cout << json_text(gates_to_json(judged));
   else
     write_gates_text(std::cout, judged);
   if (options.annotate) write_gates_annotations(options.json ? std::cerr : std::cout, judged);
   if (!options.junit.empty())
-    write_file(options.junit, [&](std::ostream& out) { write_gates_junit(out, judged); });
+    write_named_file(options.junit, [&](std::ostream& out) { write_gates_junit(out, judged); });
 }
 
 /// Answers to all questions, solved now or by the shards that are merged.
@@ -88,6 +91,7 @@ std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vec
 int gate(const GateOptions& options) {
   std::vector<Question> questions = read_all(options);
   check_blessing(options, questions);
+  check_named_file(options.junit);
   const auto external = read_external(questions, options.displacements);
   if (!options.shards->part.empty())
     return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});

@@ -6,11 +6,11 @@
 #include "compare/report/write_report.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
+#include "compare/write/json.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -47,6 +47,7 @@ int tables(const TablesOptions& options) {
     return solve_shard(*options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
                        options.out, {options.workers});
   claim_folder(options.out);
+  claim_subfolder(options.out, "figures");
   ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
   if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   bool failed = false;
@@ -54,7 +55,7 @@ int tables(const TablesOptions& options) {
     for (const ComputedFigure& computed : entry.computed) failed = failed || !computed.value;
   Stopwatch stopwatch;
   if (options.json)
-    std::cout << results_to_json(results).dump(2) << '\n';
+    std::cout << json_text(results_to_json(results));
   else
     write_tables_text(std::cout, results, options.trace ? Commands::all : Commands::one_per_table);
   if (!options.out.empty()) write_thesis_files(options.out, results);

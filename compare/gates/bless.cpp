@@ -1,6 +1,7 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
@@ -57,9 +58,10 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
 /// The lines that two texts of equally many lines differ in.
 std::string changed_lines(const std::string& path, const std::string& before, const std::string& after) {
   std::istringstream old_lines(before), new_lines(after);
-  std::string text = fmt::format("--- {0}\n+++ {0}\n", path), removed, added;
+  std::string text = fmt::format("--- {0}\n+++ {0}\n", one_line(path)), removed, added;
   for (int n = 1; std::getline(old_lines, removed) && std::getline(new_lines, added); ++n)
-    if (removed != added) text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", n, removed, added);
+    if (removed != added)
+      text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", n, one_line(removed), one_line(added));
   return text;
 }
 
@@ -76,13 +78,16 @@ std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged) {
   return blessed;
 }
 
+std::string blessed_file(const cases::Case& definition) {
+  return std::filesystem::canonical(definition.file);
+}
+
 std::string bless(const Comparison& judged) {
   const std::vector<BlessedInterval> blessed = intervals_to_bless(judged);
   if (blessed.empty()) return "";
   const std::string before = read_file(judged.scene.definition.file);
   const std::string after = with_intervals(before, blessed);
-  write_file(std::filesystem::canonical(judged.scene.definition.file),
-             [&](std::ostream& out) { out << after; });
+  write_named_file(blessed_file(judged.scene.definition), [&](std::ostream& out) { out << after; });
   return changed_lines(judged.scene.definition.file, before, after);
 }
 

@@ -18,6 +18,10 @@ struct BlessedInterval {
 /// do. A gate without a value is left as it is.
 std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged);
 
+/// The file whose intervals are moved: where links lead to.
+/// @throws std::filesystem::filesystem_error if there is none, such as for a case from a pipe
+std::string blessed_file(const cases::Case& definition);
+
 /// Rewrites the intervals in the file of a judged case and nothing else, whole or not at all.
 /// @return the difference as a unified diff without context; empty when there was nothing to bless, and then
 /// the file is not touched

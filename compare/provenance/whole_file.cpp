@@ -9,7 +9,9 @@
 #include <fstream>
 #include <iterator>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <vector>
 
 namespace springproof::compare {
 
@@ -28,34 +30,94 @@ bool is_special(const fs::path& path) {
   return fs::is_other(status) || fs::is_symlink(status);
 }
 
+/// @param path  what a message calls the place
+void write_to(const std::string& place, const std::string& path,
+              const std::function<void(std::ostream&)>& write) {
+  errno = 0;
+  std::ofstream file(place, std::ios::binary);
+  if (file) write(file);
+  file.close();
+  if (!file) refuse(path, std::generic_category().message(errno != 0 ? errno : EIO));
+}
+
+/// Leaves nothing behind. A disk that is nearly full lets no small file's worth of bytes through.
+void try_to_write(const std::string& place, const std::string& path) {
+  std::error_code ignored;
+  const fs::path parent = fs::path(place).parent_path();
+  if (!parent.empty()) fs::create_directories(parent, ignored);
+  fs::remove(place, ignored);
+  try {
+    write_to(place, path, [](std::ostream& out) { out << std::string(1 << 16, ' '); });
+  } catch (...) {
+    fs::remove(place, ignored);
+    throw;
+  }
+  fs::remove(place, ignored);
+}
+
+/// Of the file that is to be replaced; what is refused is left as it is.
+void keep_owner_and_mode(const fs::path& target, const fs::path& place) {
+  struct stat old {};
+  if (lstat(target.c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
+  [[maybe_unused]] const int is_refused = chown(place.c_str(), old.st_uid, old.st_gid);
+  chmod(place.c_str(), old.st_mode & 0777);
+}
+
+/// @param flags  for open(2)
+void claim(const std::string& folder, int flags) {
+  if (folder.empty() || mpi_rank() != 0) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
+  if (descriptor < 0) refuse(folder, std::generic_category().message(errno));
+  // The lock goes with the process. File systems that have none go without it.
+  const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (!is_locked && errno == EWOULDBLOCK) refuse(folder, "another springproof writes into it");
+  try_to_write(folder + "/try" + unfinished, folder);
+  if (!is_locked) return; // what is unfinished may be another's work
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == unfinished) left.push_back(entry.path());
+  for (const fs::path& path : left) fs::remove(path, error);
+}
+
 } // namespace
 
 void make_file(const std::string& path, const std::function<void(const std::string& temporary)>& make) {
-  const bool is_renamed = !is_special(path);
-  const fs::path target(path), place = is_renamed ? path + ".part" : path;
+  const fs::path target(path), place = path + unfinished;
   std::error_code error, ignored;
-  if (is_renamed) {
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
-    fs::remove(place, ignored); // of a run that was killed
-  }
+  if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
+  fs::remove(place, ignored); // of a run that was killed
   try {
     make(place);
-    if (is_renamed) fs::rename(place, target, error);
+    keep_owner_and_mode(target, place);
+    fs::rename(place, target, error);
     if (error) refuse(path, error.message());
   } catch (...) {
-    if (is_renamed) fs::remove(place, ignored);
+    fs::remove(place, ignored);
     throw;
   }
 }
 
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  make_file(path, [&](const std::string& place) {
-    errno = 0;
-    std::ofstream file(place, std::ios::binary);
-    if (file) write(file);
-    file.close();
-    if (!file) refuse(path, std::generic_category().message(errno != 0 ? errno : EIO));
-  });
+  make_file(path, [&](const std::string& place) { write_to(place, path, write); });
+}
+
+void write_named_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  if (is_special(path))
+    write_to(path, path, write);
+  else
+    write_file(path, write);
+}
+
+void check_named_file(const std::string& path) {
+  if (path.empty() || mpi_rank() != 0) return;
+  if (fs::is_directory(path)) refuse(path, std::generic_category().message(EISDIR));
+  if (!is_special(path))
+    try_to_write(path + unfinished, path);
+  else if (fs::exists(path) &&
+           access(path.c_str(), W_OK) != 0) // a link may lead to a file that is to be made
+    refuse(path, std::generic_category().message(errno));
 }
 
 std::string read_file(const std::string& path) {
@@ -69,15 +131,11 @@ std::string read_file(const std::string& path) {
 }
 
 void claim_folder(const std::string& folder) {
-  if (folder.empty() || mpi_rank() != 0) return;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0 || access(folder.c_str(), W_OK | X_OK) != 0)
-    refuse(folder, std::generic_category().message(errno));
-  // The lock goes with the process. File systems that have none go without it.
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    refuse(folder, "another springproof writes into it");
+  claim(folder, 0);
+}
+
+void claim_subfolder(const std::string& folder, const std::string& name) {
+  claim(folder.empty() ? "" : folder + "/" + name, O_NOFOLLOW);
 }
 
 } // namespace springproof::compare

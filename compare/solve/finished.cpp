@@ -1,6 +1,7 @@
 #include "compare/solve/finished.hpp"
 
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"
@@ -39,7 +40,7 @@ std::string answers_in(const std::string& path, const std::string& identity) {
   try {
     return read_kept(path, identity);
   } catch (const std::exception& error) {
-    std::cerr << path << ": " << error.what() << "; the case is solved again\n";
+    print(std::cerr, "{}: {}; the case is solved again\n", path, error.what());
     return "";
   }
 }
@@ -70,7 +71,7 @@ FinishedCases::FinishedCases(const std::string& folder, const std::vector<Questi
                       definition.name));
   }
   claim_folder(folder);
-  claim_folder(folder + "/solved");
+  claim_subfolder(folder, "solved");
 }
 
 std::optional<Answers> FinishedCases::find(const Question& question) const {
@@ -82,8 +83,8 @@ std::optional<Answers> FinishedCases::find(const Question& question) const {
   cases::from_bytes(bytes, answers);
   if (answers.failed()) return std::nullopt;
   if (mpi_rank() == 0)
-    std::cerr << question.scene.definition.name
-              << ": solved already, taken from the earlier results in the same folder\n";
+    print(std::cerr, "{}: solved already, taken from the earlier results in the same folder\n",
+          question.scene.definition.name);
   return answers;
 }
 
@@ -94,7 +95,8 @@ void FinishedCases::keep(const Question& question, const Answers& answers) const
   cases::Fem fem = answers.resolved;
   for (const int refine : answers.refined->refine) {
     fem.refine = refine;
-    std::filesystem::remove(path_of_mesh(folder_, identity_of_mesh(question, fem)));
+    std::error_code not_there;
+    std::filesystem::remove(path_of_mesh(folder_, identity_of_mesh(question, fem)), not_there);
   }
 }
 
@@ -106,8 +108,10 @@ KeptMeshes FinishedCases::meshes_in(const std::string& folder, const Question& q
         from_rank_0(mpi_rank() == 0 ? answers_in(path_of_mesh(folder, identity), identity) : "");
     if (bytes.empty()) return std::nullopt;
     if (mpi_rank() == 0)
-      std::cerr << question.scene.definition.name << ": the mesh refined " << fem.refine
-                << " times is solved already, taken from the earlier results in the same folder\n";
+      print(std::cerr,
+            "{}: the mesh refined {} times is solved already, taken from the earlier results in the same "
+            "folder\n",
+            question.scene.definition.name, fem.refine);
     Answer answer;
     cases::from_bytes(bytes, answer);
     return answer;

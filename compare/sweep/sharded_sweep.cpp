@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/frame.hpp"
 #include "compare/solve/kept.hpp"
@@ -43,7 +44,7 @@ std::optional<VariantRun> find_run(const std::string& path, const std::string& i
     if (has_failed(run)) return std::nullopt;
     return run;
   } catch (const std::exception& error) {
-    std::cerr << path << ": " << error.what() << "; the variant is timed again\n";
+    print(std::cerr, "{}: {}; the variant is timed again\n", path, error.what());
     return std::nullopt;
   }
 }
@@ -70,7 +71,7 @@ bool on_rank_0(bool is_kept) {
 
 TimedPart time_shard(const Sweep& sweep, const Shard& shard, const std::string& folder,
                      const std::vector<std::string>& command, const std::string& program) {
-  claim_folder(folder + "/solved");
+  claim_subfolder(folder, "solved");
   if (mpi_rank() == 0) remove_record(folder);
   const Stopwatch stopwatch;
   const std::vector<double> seconds = estimated_seconds(sweep);

@@ -48,7 +48,8 @@ std::string with_modulus(const std::string& text, const std::string& modulus) {
 
 TEST_CASE("a case is taken up as it was parsed: its text through a pipe, a comment, another place") {
   const Workplace workplace;
-  const std::string soft = workplace.folder.write("soft.toml", with_modulus(cube_without_expectations(), "0.1"));
+  const std::string soft =
+      workplace.folder.write("soft.toml", with_modulus(cube_without_expectations(), "0.1"));
   const ProgramRun first = workplace.run("/dev/stdin", "cat " + workplace.file + " | ");
   CHECK_FALSE(is_taken_up(first));
   CHECK(is_taken_up(workplace.run("/dev/stdin", "cat " + workplace.file + " | ")));
@@ -93,7 +94,8 @@ TEST_CASE("a kept result that is damaged is solved again, with one line that say
 
 TEST_CASE("two cases of one name are refused for one folder before anything is solved") {
   const Workplace workplace;
-  const std::string twin = workplace.folder.write("twin.toml", with_modulus(cube_without_expectations(), "0.1"));
+  const std::string twin =
+      workplace.folder.write("twin.toml", with_modulus(cube_without_expectations(), "0.1"));
   for (const char* command : {"run ", "gate "}) {
     const ProgramRun refused = run_program(command + workplace.file + " " + twin + " --out " + workplace.out);
     CHECK(refused.status == 2);
@@ -118,6 +120,58 @@ TEST_CASE("a folder that cannot be written is refused before anything is solved"
     CHECK(refused.status == 2);
     CHECK(refused.out.empty());
     CHECK(refused.error.find(below) != std::string::npos);
+  }
+}
+
+TEST_CASE("what stands in the way of results is found before anything is solved") {
+  const Workplace workplace;
+  fs::create_directory(workplace.out);
+  const std::string solved = workplace.out + "/solved", in_the_way = workplace.folder.write("file", "");
+  const std::string regression = workplace.folder.write(
+      "regression.toml", cube_without_expectations() +
+                             "[[expect]]\nmeasure = \"alpha_1\"\nmsm = [0, 1]\nreference = \"regression\"\n"
+                             "reason = \"a test\"\n");
+  fs::create_symlink(in_the_way, solved);
+  const auto check_refused = [](const std::string& words, const std::string& before = "") {
+    INFO(words);
+    const ProgramRun refused = run_program(words, before);
+    CHECK(refused.status == 2);
+    CHECK(refused.out.empty());
+    CHECK(std::count(refused.error.begin(), refused.error.end(), '\n') == 1);
+  };
+  check_refused("run " + workplace.file + " --out " + workplace.out);
+  check_refused("gate " + workplace.file + " --out " + workplace.out);
+  check_refused("gate " + workplace.file + " --junit " + workplace.folder.path.string());
+  check_refused("gate " + workplace.file + " --junit " + in_the_way + "/junit.xml");
+  fs::create_directory(regression + ".springproof-part"); // stands for a folder that takes no new file
+  workplace.folder.write("regression.toml.springproof-part/file", "");
+  check_refused("gate --bless sheared-cube " + regression);
+}
+
+TEST_CASE("a disk that is full is found before anything is solved") {
+  const Workplace workplace;
+  // A limit on the size of files is what a test can set anywhere; the signal that comes with it is ignored.
+  const ProgramRun refused = workplace.run(workplace.file, "trap '' XFSZ; prlimit --fsize=1000 ");
+  CHECK(refused.status == 2);
+  CHECK(refused.out.empty());
+  CHECK_THAT(refused.error, Catch::Contains("cannot write '" + workplace.out + "': File too large"));
+  CHECK(fs::is_empty(workplace.out));
+  CHECK(workplace.run(workplace.file).status == 0);
+}
+
+TEST_CASE("a picture that could not be written whole is an error, and none is left") {
+  const Workplace workplace;
+  const ProgramRun cut =
+      run_program("design --neo-hookean 0.04 --method nonlinear_method --out " + workplace.out,
+                  "trap '' XFSZ; prlimit --fsize=80000 ");
+  CHECK(cut.status == 2);
+  CHECK_THAT(cut.error, Catch::Contains("cannot write '" + workplace.out + "/figure_5_5.png'"));
+  for (const auto& entry : fs::directory_iterator(workplace.out)) {
+    INFO(entry.path());
+    CHECK(entry.path().extension() != ".springproof-part");
+    if (entry.path().extension() == ".png")
+      CHECK_THAT(content(entry.path()), Catch::EndsWith("IEND\xae\x42\x60\x82"));
+    if (entry.path().extension() == ".svg") CHECK_THAT(content(entry.path()), Catch::EndsWith("</svg>\n\n"));
   }
 }
 

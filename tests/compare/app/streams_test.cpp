@@ -2,16 +2,77 @@
 
 #include "tests/support/run_program.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 namespace {
 
 const std::string sheared_cube = std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/gates/sheared_cube.toml";
 
+/// The case with texts that terminals and continuous-integration servers would take for commands.
+std::string strange_case() {
+  std::string text = content(sheared_cube);
+  const auto put = [&](const std::string& key, const std::string& value) {
+    const std::size_t at = text.find("\n" + key + " = ");
+    REQUIRE(at != std::string::npos);
+    text.replace(at + 1, text.find('\n', at + 1) - at - 1, key + " = " + value);
+  };
+  put("name", R"("::add-mask::a")");
+  put("description", R"("\u001b[2J\u009b2J\n::add-mask::b ##[add-mask]c")");
+  const std::string strange = R"("u\n::add-mask::d\u001b[2J")";
+  text.erase(text.find("[[measure]]"));
+  return text + "[[measure]]\nname = " + strange + "\nkind = \"volume\"\n[[expect]]\nmeasure = " + strange +
+         "\nmsm = [0, 1]\nreference = \"regression\"\nreason = " + strange + "\n";
+}
+
+/// A server takes a line for a command that begins with :: behind blanks, or has ##[ anywhere.
+void check_harmless(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    CHECK(line.find("::") != std::min(line.find_first_not_of(" \t\r"), line.size()));
+  CHECK(text.find("##[") == std::string::npos);
+  CHECK(text.find('\x1b') == std::string::npos);
+  CHECK(text.find("\xc2\x9b") == std::string::npos);
+}
+
 } // namespace
+
+TEST_CASE("texts of a case are printed and written as data, in every format") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("case.toml", strange_case()), out = (folder.path / "out").string(),
+                    junit = (folder.path / "junit.xml").string(), to_folder = " --out " + out + " " + file;
+  const ProgramRun run = run_program("run --only msm" + to_folder);
+  CHECK(run.status == 1); // the expectation is missed
+  CHECK(run.out.find("add-mask::d") != std::string::npos);
+  const ProgramRun again = run_program("run --only msm" + to_folder);
+  CHECK(again.error.find("solved already") != std::string::npos);
+  const ProgramRun gate =
+      run_program("gate --workers 1 --junit " + junit + " --set fem.accuracy=none " + file);
+  CHECK(gate.status == 1);
+  const ProgramRun json = run_program("run --only msm --json " + file);
+  CHECK(nlohmann::json::parse(json.out)["cases"][0]["measures"][0]["name"] == "u\n::add-mask::d\x1b[2J");
+  const ProgramRun refused = run_program("run --set 'expect[0].measure=\"::add-mask::e\\u001b\"' " + file);
+  CHECK(refused.status == 2);
+  for (const std::string& text : {run.out, run.error, again.out, again.error, gate.out, gate.error, json.out,
+                                  refused.error, content(out + "/comparison.csv"), content(junit)})
+    check_harmless(text);
+}
+
+TEST_CASE("a sweep's plan and tables have the texts of a case as data") {
+  const TemporaryFolder folder;
+  std::string text = content(SPRINGPROOF_SOURCE_DIR "/tests/compare/sweep/tiny.toml");
+  text.replace(text.find("name = "), text.find('\n', text.find("name = ")) - text.find("name = "),
+               R"(name = "::add-mask::a\u009b")");
+  const std::string out = (folder.path / "out").string();
+  // One cell by the nonlinear method is a mechanism: with that failed row the status is 1.
+  REQUIRE(run_program("sweep --quick --out " + out + " " + folder.write("case.toml", text)).status == 1);
+  for (const char* name : {"plan.txt", "sweep.txt", "sweep.csv", "field_first.gp", "field_first.svg"})
+    check_harmless(content(out + "/" + name));
+}
 
 TEST_CASE("output that cannot be written is an error of one line") {
   for (const char* lost : {" >/dev/full", " >&-"}) {
@@ -20,6 +81,30 @@ TEST_CASE("output that cannot be written is an error of one line") {
     CHECK(run.status == 2);
     CHECK(run.error == "springproof: standard output cannot be written\n");
   }
+}
+
+TEST_CASE("the version and help that cannot be written are errors too") {
+  for (const std::string words : {"--version", "--help", "run --help"})
+    for (const char* lost : {" >/dev/full", " >&-"}) {
+      INFO(words << lost);
+      const ProgramRun run = run_program(words + lost);
+      CHECK(run.status == 2);
+      CHECK(run.error == "springproof: standard output cannot be written\n");
+    }
+}
+
+TEST_CASE("what is wrong with a command line is said once, by one rank") {
+  const std::string ranks =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 ";
+  const ProgramRun wrong = run_program("run", ranks);
+  CHECK(wrong.status == 2);
+  const std::string said = "case is required";
+  const std::size_t first = wrong.error.find(said);
+  REQUIRE(first != std::string::npos);
+  CHECK(wrong.error.find(said, first + 1) == std::string::npos);
+  const ProgramRun version = run_program("--version", ranks);
+  CHECK(version.status == 0);
+  CHECK(std::count(version.out.begin(), version.out.end(), '\n') == 1);
 }
 
 TEST_CASE("what PETSc is asked to print does not get into the results") {
@@ -36,6 +121,15 @@ TEST_CASE("options of PETSc in the working folder are not read") {
   CHECK(run.status == 0);
   CHECK(run.error.empty());
   CHECK_FALSE(std::filesystem::exists(view));
+}
+
+TEST_CASE("a working folder that is gone is no obstacle") {
+  const TemporaryFolder folder;
+  const std::string gone = (folder.path / "gone").string();
+  const ProgramRun run = run_program("run --only msm " + sheared_cube,
+                                     "mkdir " + gone + " && cd " + gone + " && rmdir " + gone + " && ");
+  CHECK(run.status == 0);
+  CHECK(std::count(run.error.begin(), run.error.end(), '\n') <= 1); // Open MPI's
 }
 
 // Open MPI would make a folder there that all programs of a user share, and one that ends removes.
