@@ -6,6 +6,8 @@
 #include "compare/solve/springs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace springproof::compare {
@@ -52,20 +54,41 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
   return cases::LinearElastic{o.youngs_modulus, o.poissons_ratio};
 }
 
+/// Of logarithmic strains; as in case files.
+constexpr double largest_allowed_strain = 2;
+
+/// @throws InputError for an end of the strains that is none, or that nothing here has a use for
+void check_largest_strain(const DesignOptions& o) {
+  if (!o.largest_strain) return;
+  if (!(0 < *o.largest_strain && *o.largest_strain <= largest_allowed_strain))
+    throw cases::InputError(
+        fmt::format("command line: --largest-strain: is {:g}, must be above 0 and at most {:g}",
+                    *o.largest_strain, largest_allowed_strain));
+  if (!o.curve_file.empty() || !o.case_file.empty())
+    throw cases::InputError("command line: --largest-strain: must be left out with --curve and --case, which "
+                            "bring their own strains");
+}
+
 std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
   if (!o.curve_file.empty()) return msm::read_curve(read_file(o.curve_file), o.curve_file);
   if (o.yeoh.empty()) return std::nullopt;
   const double thesis_end = 0.4; // of its Ogden reference
-  return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, o.largest_strain > 0 ? o.largest_strain : thesis_end});
+  return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, o.largest_strain.value_or(thesis_end)});
 }
 
 msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element element) {
-  if (!(o.edge > 0)) throw cases::InputError("command line: --edge: must be positive (mm)");
+  if (!(1e-6 <= o.edge && o.edge <= 1e6))
+    throw cases::InputError(
+        fmt::format("command line: --edge: is {:g}, must be from 1e-6 to 1e6 (mm)", o.edge));
   const auto curve = curve_of(o);
   msm::DesignRequest request =
       design_request(material_of(o, curve), msm::cube(o.edge), cases::Msm{}, element);
+  const double stiffness = msm::small_strain_material(request.material).youngs_modulus;
+  if (!(std::abs(stiffness) <= 1e12)) // squares and cubes are taken of it
+    throw cases::InputError(
+        fmt::format("command line: Young's modulus is {:g}, must be at most 1e12 (MPa)", stiffness));
   request.uniaxial_reference = curve;
-  if (!curve && o.largest_strain > 0)
+  if (!curve && o.largest_strain)
     request.uniaxial_reference = msm::uniaxial_reference(request, o.largest_strain);
   return request;
 }
@@ -103,11 +126,13 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--paths", o.paths, "deformations that the multi-load method fits; all when left out")
       ->check(CLI::IsMember(cases::all_names<cases::LoadPath>()));
   command.add_option("--strain-range", o.strain_range, "logarithmic strains that the fits cover")
-      ->expected(2);
+      ->expected(2)
+      ->check(CLI::Range(-largest_allowed_strain, largest_allowed_strain));
   command.add_flag("--springs-only", o.springs_only, "the multi-load method without its volume term");
 }
 
 msm::DesignRequest request_from(const DesignOptions& o) {
+  check_largest_strain(o);
   const cases::Element element = *cases::value_of<cases::Element>(o.element);
   msm::DesignRequest request = o.case_file.empty() ? from_command_line(o, element) : from_case(o, element);
   if (!o.method.empty()) request.options.design = *cases::value_of<cases::Design>(o.method);

@@ -3,6 +3,7 @@
 #include "msm/design/design.hpp"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct DesignOptions {
   std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;
   double neo_hookean = 0;
   std::string curve_file;
-  double largest_strain = 0;        ///< left out
+  std::optional<double> largest_strain;
   std::vector<std::string> paths;   ///< of the multi-load method; empty: all
   std::vector<double> strain_range; ///< two, or left out
   bool springs_only = false;        ///< the multi-load method without its volume term
