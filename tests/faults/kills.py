@@ -45,6 +45,11 @@ def is_own(name):
     return path.parts[0] == "solved" or path.name.startswith(".")
 
 
+def has_grown(name, content, expected):
+    """run, gate and sweep write their table anew after each case, so that what is finished is there."""
+    return name in ("comparison.csv", "sweep.csv") and content.endswith(b"\n") and expected.startswith(content)
+
+
 def why_not_whole(name, content):
     """An empty text if a file of this ending is whole."""
     ending = Path(name).suffix
@@ -88,7 +93,8 @@ def faults_of_kill(words, out, moment, status, expected, constant):
     process.wait()
     left = {name: content for name, content in files_in(out).items() if not is_own(name)} if out.exists() else {}
     faults = [f"{name}: {why_not_whole(name, content)}" for name, content in left.items() if why_not_whole(name, content)]
-    faults += [f"{name}: cut" for name, content in left.items() if name in constant and content != expected[name]]
+    faults += [f"{name}: cut" for name, content in left.items()
+               if name in constant and content != expected[name] and not has_grown(name, content, expected[name])]
     again = subprocess.run(command_of(words, out), capture_output=True)
     if again.returncode != status:
         return faults + [f"the rerun ends with {again.returncode}: {again.stderr[-300:]!r}"]
