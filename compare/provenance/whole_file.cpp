@@ -69,7 +69,7 @@ void claim(const std::string& folder, int flags) {
   std::error_code error;
   fs::create_directories(folder, error);
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
-  if (descriptor < 0) refuse(folder, std::generic_category().message(errno));
+  if (descriptor < 0) refuse(folder, error ? error.message() : std::generic_category().message(errno));
   // The lock goes with the process. File systems that have none go without it.
   const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno == EWOULDBLOCK) refuse(folder, "another springproof writes into it");

@@ -169,6 +169,25 @@ TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") 
   CHECK(result["measures"][0]["peer"].is_null());
 }
 
+TEST_CASE("the place for temporary files is no command, and where it takes none the peer has failed") {
+  const TemporaryFolder folder;
+  const fs::path place = folder.path / "it's; touch P; '";
+  fs::create_directory(place);
+  const std::string words =
+      "run --json --only fem --peer ccx " + shear +
+      " --set fem.element=q1 --set fem.formulation=small_strain --set body.cells=[2,2,2]";
+  const std::string go = "cd " + folder.path.string() + " && TMPDIR=";
+  CHECK(run_program(words, go + "\"" + place.string() + "\" ").status <= 1);
+  CHECK_FALSE(fs::exists(folder.path / "P"));
+  CHECK(fs::is_empty(place));
+  const ProgramRun none = run_program(words, go + "/proc ");
+  CHECK(none.status <= 1);
+  const auto result = nlohmann::json::parse(none.out)["cases"][0];
+  CHECK(result["fem"]["status"] == "converged");
+  CHECK(result["peer"]["status"] == "failed");
+  CHECK_THAT(result["peer"]["message"].get<std::string>(), Catch::Contains("/proc/springproof-ccx"));
+}
+
 TEST_CASE("wrong usage is exit status 2: no command, an unknown option, an unknown table") {
   for (const char* words : {"", "run", "run --no-such-option x", "tables 9.9", "run /no/such/file.toml"}) {
     INFO(words);
