@@ -91,6 +91,19 @@ TEST_CASE("blessing moves missed regression intervals and leaves every other byt
   CHECK(content(path) == expected);
 }
 
+TEST_CASE("a blessed file keeps its mode, and is found behind a link") {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("block.toml", text), link = folder.path / "link.toml";
+  const auto mode = fs::perms::owner_all | fs::perms::others_read;
+  fs::permissions(path, mode);
+  fs::create_symlink(path, link);
+  compare::bless(judge_file(link, 2.0, 1.0));
+  CHECK(fs::is_symlink(link));
+  CHECK(content(path) != text);
+  CHECK(fs::status(path).permissions() == mode);
+}
+
 TEST_CASE("an interval is found behind characters of several bytes, and in a file with lines of Windows") {
   const TemporaryFolder folder;
   const std::string path = folder.write(
