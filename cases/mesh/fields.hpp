@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/strict_archive.hpp"
 
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/optional.hpp>
@@ -46,13 +46,13 @@ std::string to_bytes(const Values&... values) {
   return stream.str();
 }
 
+/// @param bytes  any
 /// @throws std::exception if these are not the bytes of such values
 template<class... Values>
 void from_bytes(const std::string& bytes, Values&... values) {
-  std::istringstream stream(bytes);
-  cereal::PortableBinaryInputArchive archive(stream);
+  cereal::StrictInputArchive archive(bytes);
   archive(values...);
-  if (stream.peek() != std::istringstream::traits_type::eof()) throw cereal::Exception("bytes are left over");
+  if (archive.n_left() > 0) throw cereal::Exception("bytes are left over");
 }
 
 } // namespace springproof::cases

@@ -1,8 +1,10 @@
 #include "cases/mesh/read_mesh.hpp"
 
 #include "cases/mesh/confined.hpp"
-#include "cases/mesh/fields.hpp"
+#include "cases/mesh/mesh_bytes.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
@@ -211,11 +213,9 @@ class Builder {
 };
 
 /// gmsh reads every format it ever wrote; older ones lose the entities of groups.
-void check_format(const std::string& path) {
-  std::ifstream stream(path);
+void check_format(std::istream& stream) {
   std::string heading;
   double version = 0;
-  if (!stream) refuse("cannot be read");
   if (!(stream >> heading >> version) || heading != "$MeshFormat")
     refuse("is not a gmsh mesh, which begins with $MeshFormat and its version");
   if (!(version >= 4 && version < 5))
@@ -238,10 +238,12 @@ void open_in_gmsh(const std::string& path, bool is_geometry) {
 
 /// The mesh of a file, as bytes.
 std::string mesh_bytes(const std::string& path, bool is_geometry) {
-  if (!is_geometry) check_format(path);
+  std::ifstream stream(path);
+  if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
+  if (!is_geometry) check_format(stream);
   try {
     open_in_gmsh(path, is_geometry);
-    return to_bytes(Builder().build());
+    return bytes_of_mesh(Builder().build());
   } catch (const std::string& reason) { // gmsh throws its messages
     refuse("gmsh: " + reason);
   }
@@ -250,19 +252,15 @@ std::string mesh_bytes(const std::string& path, bool is_geometry) {
 } // namespace
 
 HexMesh read_mesh(const MeshFile& file) {
-  if (!std::filesystem::is_regular_file(file.path))
-    throw InputError(file.where, file.path + ": there is no such file");
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(file.path, absent))
+    throw InputError(file.where, file.path + ": " + (absent ? absent.message() : "is no regular file"));
   const bool is_geometry = std::filesystem::path(file.path).extension() == ".geo";
-  std::string bytes;
-  try { // A .geo is a program, and gmsh crashes on some broken meshes.
-    bytes = run_confined([&] { return mesh_bytes(file.path, is_geometry); }, most_seconds);
-  } catch (const std::runtime_error& error) {
+  try { // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
+    return mesh_from(run_confined([&] { return mesh_bytes(file.path, is_geometry); }, most_seconds));
+  } catch (const std::exception& error) {
     throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
   }
-  HexMesh mesh;
-  from_bytes(bytes, mesh);
-  find_grid(mesh);
-  return mesh;
 }
 
 } // namespace springproof::cases

@@ -1,38 +1,14 @@
 #pragma once
 
+#include "compare/peers/displacement_file.hpp"
 #include "compare/solve/answers.hpp"
 
-/// Displacements that another simulator computed, as they stand in a file and in place of our springs'.
+/// Displacements that another simulator computed, in place of our springs'.
 namespace springproof::compare {
 
-/// One node of the other program.
-struct GivenDisplacement {
-  Eigen::Vector3d position;     ///< at rest, mm
-  Eigen::Vector3d displacement; ///< mm
-  std::string where;            ///< for messages: "file:line", or "file: point 12"
-  double rounding = 0;          ///< bound on the error of a position in single precision, mm
-};
-
-/// Reads a file by its ending.
-/// .csv: the header x,y,z,ux,uy,uz and a line per node, mm.
-/// .vtu: in any encoding that VTK reads; among its point data an array of three components, Float32 or
-/// Float64, named msm_displacement or displacement, or the only one with three. Points with the same position
-/// and displacement are one node.
-/// @throws InputError saying where, what stands there and what is allowed
+/// Reads a file by its ending, .csv or .vtu.
+/// @throws InputError as the two formats' readers, or if it has another ending
 std::vector<GivenDisplacement> read_displacements(const std::string& path);
-
-/// The two formats by themselves: the text of a file, and its name for messages.
-std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path);
-std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path);
-
-/// How near a given node must lie to the node of the case's mesh that it stands for, mm.
-constexpr double same_place = 1e-6;
-
-/// Displacements in the order of the mesh's nodes, matched by position.
-/// @throws InputError if a given node lies at no node of the mesh, if one is given twice, or if one is not
-/// given
-std::vector<Eigen::Vector3d>
-match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
 
 /// Another simulator's answer to a case.
 struct ExternalDisplacements {

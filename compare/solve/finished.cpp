@@ -3,6 +3,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/answer_bytes.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/frame.hpp"
 #include "compare/solve/kept.hpp"
@@ -35,10 +36,15 @@ std::string identity_of_mesh(const Question& question, const cases::Fem& fem) {
   return identity({with_fem(question.scene, fem), question.request});
 }
 
-/// The kept answers' bytes; empty if there are none for this question.
-std::string answers_in(const std::string& path, const std::string& identity) {
+/// The bytes that a file keeps for a question, if they can be read; empty otherwise.
+/// @param read  answers_from() or answer_from()
+template<class Read>
+std::string bytes_in(const std::string& path, const std::string& identity, const cases::HexMesh& mesh,
+                     const Read& read) {
   try {
-    return read_kept(path, identity);
+    std::string bytes = read_kept(path, identity);
+    if (!bytes.empty()) read(bytes, mesh);
+    return bytes;
   } catch (const std::exception& error) {
     print(std::cerr, "{}: {}; the case is solved again\n", path, error.what());
     return "";
@@ -77,10 +83,11 @@ FinishedCases::FinishedCases(const std::string& folder, const std::vector<Questi
 std::optional<Answers> FinishedCases::find(const Question& question) const {
   if (folder_.empty()) return std::nullopt;
   const std::string bytes =
-      from_rank_0(mpi_rank() == 0 ? answers_in(path_of(folder_, question, names_), identity(question)) : "");
+      from_rank_0(mpi_rank() == 0 ? bytes_in(path_of(folder_, question, names_), identity(question),
+                                             question.scene.mesh, answers_from)
+                                  : "");
   if (bytes.empty()) return std::nullopt;
-  Answers answers;
-  cases::from_bytes(bytes, answers);
+  Answers answers = answers_from(bytes, question.scene.mesh);
   if (answers.failed()) return std::nullopt;
   if (mpi_rank() == 0)
     print(std::cerr, "{}: solved already, taken from the earlier results in the same folder\n",
@@ -104,17 +111,16 @@ KeptMeshes FinishedCases::meshes_in(const std::string& folder, const Question& q
   if (folder.empty()) return {};
   const auto find = [folder, &question](const cases::Fem& fem) -> std::optional<Answer> {
     const std::string identity = identity_of_mesh(question, fem);
+    const std::string path = path_of_mesh(folder, identity);
     const std::string bytes =
-        from_rank_0(mpi_rank() == 0 ? answers_in(path_of_mesh(folder, identity), identity) : "");
+        from_rank_0(mpi_rank() == 0 ? bytes_in(path, identity, question.scene.mesh, answer_from) : "");
     if (bytes.empty()) return std::nullopt;
     if (mpi_rank() == 0)
       print(std::cerr,
             "{}: the mesh refined {} times is solved already, taken from the earlier results in the same "
             "folder\n",
             question.scene.definition.name, fem.refine);
-    Answer answer;
-    cases::from_bytes(bytes, answer);
-    return answer;
+    return answer_from(bytes, question.scene.mesh);
   };
   const auto keep = [folder, &question](const cases::Fem& fem, const Answer& answer) {
     const std::string identity = identity_of_mesh(question, fem);
@@ -125,16 +131,13 @@ KeptMeshes FinishedCases::meshes_in(const std::string& folder, const Question& q
 
 Answers kept_answers(const std::string& folder, const Question& question, FileNames names) {
   const std::string path = path_of(folder, question, names);
-  std::string bytes, reason = "has no answers to " + question.scene.definition.name;
   try {
-    bytes = read_kept(path, identity(question));
-  } catch (const std::runtime_error& error) {
-    reason = error.what();
+    const std::string bytes = read_kept(path, identity(question));
+    if (bytes.empty()) throw std::runtime_error("has no answers to " + question.scene.definition.name);
+    return answers_from(bytes, question.scene.mesh);
+  } catch (const std::exception& error) {
+    throw cases::InputError(path + ": " + error.what());
   }
-  if (bytes.empty()) throw cases::InputError(path + ": " + reason);
-  Answers answers;
-  cases::from_bytes(bytes, answers);
-  return answers;
 }
 
 std::string digest_of(const std::vector<Question>& questions) {

@@ -6,20 +6,14 @@
 #include "compare/solve/kept.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace springproof::compare {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr int most_shards = 10'000;
 
 std::string record_file(const std::string& folder) {
   return folder + "/shard.json";
@@ -31,18 +25,7 @@ ShardRecord read_record(const std::string& folder) {
     throw cases::InputError(folder +
                             ": has no shard.json: the shard has not finished, or this is no shard's folder");
   try {
-    const Json json = Json::parse(read_file(file));
-    ShardRecord record;
-    record.shard = {json.at("shard").get<int>(), json.at("of").get<int>()};
-    json.at("command").get_to(record.command);
-    json.at("questions").get_to(record.questions);
-    json.at("seconds").get_to(record.seconds);
-    json.at("program").get_to(record.program);
-    json.at("processor").get_to(record.processor);
-    const auto [index, count] = record.shard;
-    if (!(1 <= index && index <= count && count <= most_shards))
-      throw std::runtime_error(fmt::format("there is no shard {} of {}", index, count));
-    return record;
+    return record_from(read_file(file));
   } catch (const std::exception& error) {
     throw cases::InputError(file + ": is no shard's record: " + error.what());
   }
@@ -64,17 +47,6 @@ void check_same(const std::string& folder, const ShardRecord& record, const std:
 }
 
 } // namespace
-
-std::optional<Shard> shard_from(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard.index);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, shard.count);
-  if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
-  if (!(1 <= shard.index && shard.index <= shard.count && shard.count <= most_shards)) return std::nullopt;
-  return shard;
-}
 
 std::vector<int> divide(const std::vector<double>& costs, int n_shards) {
   std::vector<std::size_t> order(costs.size());
@@ -100,10 +72,7 @@ std::vector<int> divide(const std::vector<Question>& questions, int n_shards) {
 void write_record(const std::string& folder, ShardRecord record) {
   record.program = this_program();
   record.processor = describe_machine().processor;
-  const Json json{{"shard", record.shard.index},   {"of", record.shard.count},  {"command", record.command},
-                  {"questions", record.questions}, {"seconds", record.seconds}, {"program", record.program},
-                  {"processor", record.processor}};
-  write_file(record_file(folder), [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+  write_file(record_file(folder), [&](std::ostream& out) { out << text_of(record); });
 }
 
 void remove_record(const std::string& folder) {

@@ -1,18 +1,11 @@
 #pragma once
 
 #include "compare/solve/finished.hpp"
+#include "compare/solve/shard_record.hpp"
 
 /// The work of one command divided among several, on machines of their own: `--shard I/N` of each keeps what
 /// it has solved in its own folder, and `merge` puts the folders together.
 namespace springproof::compare {
-
-struct Shard {
-  int index = 1; ///< from 1 to count
-  int count = 1;
-};
-
-/// "2/3"; nothing for anything else.
-std::optional<Shard> shard_from(const std::string& text);
 
 /// Which shard has each piece of work: the largest first, each to the shard with the least to do so far.
 /// @param costs  in any unit, one per piece
@@ -20,16 +13,6 @@ std::optional<Shard> shard_from(const std::string& text);
 std::vector<int> divide(const std::vector<double>& costs, int n_shards);
 /// By estimated cost.
 std::vector<int> divide(const std::vector<Question>& questions, int n_shards);
-
-/// What a shard that has finished tells of itself, in DIR/shard.json.
-struct ShardRecord {
-  Shard shard;
-  std::vector<std::string> command; ///< and its arguments that all shards have in common
-  std::string questions;            ///< digest of all that the whole command's results depend on
-  double seconds = 0;               ///< that the shard took
-  std::string program{};            ///< filled in by write_record(), as the rest
-  std::string processor{};
-};
 
 /// @throws InputError if it cannot be written
 void write_record(const std::string& folder, ShardRecord record);

@@ -31,7 +31,7 @@ Answers solve_in_this_process(const Question& question, const std::string& folde
   }
 }
 
-Answers answers_from(const JobAnswer& job, const Request& request) {
+Answers answers_in(const JobAnswer& job, const Request& request) {
   if (!job.bytes) return failed_answers(request, std::runtime_error(job.reason));
   Answers answers;
   cases::from_bytes(*job.bytes, answers);
@@ -147,7 +147,7 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
       {{options.program, "worker"}, n_workers}, open.size(),
       [&](std::size_t job) { return cases::to_bytes(begin(open[job]), finished.folder()); },
       [&](std::size_t job, const JobAnswer& answer) {
-        take(open[job], answers_from(answer, questions[open[job].question].request));
+        take(open[job], answers_in(answer, questions[open[job].question].request));
       });
   return answers;
 }

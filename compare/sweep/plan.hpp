@@ -4,7 +4,7 @@
 
 namespace springproof::compare {
 
-enum class Program { springs, finite_elements, calculix };
+SPRINGPROOF_ENUMERATION(Program, springs, finite_elements, calculix)
 
 /// Springs against everything else: what "which model is faster" is about.
 enum class Family { springs, finite_elements };

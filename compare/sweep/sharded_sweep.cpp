@@ -36,11 +36,12 @@ bool has_failed(const VariantRun& run) {
 }
 
 /// What an earlier command has kept, if it did not fail.
-std::optional<VariantRun> find_run(const std::string& path, const std::string& identity) {
+std::optional<VariantRun> find_run(const std::string& path, const std::string& identity,
+                                   const Variant& variant) {
   try {
     const std::string bytes = read_kept(path, identity);
     if (bytes.empty()) return std::nullopt;
-    VariantRun run = variant_run_from(bytes);
+    VariantRun run = variant_run_from(bytes, variant);
     if (has_failed(run)) return std::nullopt;
     return run;
   } catch (const std::exception& error) {
@@ -49,15 +50,14 @@ std::optional<VariantRun> find_run(const std::string& path, const std::string& i
   }
 }
 
-VariantRun kept_run(const std::string& path, const std::string& identity) {
-  std::string bytes, reason = "has no timing";
+VariantRun kept_run(const std::string& path, const std::string& identity, const Variant& variant) {
   try {
-    bytes = read_kept(path, identity);
-  } catch (const std::runtime_error& error) {
-    reason = error.what();
+    const std::string bytes = read_kept(path, identity);
+    if (bytes.empty()) throw std::runtime_error("has no timing");
+    return variant_run_from(bytes, variant);
+  } catch (const std::exception& error) {
+    throw cases::InputError(path + ": " + error.what());
   }
-  if (bytes.empty()) throw cases::InputError(path + ": " + reason);
-  return variant_run_from(bytes);
 }
 
 /// All ranks go by what rank 0 found.
@@ -85,7 +85,7 @@ TimedPart time_shard(const Sweep& sweep, const Shard& shard, const std::string& 
     const Variant& variant = sweep.plan.variants[v];
     const std::string path = path_of(folder, variant), identity = identity_of_run(sweep, variant);
     std::optional<VariantRun> run;
-    if (mpi_rank() == 0) run = find_run(path, identity);
+    if (mpi_rank() == 0) run = find_run(path, identity, variant);
     if (!on_rank_0(run.has_value())) {
       run = run_variant(sweep, variant, program, line);
       if (mpi_rank() == 0) write_kept(path, identity, bytes_of(*run));
@@ -112,7 +112,7 @@ Sweep merged_sweep(Sweep sweep, const Shards& shards) {
   for (std::size_t v = 0; v < shard_of.size(); ++v) {
     const Variant& variant = sweep.plan.variants[v];
     const std::string& folder = shards.folders[static_cast<std::size_t>(shard_of[v] - 1)];
-    add_row(sweep, variant, kept_run(path_of(folder, variant), identity_of_run(sweep, variant)));
+    add_row(sweep, variant, kept_run(path_of(folder, variant), identity_of_run(sweep, variant), variant));
   }
   return sweep;
 }

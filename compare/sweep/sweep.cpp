@@ -153,7 +153,7 @@ VariantRun run_in_own_process(const Sweep& sweep, const Variant& variant, const 
           [&](std::size_t) { return timing_job(sweep.definition, variant, sweep.rules); },
           [](std::size_t, const JobAnswer&) {})
           .front();
-  return answer.bytes ? variant_run_from(*answer.bytes) : failed_run(answer.reason);
+  return answer.bytes ? variant_run_from(*answer.bytes, variant) : failed_run(answer.reason);
 }
 
 VariantRun run_here(const Sweep& sweep, const Variant& variant) {
@@ -245,9 +245,16 @@ std::string bytes_of(const VariantRun& run) {
   return cases::to_bytes(run);
 }
 
-VariantRun variant_run_from(const std::string& answer) {
+VariantRun variant_run_from(const std::string& answer, const Variant& variant) {
   VariantRun run;
   cases::from_bytes(answer, run);
+  std::size_t n_nodes = 1;
+  for (const int n_cells : field_cells(variant)) n_nodes *= cases::index(n_cells + 1);
+  const std::vector<Eigen::Vector3d>& field = run.first.displacement;
+  const bool is_solved = run.first.status == cases::Status::converged;
+  if ((field.size() != n_nodes && (is_solved || !field.empty())) ||
+      !std::all_of(field.begin(), field.end(), [](const Eigen::Vector3d& u) { return u.allFinite(); }))
+    throw std::runtime_error("has a displacement that is none on the variant's mesh");
   return run;
 }
 

@@ -46,8 +46,8 @@ VariantRun time_variant(const cases::Case& definition, const Variant& variant, c
 std::string timing_job(const cases::Case& definition, const Variant& variant, const TimingRules& rules);
 std::string answer_timing_job(const std::string& job);
 std::string bytes_of(const VariantRun& run);
-/// @throws std::exception if the bytes are no answer
-VariantRun variant_run_from(const std::string& answer);
+/// @param answer  any bytes   @throws std::exception if they are no answer, or not this variant's
+VariantRun variant_run_from(const std::string& answer, const Variant& variant);
 
 /// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept.
 struct SweepRow {

@@ -228,8 +228,34 @@ TEST_CASE("a mesh that the models cannot use is refused with the reason") {
   check_refused("a.geo", "Point(1) = {0, 0, 0};\n", "has no hexahedra");
   check_refused("a.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n", "Tetrahedron 4");
   CHECK_THROWS_WITH(read_mesh({"/no/such.msh", {"case.toml", 6, 8, "body.file"}}),
-                    "case.toml:6:8: body.file: /no/such.msh: there is no such file");
+                    "case.toml:6:8: body.file: /no/such.msh: No such file or directory");
+  CHECK_THROWS_WITH(read_mesh({"/dev/null", {}}), Catch::Contains("/dev/null: is no regular file"));
   check_refused("a.geo", "Pont(1) = {0, 0, 0};\n", "syntax error");
+}
+
+TEST_CASE("a mesh or geometry that may not be read is said to be that, and not to be none") {
+  if (geteuid() != 0) return; // only root can be somebody else for a while
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("a.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}})),
+                    geometry = folder.write("a.geo", "Point(1) = {0, 0, 0};\n");
+  for (const std::string& path : {mesh, geometry}) fs::permissions(path, fs::perms::owner_read);
+  const auto message_of = [](const std::string& path) -> std::string {
+    constexpr uid_t nobody = 65534;
+    REQUIRE(seteuid(nobody) == 0);
+    std::string message;
+    try {
+      read_mesh({path, {}});
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    REQUIRE(seteuid(0) == 0);
+    return message;
+  };
+  for (const bool is_open : {false, true}) { // the folder
+    fs::permissions(folder.path, is_open ? fs::perms(0755) : fs::perms(0700));
+    CHECK_THAT(message_of(mesh), Catch::Contains("a.msh: ") && Catch::Contains("Permission denied"));
+    CHECK_THAT(message_of(geometry), Catch::Contains("a.geo: ") && Catch::Contains("Permission denied"));
+  }
 }
 
 TEST_CASE("a geometry or mesh of a stranger runs nothing, writes nothing, and cannot end the program") {

@@ -1,6 +1,7 @@
-#include "compare/peers/external_side.hpp"
+#include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "compare/peers/external_side.hpp"
 #include "compare/write/write.hpp"
 #include "tests/support/case_text.hpp"
 

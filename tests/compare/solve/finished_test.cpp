@@ -2,6 +2,8 @@
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/fields.hpp"
+#include "compare/solve/frame.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>
@@ -43,7 +45,9 @@ Answers answers() {
   answers.choices = {"formulation: \"small\"\n"};
   answers.msm.solution.status = cases::Status::converged;
   answers.msm.solution.message = "with a\nline break";
-  answers.msm.solution.displacement = {{1, 2, 3}, {-0.0, 5e-324, 1e308}};
+  answers.msm.solution.displacement.assign(8, {1, 2, 3});
+  answers.msm.solution.displacement[1] = {-0.0, 5e-324, 1e308};
+  answers.msm.solution.cell_volume = {1.5};
   answers.msm.solution.negative_eigenvalues = 2;
   answers.msm.solve_seconds = 0.1;
   answers.design = msm::DesignResult{};
@@ -127,6 +131,32 @@ TEST_CASE("a kept file of another format counts as none, and its line says so") 
   other.replace(other.find(" 1\n"), 3, " 2\n");
   CHECK_THAT(find_in(kept, other).message, Catch::Contains("another format"));
   CHECK_THAT(find_in(kept, "as a program before it kept them").message, Catch::Contains("another format"));
+}
+
+TEST_CASE("a kept file with a sound digest of answers that are none counts as none") {
+  const Kept kept;
+  const std::string whole = compare::read_file(kept.file);
+  std::string framed = whole.substr(whole.find('\n') + 1);
+  const compare::Frame frame = compare::take_frame(framed).value();
+  const auto find_forged = [&](const std::string& content) {
+    return find_in(kept, whole.substr(0, whole.find('\n') + 1) + compare::framed({frame.kind, content}));
+  };
+  CHECK(find_forged(frame.content).is_something);
+  CHECK_FALSE(find_forged(frame.content.substr(0, frame.content.size() / 2)).is_something);
+  Answers forged = answers();
+  forged.msm.solution.displacement.resize(7);
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.msm.solution.cell_volume.clear();
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.refined->refine = {0, 1, 2};
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.peer->answer.solution.displacement.resize(8, Eigen::Vector3d::Constant(std::nan("")));
+  const Found found = find_forged(cases::to_bytes(forged));
+  CHECK_FALSE(found.is_something);
+  CHECK(found.message.rfind(kept.file + ": ", 0) == 0);
 }
 
 TEST_CASE("answers are for one case, one request and one setting of PETSc") {

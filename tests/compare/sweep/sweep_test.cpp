@@ -158,7 +158,15 @@ TEST_CASE("repetitions are as many as the budget pays for") {
 }
 
 TEST_CASE("a timing's answer that is not whole is refused") {
-  CHECK_THROWS_AS(variant_run_from("1 2 three"), std::exception);
+  const Variant variant = spring_variant(1);
+  CHECK_THROWS_AS(variant_run_from("1 2 three", variant), std::exception);
+  VariantRun run;
+  run.first.status = cases::Status::converged;
+  run.first.displacement.resize(8, Eigen::Vector3d::Zero());
+  CHECK(variant_run_from(bytes_of(run), variant).first.displacement.size() == 8);
+  CHECK_THROWS_AS(variant_run_from(bytes_of(run), spring_variant(2)), std::exception);
+  run.first.displacement[7].x() = std::nan("");
+  CHECK_THROWS_AS(variant_run_from(bytes_of(run), variant), std::exception);
 }
 
 TEST_CASE("failed variants and missing values give no points") {
@@ -220,7 +228,7 @@ TEST_CASE(
             .front();
     INFO(answer.reason);
     REQUIRE(answer.bytes);
-    const VariantRun run = variant_run_from(*answer.bytes);
+    const VariantRun run = variant_run_from(*answer.bytes, variant);
     REQUIRE(run.first.status == cases::Status::converged);
     CHECK(run.is_warm);
     CHECK(run.setup_seconds.size() == 2);

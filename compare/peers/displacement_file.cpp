@@ -1,0 +1,135 @@
+#include "compare/peers/displacement_file.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/mesh/vtk.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace springproof::compare {
+
+using Eigen::Vector3d;
+
+namespace {
+
+const std::string header = "x,y,z,ux,uy,uz";
+
+/// The numbers of a line, or nothing if it is not six finite ones between commas.
+std::vector<double> numbers_of(const std::string& line) {
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    double value = 0;
+    const auto [stop, error] = std::from_chars(line.data() + begin, line.data() + end, value);
+    if (error != std::errc() || stop != line.data() + end || !std::isfinite(value)) return {};
+    values.push_back(value);
+    begin = end + 1;
+  }
+  return values.size() == 6 ? values : std::vector<double>{};
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw cases::InputError(path + ": " + problem);
+}
+
+cases::PointCloud points_of(const std::string& text, const std::string& path) try {
+  return cases::vtk().read_unstructured_grid(text);
+} catch (const std::exception& error) {
+  refuse(path, std::string("is no complete VTK file of type UnstructuredGrid: ") + error.what());
+}
+
+/// Finds the displacements by their name, or takes the only vectors.
+const std::vector<Vector3d>& displacements_of(const std::vector<cases::PointField>& fields,
+                                              const std::string& path) {
+  for (const char* wanted : {"msm_displacement", "displacement"})
+    for (const cases::PointField& field : fields)
+      if (field.name == wanted) return field.values;
+  if (fields.size() == 1) return fields.front().values;
+  std::string names;
+  for (const cases::PointField& field : fields) names += " '" + field.name + "'";
+  refuse(path, "must have point data of three components (Float32 or Float64) named msm_displacement or "
+               "displacement, or only one with three components; it has" +
+                   (names.empty() ? " none" : names));
+}
+
+std::string shown(const Vector3d& point) {
+  return fmt::format("({:.10g}, {:.10g}, {:.10g})", point.x(), point.y(), point.z());
+}
+
+} // namespace
+
+std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path) {
+  std::istringstream stream(text);
+  std::vector<GivenDisplacement> nodes;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    const std::string where = fmt::format("{}:{}", path, ++number);
+    std::string plain;
+    std::copy_if(line.begin(), line.end(), std::back_inserter(plain),
+                 [](char c) { return c != ' ' && c != '\t' && c != '\r'; });
+    if (number == 1) {
+      if (plain != header)
+        throw cases::InputError(fmt::format("{}: is '{}', must be the header {} (mm)", where, plain, header));
+      continue;
+    }
+    if (plain.empty()) continue;
+    const std::vector<double> v = numbers_of(plain);
+    if (v.empty())
+      throw cases::InputError(fmt::format("{}: is '{}', must be six finite numbers between commas: {} (mm)",
+                                          where, plain, header));
+    nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, where});
+  }
+  if (number == 0) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
+  return nodes;
+}
+
+std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path) {
+  const cases::PointCloud cloud = points_of(text, path);
+  const std::vector<Vector3d>& displacements = displacements_of(cloud.fields, path);
+  const double rounding = cloud.is_single_precision ? std::numeric_limits<float>::epsilon() : 0;
+  std::vector<GivenDisplacement> nodes;
+  std::set<std::array<double, 6>> known; // pieces have the points between them in common
+  for (std::size_t p = 0; p < displacements.size(); ++p) {
+    const Vector3d &x = cloud.points[p], &u = displacements[p];
+    if (!x.allFinite() || !u.allFinite()) refuse(path, fmt::format("is not finite at point {}", p));
+    if (known.insert({x[0], x[1], x[2], u[0], u[1], u[2]}).second)
+      nodes.push_back({x, u, fmt::format("{}: point {}", path, p), rounding * x.norm()});
+  }
+  return nodes;
+}
+
+std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
+                                  const std::string& path) {
+  std::vector<Vector3d> positions, displacement;
+  for (const GivenDisplacement& next : given) positions.push_back(next.position);
+  const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes, positions);
+  std::vector<const GivenDisplacement*> of_node(mesh.nodes.size(), nullptr);
+  for (std::size_t g = 0; g < given.size(); ++g) {
+    const GivenDisplacement& next = given[g];
+    const Vector3d& node = mesh.nodes[nearest[g]];
+    const double tolerance = same_place + next.rounding;
+    if (!((node - next.position).norm() <= tolerance))
+      throw cases::InputError(
+          fmt::format("{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}",
+                      next.where, tolerance, shown(next.position), shown(node)));
+    if (const GivenDisplacement* known = std::exchange(of_node[nearest[g]], &next))
+      throw cases::InputError(fmt::format("{}: the node {} is given twice, first in {}", next.where,
+                                          shown(next.position), known->where));
+  }
+  for (std::size_t n = 0; n < of_node.size(); ++n) {
+    if (!of_node[n])
+      throw cases::InputError(
+          fmt::format("{}: has {} of the {} nodes of the case's mesh, must have all: {} is missing", path,
+                      given.size(), mesh.nodes.size(), shown(mesh.nodes[n])));
+    displacement.push_back(of_node[n]->displacement);
+  }
+  return displacement;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,48 @@
+#include "compare/solve/answer_bytes.hpp"
+
+#include "compare/solve/fields.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace springproof::compare {
+
+namespace {
+
+/// @throws std::runtime_error if a solution has not as many values as the mesh has nodes and cells
+void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
+  const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
+    return size == expected || (size == 0 && solution.status != cases::Status::converged);
+  };
+  const bool is_finite = std::all_of(solution.displacement.begin(), solution.displacement.end(),
+                                     [](const Eigen::Vector3d& u) { return u.allFinite(); }) &&
+                         std::all_of(solution.cell_volume.begin(), solution.cell_volume.end(),
+                                     [](double volume) { return std::isfinite(volume); });
+  if (!is_empty_or(solution.displacement.size(), mesh.nodes.size()) ||
+      !is_empty_or(solution.cell_volume.size(), mesh.cells.size()) || !is_finite)
+    throw std::runtime_error("has values that are no solution on the case's mesh");
+}
+
+} // namespace
+
+Answers answers_from(const std::string& bytes, const cases::HexMesh& mesh) {
+  Answers answers;
+  cases::from_bytes(bytes, answers);
+  check(answers.fem.solution, mesh);
+  check(answers.msm.solution, mesh);
+  if (answers.peer) check(answers.peer->answer.solution, mesh);
+  if (!answers.refined) return answers;
+  if (answers.refined->solutions.size() != answers.refined->refine.size())
+    throw std::runtime_error("has not as many refined solutions as meshes");
+  for (const cases::Solution& solution : answers.refined->solutions) check(solution, mesh);
+  return answers;
+}
+
+Answer answer_from(const std::string& bytes, const cases::HexMesh& mesh) {
+  Answer answer;
+  cases::from_bytes(bytes, answer);
+  check(answer.solution, mesh);
+  return answer;
+}
+
+} // namespace springproof::compare

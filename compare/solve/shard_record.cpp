@@ -1,0 +1,53 @@
+#include "compare/solve/shard_record.hpp"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+constexpr int most_shards = 10'000;
+
+bool exists(const Shard& shard) {
+  return 1 <= shard.index && shard.index <= shard.count && shard.count <= most_shards;
+}
+
+} // namespace
+
+std::optional<Shard> shard_from(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, shard.count);
+  if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+  if (!exists(shard)) return std::nullopt;
+  return shard;
+}
+
+std::string text_of(const ShardRecord& record) {
+  const nlohmann::ordered_json json{{"shard", record.shard.index},  {"of", record.shard.count},
+                                    {"command", record.command},    {"questions", record.questions},
+                                    {"seconds", record.seconds},    {"program", record.program},
+                                    {"processor", record.processor}};
+  return json.dump(2) + '\n';
+}
+
+ShardRecord record_from(const std::string& text) {
+  const auto json = nlohmann::json::parse(text);
+  ShardRecord record;
+  record.shard = {json.at("shard").get<int>(), json.at("of").get<int>()};
+  json.at("command").get_to(record.command);
+  json.at("questions").get_to(record.questions);
+  json.at("seconds").get_to(record.seconds);
+  json.at("program").get_to(record.program);
+  json.at("processor").get_to(record.processor);
+  if (!exists(record.shard))
+    throw std::runtime_error(
+        fmt::format("there is no shard {} of {}", record.shard.index, record.shard.count));
+  return record;
+}
+
+} // namespace springproof::compare
