@@ -73,6 +73,10 @@ std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t ce
   return ordered;
 }
 
+/// A lattice that has more places for each cell of the mesh is no grid worth having: a chain of n cells along
+/// a diagonal would have n².
+constexpr std::size_t most_places_of_a_cell = 64;
+
 /// Numbers the midpoints of edges, faces and cells, each made once.
 class Midpoints {
  public:
@@ -179,6 +183,7 @@ bool find_grid(HexMesh& mesh) {
   const auto extent = steps(body.sizes(), grid.spacing);
   if (!extent) return false;
   grid.cells = *extent;
+  if (grid.n_lattice_cells() / most_places_of_a_cell > mesh.cells.size()) return false;
 
   std::map<std::size_t, std::pair<std::array<int, 8>, std::size_t>> by_place;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {

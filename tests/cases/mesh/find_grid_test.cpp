@@ -82,3 +82,15 @@ TEST_CASE("cells that are unequal, distorted or off the axes are no grid") {
     CHECK_FALSE(mesh.grid.has_value());
   }
 }
+
+TEST_CASE("a chain of cells along a diagonal is no grid: its lattice would fill the memory") {
+  HexMesh mesh;
+  constexpr int n = 1000; // steps in each direction: a lattice of 10⁹ places
+  for (int i = 0; i < n; ++i) {
+    const HexMesh cell = make_grid_mesh({{1, 1, 1}, {1, 1, 1}, Eigen::Vector3d::Constant(i), {}});
+    auto& vertices = mesh.cells.emplace_back(cell.cells[0]);
+    for (int& vertex : vertices) vertex += static_cast<int>(mesh.nodes.size());
+    mesh.nodes.insert(mesh.nodes.end(), cell.nodes.begin(), cell.nodes.end());
+  }
+  CHECK_FALSE(find_grid(mesh));
+}
