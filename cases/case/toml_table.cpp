@@ -61,6 +61,19 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
+/// toml++ makes a table of every part of a dotted key, and destroys nested tables by recursion.
+/// @throws InputError for a line that would nest them deeper than the stack bears
+void check_lines(const std::string& text, const std::string& path) {
+  constexpr std::ptrdiff_t most_points = 100;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number)
+    if (std::count(line.begin(), line.end(), '.') > most_points)
+      throw InputError(Where{path, number, 1, ""},
+                       fmt::format("has more than {} points, must be divided: a list may have several lines",
+                                   most_points));
+}
+
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -238,6 +251,7 @@ void Table::refuse_unknown_keys() const {
 }
 
 toml::table parse_document(const std::string& text, const std::string& path) {
+  check_lines(text, path);
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {

@@ -11,7 +11,7 @@
 /// value, and what is allowed. Only the readers of case files include this.
 namespace springproof::cases {
 
-/// Parses TOML 1.0.  @param path  what messages call it   @throws InputError
+/// Parses TOML 1.0 of at most 100 points a line.  @param path  what messages call it   @throws InputError
 toml::table parse_document(const std::string& text, const std::string& path);
 /// The same for a file, whose name must be a line of UTF-8, so that it can stand in messages and JSON, with
 /// settings of the command line: "fem.refine=1", "load[0].value=[0, 0, 0.01]", "fem.element=q2". A value is

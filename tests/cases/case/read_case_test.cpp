@@ -340,3 +340,17 @@ TEST_CASE("every case file of the project is read, and its regions exist") {
   }
   CHECK(n >= 12); // the thesis's cube alone: two materials, three tests, two load sets
 }
+
+TEST_CASE("a key of very many dotted parts is refused with its line, however it is written") {
+  std::string key = "a";
+  for (int part = 0; part < 50'000; ++part) key += ".a";
+  for (const std::string& line : {key + " = 1", "[" + key + "]", "x = {" + key + " = 1}"})
+    CHECK_THROWS_WITH(read_case_text("schema = 1\n" + line + "\n", "a.toml"),
+                      Catch::StartsWith("a.toml:2:1: has more than 100 points"));
+  std::string nested; // as deep as is allowed: inline tables in arrays, which may have several lines
+  const std::string part = key.substr(0, 199);
+  for (int level = 0; level < 100; ++level) nested += (level == 0 ? "x" : "{" + part) + " = [\n";
+  CHECK_THROWS_AS(read_case_text(nested, "a.toml"), InputError);
+  for (int level = 0; level < 100; ++level) nested += level < 99 ? "]}\n" : "]\n";
+  CHECK_THROWS_AS(read_case_text(nested, "a.toml"), InputError);
+}
