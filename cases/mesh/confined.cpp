@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -59,7 +60,11 @@ bool confine() {
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) dup2(nowhere, standard);
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) std::signal(signal, SIG_DFL);
-  const rlimit time{static_cast<rlim_t>(seconds), static_cast<rlim_t>(seconds)}, none{0, 0};
+  const rlimit none{0, 0};
+  rlimit time{};
+  getrlimit(RLIMIT_CPU, &time); // the user's may be lower
+  time.rlim_cur = std::min(time.rlim_cur, static_cast<rlim_t>(seconds));
+  time.rlim_max = std::min(time.rlim_max, static_cast<rlim_t>(seconds));
   setrlimit(RLIMIT_CPU, &time);
   setrlimit(RLIMIT_CORE, &none);
   std::string answer(1, threw);

@@ -366,3 +366,16 @@ TEST_CASE("every template gives a case that runs, and nothing is ever overwritte
     CHECK(std::count(outcome.error.begin(), outcome.error.end(), '\n') == 1);
   }
 }
+
+TEST_CASE("a geometry that never ends is stopped, and is wrong input", "[unit-long]") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("wedge.toml", content(cases_folder + "/templates/mesh.toml"));
+  for (const char* geometry :
+       {"Macro Again\nCall Again;\nReturn\nCall Again;\n", "For i In {0:1e300}\nEndFor\n"}) {
+    folder.write("TEMPLATE.geo", geometry);
+    const ProgramRun run = run_program("run " + file, "ulimit -S -t 4; ");
+    CHECK(run.status == 2);
+    CHECK(run.error.find("TEMPLATE.geo: ") != std::string::npos);
+    CHECK(std::count(run.error.begin(), run.error.end(), '\n') == 1);
+  }
+}
