@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
+#include <new>
 #include <poll.h>
 #include <seccomp.h>
 #include <stdexcept>
@@ -54,25 +56,39 @@ bool confine() {
   return is_complete;
 }
 
+/// Bytes that this process has mapped; a sanitizer maps more than there are.
+rlim_t address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// The user's own limit may be lower still.
+void lower(__rlimit_resource resource, rlim_t most) {
+  rlimit limit{};
+  getrlimit(resource, &limit);
+  limit.rlim_cur = std::min(limit.rlim_cur, most);
+  limit.rlim_max = std::min(limit.rlim_max, most);
+  setrlimit(resource, &limit);
+}
+
 /// The child's life. Nothing of the parent's is cleaned up here.
-[[noreturn]] void work_confined(const std::function<std::string()>& work, int seconds, int out) {
+[[noreturn]] void work_confined(const std::function<std::string()>& work, const Limits& limits, int out) {
   prctl(PR_SET_PDEATHSIG, SIGKILL); // it would go on, and keep its parent's folder of results claimed
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) dup2(nowhere, standard);
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) std::signal(signal, SIG_DFL);
-  const rlimit none{0, 0};
-  rlimit time{};
-  getrlimit(RLIMIT_CPU, &time); // the user's may be lower
-  time.rlim_cur = std::min(time.rlim_cur, static_cast<rlim_t>(seconds));
-  time.rlim_max = std::min(time.rlim_max, static_cast<rlim_t>(seconds));
-  setrlimit(RLIMIT_CPU, &time);
-  setrlimit(RLIMIT_CORE, &none);
+  lower(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
+  lower(RLIMIT_AS, address_space() + limits.bytes);
+  lower(RLIMIT_CORE, 0);
   std::string answer(1, threw);
   if (!confine())
     answer += "this system cannot confine a process (seccomp)";
   else
     try {
       answer = answered + work();
+    } catch (const std::bad_alloc&) {
+      answer += "needs more than " + std::to_string(limits.bytes / 1'000'000) + " MB of memory";
     } catch (const std::exception& error) {
       answer += error.what();
     }
@@ -103,22 +119,26 @@ bool read_all(int in, int seconds, std::string& bytes) {
 
 } // namespace
 
-std::string run_confined(const std::function<std::string()>& work, int seconds) {
+Limits limits_to_read(std::uint64_t file_size) {
+  return {600, 1'000'000'000 + 100 * file_size};
+}
+
+std::string run_confined(const std::function<std::string()>& work, const Limits& limits) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::strerror(errno));
-  if (child == 0) work_confined(work, seconds, ends[1]);
+  if (child == 0) work_confined(work, limits, ends[1]);
   close(ends[1]);
   std::string bytes;
-  const bool in_time = read_all(ends[0], seconds, bytes);
+  const bool in_time = read_all(ends[0], limits.seconds, bytes);
   close(ends[0]);
   if (!in_time) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!in_time || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
-    throw std::runtime_error("took longer than " + std::to_string(seconds) + " s, or was killed");
+    throw std::runtime_error("took longer than " + std::to_string(limits.seconds) + " s, or was killed");
   if (WIFSIGNALED(status)) throw std::runtime_error(std::string("crashed: ") + strsignal(WTERMSIG(status)));
   if (bytes.empty()) throw std::runtime_error("ended without an answer");
   if (bytes.front() == threw) throw std::runtime_error(bytes.substr(1));

@@ -17,8 +17,8 @@ namespace springproof::cases {
 
 namespace {
 
-/// For gmsh to mesh a geometry.
-constexpr int most_seconds = 600;
+/// For gmsh to mesh a geometry, however short its text.
+constexpr Limits limits_to_mesh{600, 8'000'000'000};
 
 using Tags = std::vector<std::size_t>;
 
@@ -257,7 +257,9 @@ HexMesh read_mesh(const MeshFile& file) {
     throw InputError(file.where, file.path + ": " + (absent ? absent.message() : "is no regular file"));
   const bool is_geometry = std::filesystem::path(file.path).extension() == ".geo";
   try { // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
-    return mesh_from(run_confined([&] { return mesh_bytes(file.path, is_geometry); }, most_seconds));
+    const Limits limits =
+        is_geometry ? limits_to_mesh : limits_to_read(std::filesystem::file_size(file.path));
+    return mesh_from(run_confined([&] { return mesh_bytes(file.path, is_geometry); }, limits));
   } catch (const std::exception& error) {
     throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
   }

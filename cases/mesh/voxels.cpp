@@ -1,6 +1,6 @@
 #include "cases/mesh/voxels.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/read_vtk.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -126,14 +126,10 @@ std::vector<std::size_t> pieces(const Grid& grid) {
 
 Surface read_stl(const std::string& path, const Where& where) {
   try {
-    const Surface surface = vtk().read_triangles(path);
-    if (surface.empty()) throw std::runtime_error(path + ": has no triangles");
-    for (const auto& triangle : surface)
-      for (const Vector3d& vertex : triangle)
-        if (!vertex.allFinite()) throw std::runtime_error(path + ": has a position that is not finite");
-    return surface;
+    return read_triangles(path);
   } catch (const std::exception& error) {
-    throw InputError(where, error.what());
+    const std::string reason = error.what(); // VTK's have the path
+    throw InputError(where, reason.find(path) == std::string::npos ? path + ": " + reason : reason);
   }
 }
 
@@ -155,7 +151,10 @@ std::size_t n_open_edges(const Surface& surface) {
 }
 
 HexMesh make_voxel_mesh(const Voxels& voxels) {
-  const Surface surface = read_stl(voxels.path, voxels.where);
+  return make_voxel_mesh(read_stl(voxels.path, voxels.where), voxels);
+}
+
+HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError(voxels.where, fmt::format("{}: {}", voxels.path, reason));
   };

@@ -22,5 +22,7 @@ std::size_t n_open_edges(const Surface& surface);
 /// if no centre is inside, if the cubes fall into pieces, or if the grid would have more than 50 million of
 /// them
 HexMesh make_voxel_mesh(const Voxels& voxels);
+/// The same of a surface that has been read.
+HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
 
 } // namespace springproof::cases

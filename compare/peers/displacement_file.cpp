@@ -1,6 +1,7 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/vtk.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ std::vector<double> numbers_of(const std::string& line) {
 }
 
 cases::PointCloud points_of(const std::string& text, const std::string& path) try {
-  return cases::vtk().read_unstructured_grid(text);
+  return cases::read_point_cloud(text);
 } catch (const std::exception& error) {
   refuse(path, std::string("is no complete VTK file of type UnstructuredGrid: ") + error.what());
 }
@@ -90,7 +91,10 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
 }
 
 std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path) {
-  const cases::PointCloud cloud = points_of(text, path);
+  return displacements_in(points_of(text, path), path);
+}
+
+std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path) {
   const std::vector<Vector3d>& displacements = displacements_of(cloud.fields, path);
   const double rounding = cloud.is_single_precision ? std::numeric_limits<float>::epsilon() : 0;
   std::vector<GivenDisplacement> nodes;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 /// Displacements that another simulator computed, as they stand in a file.
 namespace springproof::compare {
@@ -23,6 +23,8 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
 /// and displacement are one node.
 /// @throws InputError, likewise
 std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path);
+/// The same of what VTK has read.
+std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path);
 
 /// How near a given node must lie to the node of the case's mesh that it stands for, mm.
 constexpr double same_place = 1e-6;

@@ -21,6 +21,8 @@ using cases::run_confined;
 
 namespace {
 
+constexpr cases::Limits limits{10, 1'000'000'000};
+
 /// What a system call answers in a confined process: "refused", or what it did instead.
 std::string attempt(const std::function<int()>& call) {
   return run_confined(
@@ -28,7 +30,7 @@ std::string attempt(const std::function<int()>& call) {
         if (call() >= 0) return "done";
         return errno == EPERM ? "refused" : std::strerror(errno);
       },
-      10);
+      limits);
 }
 
 } // namespace
@@ -36,14 +38,14 @@ std::string attempt(const std::function<int()>& call) {
 TEST_CASE("a confined function answers any bytes, and reads files") {
   const TemporaryFolder folder;
   const std::string path = folder.write("a", "content"), large(3000000, '\0');
-  CHECK(run_confined([&] { return large + "end"; }, 10) == large + "end");
-  CHECK(run_confined([] { return std::string(); }, 10).empty());
+  CHECK(run_confined([&] { return large + "end"; }, limits) == large + "end");
+  CHECK(run_confined([] { return std::string(); }, limits).empty());
   const auto read = [&] {
     std::string text;
     std::ifstream(path) >> text;
     return text;
   };
-  CHECK(run_confined(read, 10) == "content");
+  CHECK(run_confined(read, limits) == "content");
 }
 
 TEST_CASE("a confined function changes no file and reaches no program and no network") {
@@ -75,14 +77,24 @@ TEST_CASE("a confined function that does not answer is an error with its reason"
       return std::string("unreachable");
     };
   };
-  CHECK_THROWS_WITH(run_confined(work([] { throw std::runtime_error("a reason"); }), 10), "a reason");
-  CHECK_THROWS_WITH(run_confined(work([] { std::exit(0); }), 10), "ended without an answer");
-  CHECK_THROWS_WITH(run_confined(work([] { std::abort(); }), 10), Catch::Contains("Aborted"));
-  CHECK_THROWS_WITH(run_confined(work([] { std::raise(SIGSEGV); }), 10), Catch::Contains("crashed"));
+  CHECK_THROWS_WITH(run_confined(work([] { throw std::runtime_error("a reason"); }), limits), "a reason");
+  CHECK_THROWS_WITH(run_confined(work([] { std::exit(0); }), limits), "ended without an answer");
+  CHECK_THROWS_WITH(run_confined(work([] { std::abort(); }), limits), Catch::Contains("Aborted"));
+  CHECK_THROWS_WITH(run_confined(work([] { std::raise(SIGSEGV); }), limits), Catch::Contains("crashed"));
   CHECK_THROWS_WITH(run_confined(work([] {
                                    for (volatile int i = 0;; i = 1 - i) {
                                    }
                                  }),
-                                 1),
+                                 {1, 1'000'000'000}),
                     Catch::Contains("longer than 1 s"));
+}
+
+TEST_CASE("a confined function that claims more memory than it may have is told so") {
+  const auto claim = [](std::size_t size) {
+    return [size] { return std::to_string(std::vector<char>(size, 'x').size()); };
+  };
+  CHECK(run_confined(claim(100'000'000), limits) == "100000000");
+#ifndef __SANITIZE_ADDRESS__ // which has an address space of its own
+  CHECK_THROWS_WITH(run_confined(claim(2'000'000'000), limits), "needs more than 1000 MB of memory");
+#endif
 }

@@ -142,6 +142,17 @@ TEST_CASE("a .vtu that cannot be used is refused with the reason") {
                     Catch::Contains(message) && Catch::StartsWith("a.vtu: "));
 }
 
+TEST_CASE("a VTK file that VTK's reader crashes on is refused") {
+  std::string text = case_text::replaced(one_array, "NumberOfPoints=\"2\"", "NumberOfPoints=\"-27\"");
+  text = case_text::replaced(text, "format=\"ascii\">\n" + two_points + "\n</DataArray>",
+                             "format=\"appended\" offset=\"0\"/>");
+  text =
+      case_text::replaced(text, "</UnstructuredGrid>\n",
+                          "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" +
+                              std::string("\x88\2\0\0", 4) + std::string(648, '\0') + "\n</AppendedData>\n");
+  CHECK_THROWS_WITH(read_displacement_vtu(text, "a.vtu"), Catch::StartsWith("a.vtu: "));
+}
+
 TEST_CASE("a file of another kind, and one that is not there, are refused by their names") {
   CHECK_THROWS_WITH(compare::read_displacements("a.txt"),
                     Catch::Contains("a.txt") && Catch::Contains(".csv"));
