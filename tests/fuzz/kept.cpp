@@ -1,0 +1,45 @@
+// Kept results as a target for libFuzzer: frames, answers whose digest a forger has put right, and shards'
+// records.
+
+#include "compare/solve/answer_bytes.hpp"
+#include "compare/solve/frame.hpp"
+#include "compare/solve/shard_record.hpp"
+#include "tests/fuzz/promise.hpp"
+
+#include <cstdint>
+
+using namespace springproof;
+
+namespace {
+
+template<class Read>
+void read_any(const Read& read) {
+  try {
+    read();
+  } catch (const std::exception&) {
+    // what wrong bytes are answered with
+  }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(bytes), size);
+  static const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {1, 1, 1});
+  read_any([&] {
+    std::string rest = text;
+    if (const auto frame = compare::take_frame(rest))
+      PROMISE(compare::framed(*frame).size() + rest.size() <= text.size());
+  });
+  read_any([&] {
+    const compare::Answers answers = compare::answers_from(text, mesh);
+    if (answers.fem.converged()) PROMISE(answers.fem.solution.displacement.size() == mesh.nodes.size());
+  });
+  read_any([&] { compare::answer_from(text, mesh); });
+  read_any([&] {
+    const compare::ShardRecord record = compare::record_from(text);
+    PROMISE(1 <= record.shard.index && record.shard.index <= record.shard.count);
+    PROMISE(compare::record_from(compare::text_of(record)).command == record.command);
+  });
+  return 0;
+}

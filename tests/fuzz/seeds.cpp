@@ -1,0 +1,78 @@
+// seeds FOLDER: writes meshes and answers in today's format into FOLDER/mesh and FOLDER/kept, from which the
+// fuzzers begin.
+
+#include "cases/mesh/mesh_bytes.hpp"
+#include "cases/mesh/read_vtk.hpp"
+#include "compare/solve/fields.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+using namespace springproof;
+
+namespace {
+
+cases::HexMesh bar() {
+  cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  mesh.groups["end"] = {{0, 3, 6, 9}, {{0, 3}}, {{0, 6, 9, 3}}};
+  mesh.group_of_cell = {"left", "right"};
+  return mesh;
+}
+
+cases::HexMesh wedge() {
+  cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  mesh.nodes[2].x() += 0.3;
+  return mesh;
+}
+
+cases::Surface boundary(const cases::HexMesh& mesh) {
+  cases::Surface surface;
+  for (const auto& face : cases::boundary_faces(mesh))
+    for (const std::array<std::size_t, 3>& corners : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
+      auto& triangle = surface.emplace_back();
+      for (std::size_t v = 0; v < 3; ++v) triangle[v] = mesh.nodes[cases::index(face[corners[v]])];
+    }
+  return surface;
+}
+
+/// For the box that the fuzzers match displacements with.
+cases::PointCloud cloud() {
+  cases::PointCloud cloud;
+  cloud.points = cases::make_box_mesh({2, 2, 2}, {2, 2, 2}).nodes;
+  cloud.fields = {{"displacement", cloud.points}, {"velocity", cloud.points}};
+  return cloud;
+}
+
+/// To a question on a mesh of one cell.
+compare::Answers answers() {
+  compare::Answers answers;
+  answers.choices = {"formulation: small_strain"};
+  cases::Solution& solution = answers.fem.solution;
+  solution.status = cases::Status::converged;
+  solution.displacement.assign(8, Eigen::Vector3d(0, 0.01, 0));
+  solution.cell_volume = {1};
+  solution.lowest_eigenvalue = 0.1;
+  answers.msm = answers.fem;
+  answers.design = msm::DesignResult{};
+  answers.design->warnings = {"a warning"};
+  answers.refined = compare::RefinedMeshes{{0, 1}, {solution, solution}, ""};
+  answers.peer = compare::Peer{"CalculiX", answers.fem, 1e-7};
+  return answers;
+}
+
+} // namespace
+
+int main(int, char** argv) {
+  const std::filesystem::path folder = argv[1];
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  };
+  write("mesh/bar", cases::bytes_of_mesh(bar()));
+  write("mesh/wedge", cases::bytes_of_mesh(wedge()));
+  write("stl/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 1, 1}, {1, 1, 1}))));
+  write("stl/wedge", cases::bytes_of(boundary(wedge())));
+  write("vtu/cloud", cases::bytes_of(cloud()));
+  write("kept/answers", cases::to_bytes(answers()));
+  write("kept/answer", cases::to_bytes(answers().fem));
+}
