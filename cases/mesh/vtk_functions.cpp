@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <vtkAlgorithm.h>
 #include <vtkCellData.h>
@@ -119,6 +120,14 @@ PointCloud read_unstructured_grid(const std::string& content) {
   return cloud;
 }
 
+/// The number of triangles that a binary file says that it has.
+std::uint32_t stated_triangles(const std::string& path) {
+  std::uint32_t count = 0;
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(80).read(reinterpret_cast<char*>(&count), sizeof count);
+  return count;
+}
+
 Surface read_triangles(const std::string& path) {
   constexpr std::uintmax_t head = 84, per_triangle = 50; // bytes of a binary file
   vtkNew<vtkSTLReader> reader;
@@ -129,6 +138,9 @@ Surface read_triangles(const std::string& path) {
   Surface surface(static_cast<std::size_t>(body.GetNumberOfPolys()));
   if (reader->GetBinaryHeader() && std::filesystem::file_size(path) != head + per_triangle * surface.size())
     throw std::runtime_error(path + " ends within a triangle");
+  if (reader->GetBinaryHeader() && stated_triangles(path) != surface.size())
+    throw std::runtime_error(path + " has " + std::to_string(surface.size()) +
+                             " triangles, and says that it has " + std::to_string(stated_triangles(path)));
   for (std::size_t t = 0; t < surface.size(); ++t)
     for (std::size_t v = 0; v < 3; ++v) // unmerged points follow each other
       body.GetPoint(static_cast<vtkIdType>(3 * t + v), surface[t][v].data());

@@ -96,7 +96,8 @@ TEST_CASE("what is no STL, is cut short or has a position that is not finite is 
       {std::string(100, 'x'), "Expecting 'solid'"},
       {binary.substr(5, 50) + std::string(60, 'b'), "Expecting 'solid'"},
       {binary.substr(0, binary.size() - 1), "ends within a triangle"},
-      {binary.substr(0, 80) + "\xff\xff\xff\xff" + binary.substr(84), ""}, // 200 GB of triangles
+      {binary.substr(0, 80) + "\xff\xff\xff\xff" + binary.substr(84), "says that it has 4294967295"},
+      {binary.substr(0, binary.size() - 50), "has 3 triangles, and says that it has 4"},
       {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 one 0"), "at line 5: Parse error"},
       {case_text::replaced(tetrahedron, "vertex 0 1 0", "vertex 0 1"), "at line 5: Parse error"},
       {case_text::replaced(tetrahedron, "    vertex 0 1 0\n", ""), "Expecting 'vertex' found 'endloop'"},
