@@ -113,7 +113,7 @@ def test_external(folder):
 def check_whole(out):
     """Every file that has its final name is whole."""
     for file in out.rglob("*"):
-        if file.is_dir() or ".part" in file.name:
+        if file.is_dir() or "springproof-part" in file.name:
             continue
         content = file.read_bytes()
         if file.suffix == ".json":
@@ -163,7 +163,7 @@ def test_kill_during_out(folder):
 
 
 def solved_in(out):
-    return [file for file in out.glob("solved/*") if ".part" not in file.name]
+    return [file for file in out.glob("solved/*") if "springproof-part" not in file.name]
 
 
 def test_two_ranks(folder):
