@@ -3,9 +3,9 @@
 #include "cases/case/error.hpp"
 
 #include <Eigen/SVD>
-#include <algorithm>
 #include <ceres/ceres.h>
 #include <cmath>
+#include <glog/logging.h>
 #include <limits>
 #include <numeric>
 
@@ -54,12 +54,16 @@ struct StrainResidual {
   }
 };
 
-/// Springs have the size of E L0, E the secant modulus of the reference's largest strain.
+/// Springs have the size of E L0, E the secant modulus of the reference's largest strain under stress.
 double stiffness_unit(const UniaxialCurve& reference, double edge) {
-  const auto largest = std::max_element(reference.axial_strain.begin(), reference.axial_strain.end(),
-                                        [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const auto at = static_cast<std::size_t>(largest - reference.axial_strain.begin());
-  return std::abs(reference.stress[at] / *largest) * edge;
+  double largest = 0, modulus = 0;
+  for (std::size_t i = 0; i < reference.axial_strain.size(); ++i) {
+    const double strain = std::abs(reference.axial_strain[i]), stress = std::abs(reference.stress[i]);
+    if (!(stress > 0 && strain > largest)) continue;
+    largest = strain;
+    modulus = stress / strain;
+  }
+  return modulus * edge;
 }
 
 StrainResidual residual_at(const UniaxialCurve& reference, std::size_t i, double edge, double unit) {
@@ -93,6 +97,7 @@ std::optional<double> minimise(const UniaxialCurve& reference, double edge, doub
   options.gradient_tolerance = 1e-11;
   options.parameter_tolerance = 1e-10;
   options.logging_type = ceres::SILENT;
+  FLAGS_minloglevel = google::GLOG_FATAL; // of Ceres, whatever logging_type: a start that fails is no error
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return summary.IsSolutionUsable() ? std::optional(2 * summary.final_cost) : std::nullopt;
