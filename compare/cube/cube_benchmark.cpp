@@ -87,7 +87,7 @@ MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const s
 }
 
 std::optional<double> MeasuredPair::error() const {
-  return fem && msm ? error_percent(*fem, *msm) : std::nullopt;
+  return fem && msm ? error_percent(*fem, *msm, 0) : std::nullopt;
 }
 
 cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge) {

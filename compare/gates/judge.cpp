@@ -21,6 +21,10 @@ std::string why_without_value(const Answers& answers, Quantity quantity) {
   std::string reason;
   if (quantity != Quantity::msm) reason = why("fem", answers.fem.solution);
   if (quantity != Quantity::fem && reason.empty()) reason = why("msm", answers.msm.solution);
+  if (reason.empty() && quantity == Quantity::error_percent)
+    return "the reference is zero, or a value is not finite: there is no percentage; expect an interval of "
+           "msm "
+           "or fem";
   return reason.empty() ? "it has no finite value" : reason;
 }
 

@@ -100,14 +100,34 @@ std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh
   std::vector<Vector3d> difference;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) difference.push_back(other[n] - reference[n]);
   const double size = field_norm(kind, mesh, reference), distance = field_norm(kind, mesh, difference);
-  return error_percent(size, size + distance); // distance/size, with its care for a zero field
+  return error_percent(size, size + distance, 0); // distance/size, with its care for a zero field
 }
 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
   return is_field_norm(measure.kind)
              ? field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement)
-             : error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm));
+             : error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm),
+                             zero_of(measure, scene, fem));
+}
+
+double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
+  constexpr double rounding = 1e-8;
+  Eigen::AlignedBox3d body;
+  for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
+  const double size = body.sizes().norm(),
+               moved = field_norm(MeasureKind::displacement_field_max, scene.mesh, fem.displacement);
+  switch (measure.kind) {
+  case MeasureKind::coordinate:
+    return rounding * size;
+  case MeasureKind::displacement:
+    return rounding * moved;
+  case MeasureKind::tilt:
+  case MeasureKind::twist:
+    return rounding * degrees_per_radian * moved / size;
+  default: // volumes are not zero; a norm of the field is it where all displacements are
+    return 0;
+  }
 }
 
 std::string unit_of(const cases::Measure& measure) {
@@ -122,11 +142,10 @@ std::string unit_of(const cases::Measure& measure) {
   }
 }
 
-std::optional<double> error_percent(double fem, double msm) {
+std::optional<double> error_percent(double fem, double msm, double zero) {
   const double error = (msm - fem) / fem * 100;
-  // A reference that is zero but for rounding has no relative error.
-  if (!std::isfinite(error) || !(std::abs(fem) > 1e-9 * std::abs(msm))) return std::nullopt;
-  return error;
+  const bool is_zero = !(std::abs(fem) > std::max(zero, 1e-9 * std::abs(msm)));
+  return std::isfinite(error) && !is_zero ? std::optional(error) : std::nullopt;
 }
 
 } // namespace springproof::compare

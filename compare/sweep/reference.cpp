@@ -129,10 +129,11 @@ std::vector<std::optional<double>> measure_errors_percent(const Reference& refer
   const auto& measures = reference.scene.definition.measures;
   std::vector<std::optional<double>> errors;
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    errors.push_back(
-        is_field_norm(measures[m].kind)
-            ? measure_error_percent(measures[m], reference.scene, reference.solution, solution)
-            : error_percent(reference.measures[m].value, evaluate(measures[m], reference.scene, solution)));
+    errors.push_back(is_field_norm(measures[m].kind)
+                         ? measure_error_percent(measures[m], reference.scene, reference.solution, solution)
+                         : error_percent(reference.measures[m].value,
+                                         evaluate(measures[m], reference.scene, solution),
+                                         zero_of(measures[m], reference.scene, reference.solution)));
   }
   return errors;
 }

@@ -68,6 +68,12 @@ std::string with_bar(const std::optional<double>& value, const char* format,
   return number(value, format) + (bar ? fmt::format(" +- {:.2g}", *bar) : "");
 }
 
+/// An error; of a measure whose reference is zero there is none.
+std::string error_text(const MeasuredValue& measure, const std::optional<double>& reference,
+                       const std::optional<double>& error, const std::optional<double>& bar = {}) {
+  return !error && reference && measure.msm ? "no percentage" : with_bar(error, "{:+.2f}", bar);
+}
+
 /// What a value of all measures has in common, if it has: then it is told once.
 template<class Get>
 std::string common_text(const std::vector<StudiedMeasure>& measures, const Get& get) {
@@ -128,8 +134,9 @@ void write_measures(std::ostream& out, const std::vector<MeasuredValue>& measure
     const auto& limit = m.fem_limit;
     line(m.name, m.unit, number(m.fem, "{:.6g}"), number(m.msm, "{:.6g}"),
          limit ? with_bar(limit->value, "{:.6g}", limit->uncertainty) : "-",
-         with_bar(m.error_percent, "{:+.2f}", m.error_uncertainty_percent),
-         number(m.error_same_mesh_percent, "{:+.2f}"), number(m.fem_error_percent, "{:+.2f}"),
+         error_text(m, limit ? std::optional(limit->value) : m.fem, m.error_percent,
+                    m.error_uncertainty_percent),
+         error_text(m, m.fem, m.error_same_mesh_percent), number(m.fem_error_percent, "{:+.2f}"),
          number(m.peer, "{:.6g}"));
   }
 }

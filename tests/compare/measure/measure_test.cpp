@@ -122,15 +122,42 @@ TEST_CASE("the norm of a field one of whose displacements is not a number is non
 TEST_CASE("the relative error has no value where the reference is zero or a side is not a number") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  CHECK(*compare::error_percent(2, 3) == Approx(50));
-  CHECK(*compare::error_percent(-2, -3) == Approx(50));
-  CHECK(*compare::error_percent(2, 0) == Approx(-100));
-  CHECK_FALSE(compare::error_percent(0, 3));
-  CHECK_FALSE(compare::error_percent(0, 0));
-  CHECK_FALSE(compare::error_percent(1e-17, 1));
-  CHECK_FALSE(compare::error_percent(nan, 1));
-  CHECK_FALSE(compare::error_percent(1, nan));
-  CHECK_FALSE(compare::error_percent(1, infinity));
+  CHECK(*compare::error_percent(2, 3, 0) == Approx(50));
+  CHECK(*compare::error_percent(-2, -3, 0) == Approx(50));
+  CHECK(*compare::error_percent(2, 0, 0) == Approx(-100));
+  CHECK_FALSE(compare::error_percent(0, 3, 0));
+  CHECK_FALSE(compare::error_percent(0, 0, 0));
+  CHECK_FALSE(compare::error_percent(1e-17, 1, 0));
+  CHECK_FALSE(compare::error_percent(1e-9, 2e-9, 1e-8));
+  CHECK(*compare::error_percent(2e-8, 3e-8, 1e-8) == Approx(50));
+  CHECK_FALSE(compare::error_percent(nan, 1, 0));
+  CHECK_FALSE(compare::error_percent(1, nan, 0));
+  CHECK_FALSE(compare::error_percent(1, infinity, 0));
+}
+
+TEST_CASE("what rounding leaves of a displacement or an angle that is zero has no percentage") {
+  const cases::Scene scene = cube(); // 2 mm
+  const auto sheared = [&](double noise) {
+    return moved(scene,
+                 [=](const Vector3d& x) { return Vector3d(x.x(), x.y() + noise * x.z(), 1.3 * x.z()); });
+  };
+  cases::Measure across = measure(MeasureKind::displacement), along = across,
+                 tilt = measure(MeasureKind::tilt);
+  across.node = along.node = tilt.top = region("z+ x+ y+");
+  across.component = cases::Component::y;
+  along.component = cases::Component::z;
+  tilt.bottom = region("z- x+ y+");
+  tilt.toward = cases::Axis::y;
+  for (const double noise : {1e-16, 1e-10}) {
+    const auto fem = sheared(noise), msm = sheared(-0.36 * noise);
+    CHECK_FALSE(compare::measure_error_percent(across, scene, fem, msm)); // -136 %
+    CHECK_FALSE(compare::measure_error_percent(tilt, scene, fem, msm));
+    CHECK(*compare::measure_error_percent(along, scene, fem, msm) == Approx(0).margin(1e-12));
+  }
+  CHECK(*compare::measure_error_percent(across, scene, sheared(1e-6), sheared(2e-6)) ==
+        Approx(100).epsilon(1e-6));
+  CHECK(*compare::measure_error_percent(tilt, scene, sheared(1e-6), sheared(2e-6)) ==
+        Approx(100).epsilon(1e-6));
 }
 
 TEST_CASE("an expectation is met on its closed interval alone, and never by a value that is missing or not a "
