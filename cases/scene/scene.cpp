@@ -14,6 +14,10 @@ using Eigen::Vector3d;
 
 namespace {
 
+double radians(double degrees) {
+  return degrees * std::acos(-1.0) / 180;
+}
+
 constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node and does not search for one
 
 Selection select_near(const HexMesh& mesh, const Region& region) {
@@ -174,6 +178,32 @@ void check_motions(const Scene& scene) {
       }
 }
 
+/// Loads and motions that double precision cannot tell from none would be "carried" by a body at rest.
+void check_sizes(const Scene& scene) {
+  constexpr double least_force = 1e-140; // N: solvers square it
+  constexpr double least_motion = 1e-9;  // mm: supports are where they have to be within 1e-12
+  double force = 0;
+  for (const Vector3d& on_node : nodal_forces(scene)) force = std::max(force, on_node.cwiseAbs().maxCoeff());
+  if (force > 0 && force < least_force)
+    throw InputError(
+        scene.definition.loads.front().region.where,
+        fmt::format("the largest force on a node is {:.3g} N, must be 0 or at least {:.0e} N, to be "
+                    "told from none",
+                    force, least_force));
+  for (const auto& [selection, motion] : scene.moved) {
+    double way = motion.displacement.cwiseAbs().maxCoeff();
+    for (const int node : selection.nodes) {
+      const double arm = motion.axis.cross(scene.mesh.nodes[index(node)] - motion.centre).norm();
+      if (motion.angle != 0) way = std::max(way, arm * std::min(1., radians(std::abs(motion.angle))));
+    }
+    if (way > 0 && way < least_motion)
+      throw InputError(
+          motion.region.where,
+          fmt::format("moves by {:.3g} mm, must be 0 or at least {:.0e} mm, to be told from rest", way,
+                      least_motion));
+  }
+}
+
 void resolve_loads(Scene& scene) {
   for (const Load& load : scene.definition.loads) {
     Selection selection = select(scene.mesh, load.region);
@@ -241,6 +271,7 @@ Scene make_scene(const Case& definition) {
   resolve_supports(scene);
   check_motions(scene);
   resolve_loads(scene);
+  check_sizes(scene);
   for (const Measure& measure : definition.measures) // every region that one names is one node
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
       if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
@@ -249,7 +280,7 @@ Scene make_scene(const Case& definition) {
 
 Vector3d moved_by(const Moved& motion, const Vector3d& rest, double load_factor) {
   if (motion.angle == 0) return load_factor * motion.displacement;
-  const double angle = load_factor * motion.angle * std::acos(-1.0) / 180;
+  const double angle = radians(load_factor * motion.angle);
   const Vector3d arm = rest - motion.centre;
   return Eigen::AngleAxisd(angle, motion.axis) * arm - arm;
 }

@@ -194,3 +194,25 @@ TEST_CASE("a cell is of the last material whose region has its centre, and its c
   definition.region_materials = {corner};
   CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("'skin' is no group of cells"));
 }
+
+TEST_CASE("a load or a motion that double precision cannot tell from none is refused") {
+  Case loaded = box({2, 2, 2}, {2, 2, 2});
+  for (const LoadKind kind : {LoadKind::traction, LoadKind::nodal_force}) {
+    loaded.loads = {load(kind, "z+", {0, 0, 1e-300})};
+    CHECK_THROWS_WITH(make_scene(loaded), Catch::Contains("the largest force on a node"));
+    loaded.loads.push_back(load(kind, "x+", {1e-12, 0, 0}));
+    CHECK_NOTHROW(make_scene(loaded));
+  }
+  Case moved = box({2, 2, 2}, {2, 2, 2});
+  moved.moved.resize(1);
+  moved.moved[0].region = region("z+");
+  moved.moved[0].displacement = {0, 0, 1e-13};
+  CHECK_THROWS_WITH(make_scene(moved), Catch::Contains("moves by 1e-13 mm"));
+  moved.moved[0].displacement = {0, 0, -1e-8};
+  CHECK_NOTHROW(make_scene(moved));
+  moved.moved[0].displacement.setZero();
+  moved.moved[0].angle = 1e-12;
+  CHECK_THROWS_AS(make_scene(moved), InputError);
+  moved.moved[0].angle = 360;
+  CHECK_NOTHROW(make_scene(moved));
+}
