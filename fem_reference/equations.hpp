@@ -29,6 +29,10 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   std::optional<bool> is_stable(const State& at) override;
   Work work() const override { return {solver_.n_iterations(), solver_.n_factorisations(), n_evaluations_}; }
 
+  std::size_t n_unknowns() const override {
+    return static_cast<std::size_t>(discretisation_.constraints.n_unknowns);
+  }
+
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
 

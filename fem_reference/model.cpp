@@ -2,6 +2,7 @@
 
 #include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
+#include "mechanics/equilibrium/turns.hpp"
 
 #include <cmath>
 #include <deal.II/base/mpi.h>
@@ -37,7 +38,8 @@ constexpr double most_incompressible = 1500;
 Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   if (!grid::is_on_grid(scene)) return Backend::assembled;
   const bool can_factorise = takes_factorisation(n_nodes);
-  const bool is_hard = grid::bulk_over_shear(scene) > most_incompressible && can_factorise;
+  const bool is_hard = can_factorise && (grid::bulk_over_shear(scene) > most_incompressible ||
+                                         scene.mesh.grid->slenderness() > cases::Grid::thin);
   return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
 }
 
@@ -175,18 +177,16 @@ cases::Solution Model::solve_again(double load_factor, const mechanics::Equilibr
 cases::Solution Model::Assembled::solve(double load_factor, mechanics::EquilibriumSettings settings) {
   settings.from = last_load_factor;
   settings.to = load_factor;
+  settings = mechanics::in_small_turns(cases::largest_turn(scene.definition), std::move(settings));
   const auto equilibrium = mechanics::find_equilibrium(equations, last, "finite elements", settings);
   last = equilibrium.state;
   last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
   solution.displacement = body_displacement();
   solution.cell_volume = body_cell_volumes();
-  solution.unknowns = static_cast<std::size_t>(discretisation.constraints.n_unknowns);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = equations.negative_eigenvalues();
-  for (std::size_t cell = 0; cell < scene.mesh.cells.size(); ++cell)
-    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(scene.mesh, cell, solution.displacement)) > 0))
-      ++solution.inverted_cells;
+  solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement);
   return solution;
 }
 

@@ -105,6 +105,22 @@ double energy(const Lattice& lattice, const Points& positions) {
   return sum;
 }
 
+double small_motion_energy(const Lattice& lattice, const Points& motion) {
+  double sum = 0;
+  for (const auto& [i, j, spring] : lattice.links) {
+    const Vector3d along = (lattice.rest[index(j)] - lattice.rest[index(i)]) / spring.rest_length;
+    const double elongation = along.dot(motion[index(j)] - motion[index(i)]);
+    sum += 0.5 * spring.stiffness * elongation * elongation;
+  }
+  for (const VolumeCell& cell : lattice.volume_cells) {
+    const auto gradient = trilinear_volume_gradient(cell_positions(cell, lattice.rest));
+    double change = 0;
+    for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[index(cell.nodes[v])]);
+    sum += 0.5 * cell.stiffness / cell.rest_volume * change * change;
+  }
+  return sum;
+}
+
 Points internal_force(const Lattice& lattice, const Points& positions) {
   Points force(positions.size(), Vector3d::Zero());
   for (const Link& link : lattice.links) {

@@ -71,6 +71,12 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
 /// Sum of all spring energies and volume energies at these positions, N mm.
 double energy(const Lattice& lattice, const Points& positions);
 
+/// What a small motion from rest stores to second order, N mm: half the quadratic form of the tangent at
+/// rest, as a sum in which nothing cancels where no stiffness is negative. A mechanism's motion stores 1e-32
+/// of stiffness times motion squared, the tangent times the motion leaves 1e-16.
+/// @param motion  mm, one per point
+double small_motion_energy(const Lattice& lattice, const Points& motion);
+
 /// Internal force on every point, N: minus the gradient of energy().
 Points internal_force(const Lattice& lattice, const Points& positions);
 

@@ -1,6 +1,7 @@
 #include "msm/model.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/equilibrium/turns.hpp"
 #include "msm/direct/direct_system.hpp"
 #include "msm/relaxation/relaxation.hpp"
 
@@ -9,6 +10,9 @@
 namespace springproof::msm {
 
 namespace {
+
+/// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
+constexpr std::size_t most_factorised = 40000;
 
 bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
   const auto is_negative = [](const CellStiffness& k) {
@@ -19,7 +23,9 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
     throw cases::InputError(
         "the multigrid path needs a body that is a grid of cells, and no negative stiffness");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
-  return can && scene.mesh.nodes.size() >= multigrid_from;
+  const std::size_t n_nodes = scene.mesh.nodes.size();
+  if (can && scene.mesh.grid->slenderness() > cases::Grid::thin && n_nodes <= most_factorised) return false;
+  return can && n_nodes >= multigrid_from;
 }
 
 } // namespace
@@ -30,17 +36,35 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
 
 Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
              const ModelOptions& options)
-    : solver_(scene.definition.msm.solver), n_threads_(options.n_threads), problem_(make_problem(scene)) {
+    : solver_(scene.definition.msm.solver), largest_turn_(cases::largest_turn(scene.definition)),
+      n_threads_(options.n_threads), problem_(make_problem(scene)) {
   if (takes_multigrid(scene, stiffness, options.path)) {
     grid_ = grid::make_grid_problem(problem_, stiffness, options.deal_out);
     system_ = grid::make_grid_system(*grid_, n_threads_);
+    if (options.path == Path::automatic && !options.deal_out && scene.mesh.nodes.size() <= most_factorised)
+      stiffness_ = stiffness;
   } else {
     problem_.lattice = make_lattice(scene.mesh, stiffness);
     system_ = make_direct_system(problem_);
   }
 }
 
-cases::Solution Model::solve(mechanics::EquilibriumSettings settings, const Points& start) {
+cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, const Points& start) {
+  try {
+    return solve_on_path(settings, start);
+  } catch (const cases::SolveError& error) {
+    const bool may_be_multigrid = !stiffness_.empty() && error.outcome() == cases::Outcome::unknown;
+    if (!may_be_multigrid || system_->rest_state() != mechanics::RestState::unknown) throw;
+  }
+  problem_.lattice = make_lattice(problem_.mesh, stiffness_);
+  stiffness_.clear();
+  system_ = make_direct_system(problem_);
+  grid_.reset();
+  return solve_on_path(settings, start);
+}
+
+cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, const Points& start) {
+  settings = mechanics::in_small_turns(largest_turn_, std::move(settings));
   Vector from = Vector::Zero(system_->load().size());
   if (!start.empty())
     from = grid_ ? grid::to_field(problem_, grid_->body, start) : to_vector(problem_, start);

@@ -6,7 +6,8 @@
 namespace springproof::msm {
 
 enum class Path {
-  automatic, ///< multigrid on grids of cells from where it is the faster one, else direct
+  automatic, ///< multigrid on grids of cells from where it is the faster one; else, or where it fails at rest
+             ///< as it does on slender bodies, direct
   direct,    ///< any mesh: assembled tangent, sparse factorisation
   multigrid  ///< grids of cells without negative springs: no matrix, conjugate gradients with a multigrid
              ///< cycle
@@ -38,11 +39,16 @@ class Model {
   /// Static equilibrium under the scene's loads.
   /// @param start  displacement (mm) to start from, one per node; empty: rest
   /// @throws cases::SolveError with the load reached and the outcome when the load cannot be carried
-  cases::Solution solve(mechanics::EquilibriumSettings settings = {}, const Points& start = {});
+  cases::Solution solve(const mechanics::EquilibriumSettings& settings = {}, const Points& start = {});
 
  private:
+  cases::Solution solve_on_path(mechanics::EquilibriumSettings settings, const Points& start);
+
   cases::Solver solver_;
+  double largest_turn_; ///< of the supports, degrees
   int n_threads_;
+  std::vector<CellStiffness>
+      stiffness_; ///< of the direct path, should multigrid fail; empty: it is not taken
   Problem problem_;
   std::optional<grid::GridProblem> grid_; ///< on the multigrid path
   std::unique_ptr<SpringSystem> system_;

@@ -23,26 +23,24 @@ std::function<Points(double)> moving_supports(const cases::Scene& scene) {
 
 } // namespace
 
-Problem make_problem(const cases::Scene& scene) {
-  return {scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene), moving_supports(scene)};
+std::size_t n_unknowns(const Problem& problem) {
+  const auto& constrained = problem.is_constrained;
+  return static_cast<std::size_t>(std::count(constrained.begin(), constrained.end(), false));
 }
 
-int n_inverted(const cases::HexMesh& mesh, const Points& displacement) {
-  const std::vector<bool> inverted = cases::inverted_cells(mesh, displacement);
-  return static_cast<int>(std::count(inverted.begin(), inverted.end(), true));
+Problem make_problem(const cases::Scene& scene) {
+  return {scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene), moving_supports(scene)};
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement)));
-  solution.inverted_cells = n_inverted(mesh, solution.displacement);
+  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
 }
 
 cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
                             Points displacement) {
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.unknowns = static_cast<std::size_t>(
-      std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false));
   solution.displacement = std::move(displacement);
   measure_cells(problem.mesh, solution);
   return solution;

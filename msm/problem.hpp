@@ -22,8 +22,8 @@ struct Problem {
 /// A scene as springs see it, but for its lattice.
 Problem make_problem(const cases::Scene& scene);
 
-/// The cells of a mesh with a corner Jacobian <= 0.  @param displacement  mm, one per node
-int n_inverted(const cases::HexMesh& mesh, const Points& displacement);
+/// Free degrees of freedom.
+std::size_t n_unknowns(const Problem& problem);
 
 /// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
 /// inverted.

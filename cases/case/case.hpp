@@ -3,7 +3,9 @@
 #include "cases/case/error.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <variant>
 
 /// The shared vocabulary: what a case file says, as plain values. Units: mm, N, MPa, degrees.
@@ -241,5 +243,16 @@ struct Case {
   std::vector<Expectation> expectations;
   std::optional<Stress> stress; ///< of a hard case
 };
+
+/// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends
+/// where a smaller turn the other way does.
+constexpr double largest_turn_of_small_strain = 180;
+
+/// The largest angle that a region is turned by, degrees, >= 0.
+inline double largest_turn(const Case& definition) {
+  double largest = 0;
+  for (const Moved& moved : definition.moved) largest = std::max(largest, std::abs(moved.angle));
+  return largest;
+}
 
 } // namespace springproof::cases

@@ -1,23 +1,10 @@
 #pragma once
 
-#include "cases/case/names.hpp"
+#include "cases/case/solution.hpp"
 
 #include <stdexcept>
 
 namespace springproof::cases {
-
-/// What became of a body under its load. Written with blanks: "stable equilibrium".
-SPRINGPROOF_ENUMERATION(Outcome,
-                        unknown,              ///< the solver gave up, or stability was not looked at
-                        stable_equilibrium,   ///< full load carried, tangent positive definite
-                        unstable_equilibrium, ///< in balance, but some small motion lowers the energy
-                        limit_point,          ///< the path from rest ends below the full load
-                        mechanism,            ///< some motion meets no stiffness at rest
-                        refused               ///< the input makes no model
-)
-inline char between_words(Outcome) {
-  return ' ';
-}
 
 /// A place in a case file, for messages: "file:line:column". Line 0: the value came from the command line or
 /// a default.
@@ -45,33 +32,23 @@ class InputError : public std::runtime_error {
   Where where_;
 };
 
-/// Further data of the last equilibrium that a failed solve has found.
-struct Progress {
-  int newton_iterations = 0; ///< in all
-  std::optional<double> lowest_eigenvalue = std::nullopt;
-  int inverted_cells = 0;
-};
-
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {
  public:
-  /// @param load_reached  fraction of the load in equilibrium when the solver gave up, 0 to 1
-  /// @param residual      |imbalance on free degrees of freedom| / |applied load| when it gave up
-  /// @param outcome       the cause, as the solver found it
-  SolveError(const std::string& reason, double load_reached, double residual,
-             Outcome outcome = Outcome::unknown, const Progress& progress = {})
-      : std::runtime_error(reason), load_reached_(load_reached), residual_(residual), outcome_(outcome),
-        progress_(progress) {}
-  double load_reached() const { return load_reached_; }
-  double residual() const { return residual_; }
-  Outcome outcome() const { return outcome_; }
-  const Progress& progress() const { return progress_; }
+  /// @param so_far  the load reached, the residual there, the outcome, and what the work done has counted
+  SolveError(const std::string& reason, Solution so_far)
+      : std::runtime_error(reason), so_far_(std::move(so_far)) {
+    so_far_.status = Status::failed;
+    so_far_.message = reason;
+  }
+  explicit SolveError(const std::string& reason) : SolveError(reason, Solution{}) {}
+  const Solution& so_far() const { return so_far_; } ///< failed
+  double load_reached() const { return so_far_.load_reached; }
+  double residual() const { return so_far_.residual; }
+  Outcome outcome() const { return so_far_.outcome; }
 
  private:
-  double load_reached_;
-  double residual_;
-  Outcome outcome_;
-  Progress progress_;
+  Solution so_far_;
 };
 
 } // namespace springproof::cases

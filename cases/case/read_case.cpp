@@ -170,6 +170,16 @@ void check_accuracy(Table& root, const Case& definition) {
                        "limit is looked for");
 }
 
+void check_turns(const Case& definition) {
+  if (definition.fem.formulation != Formulation::small_strain) return;
+  for (const Moved& moved : definition.moved)
+    if (!(std::abs(moved.angle) <= largest_turn_of_small_strain))
+      throw InputError(moved.region.where,
+                       fmt::format("is turned by {} degrees, must be at most {} beside fem.formulation = "
+                                   "\"small_strain\", which knows nothing of the way there",
+                                   moved.angle, largest_turn_of_small_strain));
+}
+
 Case read_definition(Table& root, const std::string& path) {
   Case result;
   result.file = path;
@@ -182,6 +192,7 @@ Case read_definition(Table& root, const std::string& path) {
   read_models(root, result);
   read_measures(root, result);
   check_accuracy(root, result);
+  check_turns(result);
   return result;
 }
 

@@ -1,14 +1,29 @@
 #pragma once
 
-#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace springproof::cases {
 
+/// What became of a body under its load. Written with blanks: "stable equilibrium".
+SPRINGPROOF_ENUMERATION(Outcome,
+                        unknown,              ///< the solver gave up, or stability was not looked at
+                        stable_equilibrium,   ///< full load carried, tangent positive definite
+                        unstable_equilibrium, ///< in balance, but some small motion lowers the energy
+                        limit_point,          ///< the path from rest ends below the full load
+                        mechanism,            ///< some motion meets no stiffness at rest
+                        refused               ///< the input makes no model
+)
+inline char between_words(Outcome) {
+  return ' ';
+}
+
 SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 
-/// Result of a solve of either model. A failed one has a message and counters but no displacement.
+/// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
+/// displacement.
 struct Solution {
   Status status = Status::skipped;
   std::string message; ///< why it failed; of another one, what is to be said of how it was solved

@@ -130,6 +130,12 @@ std::size_t Grid::n_lattice_cells() const {
   return index(cells[0]) * index(cells[1]) * index(cells[2]);
 }
 
+double Grid::slenderness() const {
+  Vector3d size = spacing.cwiseProduct(Vector3d(cells[0], cells[1], cells[2]));
+  std::sort(size.begin(), size.end());
+  return size[2] / size[1];
+}
+
 bool Grid::has(int i, int j, int k) const {
   if (i < 0 || j < 0 || k < 0 || i >= cells[0] || j >= cells[1] || k >= cells[2]) return false;
   return present.empty() || present[number_of(i, j, k, cells)];
@@ -262,6 +268,11 @@ std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Vector3d
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     inverted.push_back(!(smallest_corner_jacobian(cell_vertices(mesh, c, displacement)) > 0));
   return inverted;
+}
+
+int n_inverted(const HexMesh& mesh, const std::vector<Vector3d>& displacement) {
+  const std::vector<bool> inverted = inverted_cells(mesh, displacement);
+  return static_cast<int>(std::count(inverted.begin(), inverted.end(), true));
 }
 
 std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,

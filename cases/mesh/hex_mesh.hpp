@@ -32,6 +32,10 @@ struct Grid {
   std::vector<bool> present;                         ///< x fastest, nx*ny*nz entries; empty: every cell
   std::size_t n_lattice_cells() const;
   bool has(int i, int j, int k) const; ///< false outside the grid
+  /// The longest edge of the grid over the second longest. Geometric multigrid takes many iterations to bend
+  /// a bar that is more than thin, if it succeeds.
+  double slenderness() const;
+  static constexpr double thin = 20;
 };
 
 /// The body's mesh, which both models are made from.
@@ -84,6 +88,7 @@ std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t ce
 
 /// Of every cell, whether it is inverted or degenerate.
 std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement);
+int n_inverted(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement);
 
 /// Nodes of a cell's edge, face, ... that is given by its vertices.
 template<std::size_t N>

@@ -44,8 +44,13 @@ double tolerated_by_all(const cases::Scene& scene, const cases::Solution& soluti
 FemAnswer try_small_strain(const cases::Scene& scene) {
   cases::Fem linear = scene.definition.fem;
   linear.formulation = cases::Formulation::small_strain;
-  FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
   const std::string finite = cases::name_of(scene.definition.fem.formulation);
+  if (const double degrees = cases::largest_turn(scene.definition);
+      degrees > cases::largest_turn_of_small_strain)
+    return {{},
+            scene.definition.fem,
+            {fmt::format("formulation {}: a region is turned by {} degrees", finite, degrees)}};
+  FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
   if (!tried.answer.converged())
     return {{},
             scene.definition.fem,

@@ -31,8 +31,7 @@ Spectrum solve(EPS solver, PetscInt size, PetscInt n_wanted) {
   const auto n_found = petsc::get<PetscInt>(EPSGetConverged, solver);
   if (n_found < n_wanted)
     throw cases::SolveError("eigenproblem: only " + std::to_string(n_found) + " of " +
-                                std::to_string(n_wanted) + " eigenpairs converged",
-                            0, 0);
+                            std::to_string(n_wanted) + " eigenpairs converged");
   Spectrum found{Eigen::VectorXd(n_found), Eigen::MatrixXd(size, n_found)};
   for (PetscInt i = 0; i < n_found; ++i) {
     const petsc::Vector column(

@@ -170,7 +170,7 @@ CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
     seen[entry->first - 1] = true;
   }
   if (seen.empty() || std::find(seen.begin(), seen.end(), false) != seen.end())
-    throw cases::SolveError("CalculiX printed no displacement for some node", 0, 0);
+    throw cases::SolveError("CalculiX printed no displacement for some node");
   return output;
 }
 
@@ -190,16 +190,17 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   std::istringstream log(end->said);
   std::ifstream data(scratch.path() / "case.dat"), progress(scratch.path() / "case.sta");
   const std::string error = last_error(log);
-  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error, 0, 0);
+  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
   const CalculixOutput output = read_calculix_output(data, refined.mesh.nodes.size());
-  if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
-    throw cases::SolveError("CalculiX stopped: " + error, output.load_reached, 0);
-
-  solution.status = cases::Status::converged;
-  solution.load_reached = 1;
+  solution.load_reached = output.load_reached;
   solution.newton_iterations = count_iterations(progress);
   const std::vector<bool> fixed = cases::constrained_dofs(refined);
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
+  if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
+    throw cases::SolveError("CalculiX stopped: " + error, solution);
+
+  solution.status = cases::Status::converged;
+  solution.load_reached = 1;
   // Refinement keeps the numbers of the body's own nodes.
   solution.displacement = output.displacement;
   solution.displacement.resize(scene.mesh.nodes.size());

@@ -9,18 +9,11 @@ namespace springproof::compare {
 
 /// Solution of a failed solve; of a case that no model can be made of (InputError), refused.
 inline cases::Solution failed_solution(const std::exception& error) {
+  if (const auto* solve_error = dynamic_cast<const cases::SolveError*>(&error)) return solve_error->so_far();
   cases::Solution solution;
   solution.status = cases::Status::failed;
   solution.message = error.what();
   if (dynamic_cast<const cases::InputError*>(&error)) solution.outcome = cases::Outcome::refused;
-  if (const auto* solve_error = dynamic_cast<const cases::SolveError*>(&error)) {
-    solution.outcome = solve_error->outcome();
-    solution.load_reached = solve_error->load_reached();
-    solution.residual = solve_error->residual();
-    solution.newton_iterations = solve_error->progress().newton_iterations;
-    solution.lowest_eigenvalue = solve_error->progress().lowest_eigenvalue;
-    solution.inverted_cells = solve_error->progress().inverted_cells;
-  }
   return solution;
 }
 

@@ -180,6 +180,11 @@ double GridEquations::dot(const Vector& left, const Vector& right) const {
   return grid::dot(space_, a, b);
 }
 
+std::size_t GridEquations::n_unknowns() const {
+  const Field<double> free = body_.free.cast<double>();
+  return static_cast<std::size_t>(grid::dot(space_, free, free)); // ones and zeros: exact
+}
+
 std::optional<bool> GridEquations::is_stable(const Vector&) {
   if (!has_tangent_) return std::nullopt;
   negative_eigenvalues_ = count_negative_eigenvalues(

@@ -32,6 +32,7 @@ class GridEquations : public mechanics::NonlinearProblem {
   double dot(const Vector& left, const Vector& right) const override; ///< of the displacements
   bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
   Work work() const override { return work_; }
+  std::size_t n_unknowns() const override; ///< collective
 
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }

@@ -4,6 +4,7 @@
 #include "fem_reference/grid/coarse_guess.hpp"
 #include "fem_reference/grid/supported.hpp"
 #include "mechanics/elastic_moduli.hpp"
+#include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/laws/ogden.hpp"
 
 #include <algorithm>
@@ -134,7 +135,6 @@ struct GridModel::Implementation {
   Body make_body(int cells_along_edge, const Slab& of_nodes, int first_layer) const;
   std::unique_ptr<QuadraticElements> make_quadratic() const;
   std::vector<double> cell_volumes() const;
-  double count_free() const;
 };
 
 /// @param first_layer  of the grid's layers of cells, the first that the slab holds
@@ -223,14 +223,6 @@ std::vector<double> GridModel::Implementation::cell_volumes() const {
   return volumes;
 }
 
-double GridModel::Implementation::count_free() const {
-  double n = 0;
-  places.for_each([&](const Place& at) {
-    for (int c = 0; c < 3; ++c) n += body.free[c * body.layout.size + places.entry(at)] > 0 ? 1 : 0;
-  });
-  return n;
-}
-
 bool GridModel::can_leave_rest() {
   GridEquations& equations = implementation_->equations;
   constexpr double part = 1e-6; // of the load: so small that Newton's step is the answer to it
@@ -248,6 +240,7 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   mechanics::EquilibriumSettings settings = given;
   settings.from = m.last_load_factor;
   settings.to = load_factor;
+  settings = mechanics::in_small_turns(cases::largest_turn(m.scene.definition), std::move(settings));
   if (settings.from == 0 && settings.first_load_step == 1 && m.body.law != Law::small_strain)
     settings.guess = coarse_guess(m.body, m.supported, load_factor, m.n_threads);
   const auto equilibrium = mechanics::find_equilibrium(m.equations, m.last, "finite elements", settings);
@@ -267,13 +260,9 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   gather(solution.displacement.front().data(), 3 * solution.displacement.size());
   solution.cell_volume = m.cell_volumes();
   gather(solution.cell_volume.data(), solution.cell_volume.size());
-  solution.unknowns = static_cast<std::size_t>(m.body.slab.total(m.count_free()));
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = m.equations.negative_eigenvalues();
-  for (std::size_t cell = 0; cell < m.scene.mesh.cells.size(); ++cell)
-    if (!(cases::smallest_corner_jacobian(cases::cell_vertices(m.scene.mesh, cell, solution.displacement)) >
-          0))
-      ++solution.inverted_cells;
+  solution.inverted_cells = cases::n_inverted(m.scene.mesh, solution.displacement);
   return solution;
 }
 

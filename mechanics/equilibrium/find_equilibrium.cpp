@@ -17,13 +17,15 @@ class PathFollower {
       : problem_(problem), name_(name), settings_(settings), newton_(problem, settings, result_) {}
 
   Equilibrium follow(const Vector& start) {
-    const NonlinearProblem::Work before = problem_.work();
     try {
       go(start);
     } catch (const Newton::Stopped& stopped) {
       give_up(stopped.reason);
     }
-    return finish(before);
+    if (settings_.stability == Stability::report) result_.is_stable = problem_.is_stable(now_);
+    finish();
+    result_.state = std::move(now_);
+    return std::move(result_);
   }
 
  private:
@@ -33,6 +35,7 @@ class PathFollower {
   NonlinearProblem& problem_;
   const std::string& name_;
   const EquilibriumSettings& settings_;
+  const NonlinearProblem::Work before_ = problem_.work();
   Equilibrium result_;
   Newton newton_;
   double reached_ = 0;       ///< of the way
@@ -114,6 +117,7 @@ class PathFollower {
     if (rest == RestState::unstable)
       give_up("the lattice is unstable at rest, because of springs of negative stiffness",
               cases::Outcome::unstable_equilibrium);
+    if (rest == RestState::unknown) give_up("the linear solver fails already at rest");
   }
 
   /// Leaves an unstable equilibrium for a stable one: a push along the lowest mode, whichever way its first
@@ -144,19 +148,13 @@ class PathFollower {
     return result_.is_stable.value_or(true);
   }
 
-  Equilibrium finish(const NonlinearProblem::Work& before) {
-    if (settings_.stability == Stability::report) result_.is_stable = problem_.is_stable(now_);
-    result_.lowest_eigenvalue = lowest_eigenvalue();
+  /// What is known of the last equilibrium, and what the work came to.
+  void finish() {
+    if (settings_.lowest_eigenvalue == LowestEigenvalue::report)
+      if (const auto mode = problem_.lowest_mode(now_)) result_.lowest_eigenvalue = mode->eigenvalue;
     result_.load_reached = load(reached_);
-    result_.state = std::move(now_);
-    result_.work = problem_.work() - before;
-    return result_;
-  }
-
-  std::optional<double> lowest_eigenvalue() {
-    if (settings_.lowest_eigenvalue == LowestEigenvalue::skip) return std::nullopt;
-    const auto mode = problem_.lowest_mode(now_);
-    return mode ? std::optional(mode->eigenvalue) : std::nullopt;
+    result_.n_unknowns = problem_.n_unknowns();
+    result_.work = problem_.work() - before_;
   }
 
   /// Where every equilibrium was stable, the path ends at a limit point; otherwise that is not known.
@@ -167,10 +165,12 @@ class PathFollower {
   }
 
   [[noreturn]] void give_up(const std::string& reason, cases::Outcome outcome = cases::Outcome::unknown) {
-    const double load_factor = load(reached_);
-    const double residual = problem_.size(problem_.residual(now_, load_factor), now_).relative;
-    throw cases::SolveError(name_ + ": " + reason, load_factor, residual, outcome,
-                            {result_.newton_iterations, lowest_eigenvalue(), inverted_});
+    result_.residual = problem_.size(problem_.residual(now_, load(reached_)), now_).relative;
+    finish();
+    cases::Solution so_far = to_solution(result_);
+    so_far.outcome = outcome;
+    so_far.inverted_cells = inverted_;
+    throw cases::SolveError(name_ + ": " + reason, std::move(so_far));
   }
 };
 
@@ -187,6 +187,7 @@ cases::Solution to_solution(const Equilibrium& equilibrium) {
   if (equilibrium.is_stable)
     solution.outcome =
         *equilibrium.is_stable ? cases::Outcome::stable_equilibrium : cases::Outcome::unstable_equilibrium;
+  solution.unknowns = equilibrium.n_unknowns;
   solution.residual = equilibrium.residual;
   solution.load_reached = equilibrium.load_reached;
   solution.newton_iterations = equilibrium.newton_iterations;

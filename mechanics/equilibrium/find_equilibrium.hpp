@@ -46,6 +46,7 @@ struct Equilibrium {
   std::optional<bool> is_stable;           ///< when required or reported, and known
   std::optional<double> lowest_eigenvalue; ///< N/mm
   NonlinearProblem::Work work;             ///< of finding it
+  std::size_t n_unknowns = 0;
 };
 
 /// Static equilibrium at the end of a path of equilibria: Newton's method with load steps that adapt, each
@@ -56,11 +57,12 @@ struct Equilibrium {
 /// @param start  state in equilibrium at settings.from; from load factor 0, where rest is in equilibrium, any
 ///               other one is a guess
 /// @param name   of the method, for messages
-/// @throws cases::SolveError with the load reached and the outcome (limit point, mechanism, ...)
+/// @throws cases::SolveError with the load reached, the outcome (limit point, mechanism, ...) and the work
+/// done
 Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, const std::string& name,
                              const EquilibriumSettings& settings = {});
 
-/// A model's answer, but for displacements and what follows from them.
+/// A model's answer, converged, but for displacements and what follows from them.
 cases::Solution to_solution(const Equilibrium& equilibrium);
 
 } // namespace springproof::mechanics

@@ -25,7 +25,7 @@ enum class Merit {
 /// an assembly.
 enum class Expect { residual, direction };
 
-enum class RestState { sound, mechanism, unstable };
+enum class RestState { sound, mechanism, unstable, unknown };
 
 /// Nonlinear equations r(u, load factor) = 0 of a supported and loaded body. Any path parameter may be the
 /// load factor; any terms (inertia too) may be in r, as long as direction() knows their tangent. Vectors are
@@ -69,7 +69,8 @@ class NonlinearProblem {
 
   /// Whether the exact tangent is positive definite; nothing when that is not known.
   virtual std::optional<bool> is_stable(const Vector& at) = 0;
-  /// What the tangent at rest says of the body; mechanism: some motion meets (almost) no stiffness.
+  /// What the tangent at rest says of the body; mechanism: some motion meets (almost) no stiffness; unknown:
+  /// its linear solver fails.
   virtual RestState rest_state() { return RestState::sound; }
   struct Mode {
     double eigenvalue; ///< N/mm
@@ -101,6 +102,7 @@ class NonlinearProblem {
   };
   /// Since the problem was made; what a kind of problem does not count is 0.
   virtual Work work() const { return {}; }
+  virtual std::size_t n_unknowns() const { return 0; } ///< free degrees of freedom, over all ranks
 };
 
 } // namespace springproof::mechanics

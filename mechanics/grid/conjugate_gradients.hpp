@@ -2,6 +2,8 @@
 
 #include "mechanics/grid/field.hpp"
 
+#include <utility>
+
 namespace springproof::mechanics::grid {
 
 /// What an iterative linear solver found.
@@ -10,6 +12,7 @@ struct LinearSolution {
   int iterations = 0;
   bool converged = false;
   bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
+  Field<double> direction{};           ///< that has met it
 };
 
 /// Preconditioned conjugate gradients for operator * solution = right_side, until the residual is at most
@@ -36,6 +39,7 @@ LinearSolution conjugate_gradients(const Operator& apply, const Preconditioner& 
     ++result.iterations;
     const double curvature = dot(direction, product);
     result.met_negative_curvature = curvature <= 0;
+    if (result.met_negative_curvature) result.direction = std::move(direction);
     if (!(curvature > 0) || !(slope > 0)) return result;
     const double length = slope / curvature;
     add(result.solution, length, direction, n_threads);

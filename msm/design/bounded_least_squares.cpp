@@ -35,7 +35,7 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable())
-    throw cases::SolveError("bounded least squares: the minimisation failed: " + summary.message, 0, 0);
+    throw cases::SolveError("bounded least squares: the minimisation failed: " + summary.message);
   return unit * scaled;
 }
 

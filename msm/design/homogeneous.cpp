@@ -164,7 +164,7 @@ double free_lateral_stretch(const CellStiffness& stiffness, double edge, double 
   };
   double low = 0.05, high = 20; // the sides' stress goes from pressing outwards to pulling inwards
   if (!(stress(low) < 0 && stress(high) > 0))
-    throw cases::SolveError("homogeneous lattice: no lateral stretch is free of stress", 0, 0);
+    throw cases::SolveError("homogeneous lattice: no lateral stretch is free of stress");
   while (high - low > 1e-14 * high) {
     const double middle = (low + high) / 2;
     if (middle <= low || middle >= high) break;

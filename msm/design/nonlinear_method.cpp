@@ -121,8 +121,7 @@ Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
                      Jet(stiffness.internal_diagonal, 2)};
     Jet pair[2];
     if (!residual_at(reference, static_cast<std::size_t>(i), edge, 1)(k, pair))
-      throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses",
-                              0, 0);
+      throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses");
     residuals(i) = pair[0].a;
     residuals(n + i) = pair[1].a;
     derivatives.row(i) = pair[0].v;
@@ -150,7 +149,7 @@ NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge) {
     fit.stiffness = fit.minimisers.back();
   }
   if (fit.minimisers.empty())
-    throw cases::SolveError("nonlinear method: the minimisation converged from no start", 0, 0);
+    throw cases::SolveError("nonlinear method: the minimisation converged from no start");
   return fit;
 }
 

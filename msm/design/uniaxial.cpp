@@ -103,8 +103,7 @@ double lateral_stretch(const CellStiffness& stiffness, double stretch) {
   // diagonals.
   double low = 1e-6, high = 4 * std::max(1.0, stretch);
   if (!(lateral_imbalance(k, low, stretch) < 0 && lateral_imbalance(k, high, stretch) > 0))
-    throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses", 0,
-                            0);
+    throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses");
   double x = 1 / std::sqrt(stretch);
   for (int iteration = 0; iteration < 100; ++iteration) {
     const double imbalance = lateral_imbalance(k, x, stretch);

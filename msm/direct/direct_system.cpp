@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <omp.h>
 #include <random>
 
@@ -31,12 +32,27 @@ class OneThread {
 /// does.
 class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower> {
  public:
-  using CholmodSupernodalLLT::analyzePattern, CholmodSupernodalLLT::factorize, CholmodSupernodalLLT::info,
-      CholmodSupernodalLLT::setShift, CholmodSupernodalLLT::solve;
   Factorisation() {
     cholmod().nmethods = 1;
     cholmod().method[0].ordering = CHOLMOD_METIS;
     cholmod().print = 0;
+  }
+
+  void analyse(const Tangent::Matrix& matrix) {
+    analyzePattern(matrix);
+    check();
+  }
+  /// @return whether matrix + shift is positive definite
+  bool factorise(const Tangent::Matrix& matrix, double shift) {
+    setShift(shift);
+    factorize(matrix);
+    check();
+    return info() == Eigen::Success;
+  }
+  Vector solve(const Vector& right_side) {
+    Vector solution = CholmodSupernodalLLT::solve(right_side);
+    check();
+    return solution;
   }
 
   /// The smallest of pivot over diagonal entry: how much of a diagonal entry elimination leaves. Rounding
@@ -55,6 +71,13 @@ class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower>
       }
     }
     return smallest;
+  }
+
+ private:
+  /// Eigen takes a factor that was not computed for want of memory for a success.
+  void check() {
+    if (cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholmod().status == CHOLMOD_TOO_LARGE)
+      throw std::bad_alloc();
   }
 };
 
@@ -105,7 +128,7 @@ class DirectSystem : public SpringSystem {
       : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
         load_(on_free(to_vector(problem, problem.force))) {
     const OneThread one;
-    factorisation_.analyzePattern(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
+    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
 
   const Vector& load() const override { return load_; }
@@ -127,28 +150,45 @@ class DirectSystem : public SpringSystem {
   /// Lanczos on the inverse, shifted until the tangent is positive definite.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     double shift = 0;
-    while (!factorise(displacement, TransverseTerm::exact, shift))
-      shift = shift == 0 ? 1e-9 * diagonal_.cwiseAbs().maxCoeff() : 10 * shift;
-    const auto apply = [&](const Vector& v) -> Vector { return factorisation_.solve(v); };
+    while (!factorise(displacement, TransverseTerm::exact, shift)) {
+      const double largest = diagonal_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      if (!(largest > no_stiffness && shift < 1e3 * largest)) return std::nullopt; // or it is not a number
+      shift = shift == 0 ? 1e-9 * largest : 10 * shift;
+    }
+    const auto apply = [&](const Vector& v) { return factorisation_.solve(v); };
     const OneThread one;
     const Mode mode = largest_mode(apply, tangent_.n_free());
     return Mode{1 / mode.eigenvalue - shift, with_supports(mode.shape)};
   }
 
-  /// A mechanism's lowest pivot is lost in rounding.
+  /// A mechanism's lowest pivot is lost in rounding. So may be that of a slender or nearly incompressible
+  /// body: there the answer to a random load, a huge motion, tells by what it stores.
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     const Vector rest = Vector::Zero(load_.size());
-    if (factorise(rest, TransverseTerm::exact, 0))
-      return factorisation_.smallest_pivot_ratio(diagonal_) > rounding ? RestState::sound
-                                                                       : RestState::mechanism;
+    const bool is_definite = factorise(rest, TransverseTerm::exact, 0);
+    const double largest = diagonal_.cwiseAbs().maxCoeff();
+    if (!(largest > no_stiffness)) return RestState::mechanism;
+    if (is_definite && factorisation_.smallest_pivot_ratio(diagonal_) > rounding) return RestState::sound;
+    if (is_definite && has_negative_springs()) return RestState::mechanism; // what a motion stores may cancel
+    if (is_definite) {
+      std::mt19937 generator(3);
+      std::normal_distribution<double> normal;
+      Vector force = rest;
+      for (double& entry : force.head(tangent_.n_free())) entry = normal(generator);
+      const auto motion = solve(rest, force, 0, TransverseTerm::exact, 0);
+      const double stored = motion ? small_motion_energy(problem_.lattice, to_points(problem_, *motion)) : 0;
+      return stored > no_energy * largest * motion->squaredNorm() ? RestState::sound : RestState::mechanism;
+    }
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
-    const double shift = rounding * diagonal_.cwiseAbs().maxCoeff();
+    const double shift = rounding * largest;
     return factorise(rest, TransverseTerm::exact, shift) ? RestState::mechanism : RestState::unstable;
   }
 
+  std::size_t n_unknowns() const override { return msm::n_unknowns(problem_); }
+
   int n_inverted(const Vector& displacement) override {
-    return msm::n_inverted(problem_.mesh, to_points(problem_, displacement));
+    return cases::n_inverted(problem_.mesh, to_points(problem_, displacement));
   }
 
   bool moves_supports() const override { return bool(problem_.supports); }
@@ -162,12 +202,20 @@ class DirectSystem : public SpringSystem {
  private:
   static constexpr double rounding = 1e-12; ///< far above 1e-16, far below 1e-8, the least honest pivot seen
 
+  static constexpr double no_energy = 1e-18;     ///< between a mechanism's 1e-32 and a thin column's 1e-14
+  static constexpr double no_stiffness = 1e-290; ///< N/mm; what is below is lost in double precision
+
   const Problem& problem_;
   Tangent tangent_;
   Vector load_, diagonal_;
   Factorisation factorisation_;
   std::optional<std::tuple<Vector, TransverseTerm, double>> factorised_; ///< displacement, term and shift
   bool is_definite_ = false;
+
+  bool has_negative_springs() const {
+    const auto& links = problem_.lattice.links;
+    return std::any_of(links.begin(), links.end(), [](const Link& l) { return l.spring.stiffness < 0; });
+  }
 
   double reaction(const Vector& displacement) override {
     const Points force = internal_force(problem_.lattice, positions(displacement));
@@ -210,11 +258,10 @@ class DirectSystem : public SpringSystem {
     const OneThread one;
     const Tangent::Matrix& matrix = tangent_.assemble(positions(displacement), term);
     diagonal_ = matrix.diagonal();
-    factorisation_.setShift(shift);
-    factorisation_.factorize(matrix);
     ++work_.factorisations;
+    factorised_.reset();
+    is_definite_ = factorisation_.factorise(matrix, shift);
     factorised_.emplace(displacement, term, shift);
-    is_definite_ = factorisation_.info() == Eigen::Success;
     return is_definite_;
   }
 };
@@ -232,7 +279,7 @@ Points to_points(const Problem& problem, const Vector& vector) {
 }
 
 Vector to_vector(const Problem& problem, const Points& points) {
-  const auto n_free = std::count(problem.is_constrained.begin(), problem.is_constrained.end(), false);
+  const auto n_free = static_cast<Eigen::Index>(n_unknowns(problem));
   Vector vector(problem.supports ? static_cast<Eigen::Index>(problem.is_constrained.size()) : n_free);
   for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) { vector[place] = points[p][c]; });
   return vector;

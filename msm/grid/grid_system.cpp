@@ -12,6 +12,7 @@ namespace springproof::msm::grid {
 namespace {
 
 using cases::index;
+using mechanics::grid::LinearSolution;
 
 CellSprings cell_springs(const CellStiffness& k) {
   return {{k.edge, k.edge, k.edge},
@@ -71,20 +72,22 @@ class GridSystem : public SpringSystem {
     return lowest_mode(displacement)->eigenvalue > 0;
   }
 
-  /// The tangent at rest has no negative eigenvalue; that it has no zero one shows in conjugate gradients
-  /// reaching every part of a random right side, and by a motion that it resists: where rounding alone
-  /// resists, the answer is a huge motion, whose Rayleigh quotient tells.
+  /// The tangent at rest has no negative eigenvalue. That it has no zero one shows in conjugate gradients
+  /// reaching every part of a random right side with a motion that it resists. Where rounding alone resists,
+  /// the answer is a huge motion, which stores next to nothing.
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     const Vector rest = Vector::Zero(problem_.load.size());
-    const auto motion = solve(rest, probe(), 1e-6, TransverseTerm::exact, 0);
-    if (!motion) return RestState::mechanism;
     Vector image = rest;
     springs_.product(Clamp::no, rest, probe(), image);
-    const double typical = dot(probe_, image) / dot(probe_, probe_);
-    const double lowest = dot(*motion, probe_) / dot(*motion, *motion);
-    // Rounding leaves 1e-16, the softest lattice seen 1e-8.
-    return lowest > 1e-12 * typical ? RestState::sound : RestState::mechanism;
+    const double typical = dot(probe_, image) / dot(probe_, probe_); // N/mm
+    if (!(typical > no_stiffness)) return RestState::mechanism;
+    const LinearSolution found = solve_fresh(rest, probe(), 1e-6, TransverseTerm::exact, 0);
+    const Vector& motion = found.met_negative_curvature ? found.direction : found.solution;
+    const double squared = dot(motion, motion);
+    if (found.converged && dot(motion, probe_) > rounding * typical * squared) return RestState::sound;
+    if (!(springs_.small_motion_energy(motion) > no_energy * typical * squared)) return RestState::mechanism;
+    return found.converged ? RestState::sound : RestState::unknown;
   }
 
   /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
@@ -146,6 +149,8 @@ class GridSystem : public SpringSystem {
 
   bool moves_supports() const override { return bool(problem_.supports); }
 
+  std::size_t n_unknowns() const override { return problem_.n_unknowns; }
+
   int n_inverted(const Vector& displacement) override {
     const Body& body = problem_.body;
     int n = 0;
@@ -185,6 +190,8 @@ class GridSystem : public SpringSystem {
  private:
   static constexpr int max_iterations = 300; ///< healthy lattices take less than 30
   static constexpr int max_mode_iterations = 100;
+  static constexpr double rounding = 1e-12; ///< of an eigenvalue: it leaves 1e-16, the softest lattice 1e-8
+  static constexpr double no_energy = 1e-18, no_stiffness = 1e-290; ///< as of the direct system
 
   const GridProblem& problem_;
   int n_threads_;
@@ -208,25 +215,30 @@ class GridSystem : public SpringSystem {
 
   std::optional<Vector> solve(const Vector& displacement, const Vector& right_side, double forcing,
                               TransverseTerm term, double shift) override {
+    LinearSolution found = solve_fresh(displacement, right_side, forcing, term, shift);
+    return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
+  }
+
+  /// The cycle keeps what it learnt at the displacements before this one. After one where points coincide or
+  /// fly off that may be wrong, and then a new cycle has to start afresh.
+  LinearSolution solve_fresh(const Vector& displacement, const Vector& right_side, double forcing,
+                             TransverseTerm term, double shift) {
     const Clamp clamp = term == TransverseTerm::clamped ? Clamp::yes : Clamp::no;
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, displacement, v, out);
       if (shift != 0) add(out, shift, v, n_threads_);
     };
-    // The cycle keeps what it learnt at the displacements before this one. After one where points coincide or
-    // fly off that may be wrong, and then a new cycle has to start afresh.
     for (const bool may_be_misled : {true, false}) {
       multigrid_->linearise(displacement);
-      const auto found = mechanics::grid::conjugate_gradients(
+      auto found = mechanics::grid::conjugate_gradients(
           apply, [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); }, right_side,
           forcing * norm(problem_.body, right_side, n_threads_), max_iterations,
           [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_);
       work_.linear_iterations += found.iterations;
-      if (found.converged) return found.solution;
-      if (found.met_negative_curvature || !may_be_misled) break;
+      if (found.converged || found.met_negative_curvature || !may_be_misled) return found;
       multigrid_.emplace(bodies_, n_threads_);
     }
-    return std::nullopt;
+    return {}; // not reached
   }
 };
 
@@ -236,6 +248,7 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
                               const DealOut& deal_out) {
   const cases::Grid& grid = *problem.mesh.grid;
   GridProblem result;
+  result.n_unknowns = n_unknowns(problem);
   Body& body = result.body;
   body.cells = grid.cells;
   body.spacing = grid.spacing;
@@ -274,7 +287,7 @@ std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   const std::optional<Body> body = coarsen(problem.body);
   if (!body) return std::nullopt;
-  GridProblem coarse{*body, {}, {}};
+  GridProblem coarse{*body, {}, {}, 0};
   const Layout& layout = coarse.body.layout;
   if (!body->part && layout.nodes[0] * layout.nodes[1] * layout.nodes[2] < 60) return std::nullopt;
   const Transfer<double> transfer(problem.body, coarse.body, n_threads);

@@ -13,6 +13,7 @@ struct GridProblem {
   Field<double> load;
   /// Displacement (mm) of constrained entries at a load factor, as a field; empty: they stay at rest.
   std::function<Field<double>(double load_factor)> supports{};
+  std::size_t n_unknowns = 0; ///< of the whole grid, on all ranks
 };
 
 /// This rank's part of a whole body (collective), or the whole of it, which every rank then solves by itself.

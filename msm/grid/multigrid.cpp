@@ -1,5 +1,7 @@
 #include "msm/grid/multigrid.hpp"
 
+#include <cmath>
+
 namespace springproof::msm::grid {
 
 namespace {
@@ -8,6 +10,25 @@ using mechanics::grid::apply_blocks;
 
 constexpr mechanics::grid::Chebyshev smoother{3, 8};
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
+
+/// Calls action(stiffness) for all stiffnesses of a body.
+template<class AnyBody, class Action>
+void for_each_stiffness(AnyBody& body, const Action& action) {
+  for (auto& cell : body.springs) {
+    for (auto& edge : cell.edge) action(edge);
+    for (auto& diagonal : cell.face_diagonal) action(diagonal);
+    action(cell.internal_diagonal);
+    action(cell.volume);
+  }
+}
+
+/// A power of two near the largest stiffness, of all ranks.
+int exponent_of_stiffness(const Body& body) {
+  double largest = 0;
+  for_each_stiffness(body, [&](double k) { largest = std::max(largest, k); });
+  if (body.part) largest = body.part->ranks->largest(largest);
+  return largest > 0 ? std::ilogb(largest) : 0;
+}
 
 } // namespace
 
@@ -21,6 +42,10 @@ std::deque<Body> coarsenings(const Body& finest) {
       bodies.push_back(std::move(*coarse));
     else
       break;
+  // A preconditioner may have any scale. This one keeps single precision in range, and changes no other
+  // digit.
+  const int exponent = exponent_of_stiffness(finest);
+  for (Body& body : bodies) for_each_stiffness(body, [&](double& k) { k = std::ldexp(k, -exponent); });
   return bodies;
 }
 
@@ -75,6 +100,7 @@ void Multigrid::estimate_largest_eigenvalue(Level& level) {
 void Multigrid::factorise_coarsest() {
   Level& level = levels_.back();
   const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+  if (n == 0) return; // nothing is free to move
   Eigen::MatrixXd matrix(n, n);
   level.solution.setZero();
   for (Eigen::Index column = 0; column < n; ++column) {
@@ -117,8 +143,9 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
 void Multigrid::cycle(std::size_t l) {
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) {
-    const Eigen::VectorXd right = level.residual(coarsest_unknowns_).cast<double>();
     level.solution.setZero();
+    if (coarsest_unknowns_.empty()) return;
+    const Eigen::VectorXd right = level.residual(coarsest_unknowns_).cast<double>();
     level.solution(coarsest_unknowns_) = coarsest_.solve(right).cast<float>();
     return;
   }

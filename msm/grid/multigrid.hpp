@@ -9,12 +9,14 @@
 
 namespace springproof::msm::grid {
 
-/// A body and ever coarser ones: the last has few enough nodes for a dense factorisation, and is no part.
+/// A body and ever coarser ones: the last has few enough nodes for a dense factorisation, and is no part. All
+/// stiffnesses are divided by the power of two that brings the largest of the finest body to 1 to 2.
 std::deque<Body> coarsenings(const Body& finest);
 
-/// Approximate inverse of the clamped tangent: one V-cycle in single precision. Coarse lattices are
-/// rediscretised at the sampled displacement; the smoother is Chebyshev's iteration on the block Jacobi
-/// method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is symmetric.
+/// Approximate inverse, but for a factor, of the clamped tangent: one V-cycle in single precision. Coarse
+/// lattices are rediscretised at the sampled displacement; the smoother is Chebyshev's iteration on the block
+/// Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is
+/// symmetric.
 class Multigrid {
  public:
   /// @param bodies  must outlive it; on parts of a body every function is collective

@@ -210,6 +210,39 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
   return sum;
 }
 
+template<class Real>
+double SpringField<Real>::small_motion_energy(const Field<Real>& motion) const {
+  const auto in_cell = [&](const CellSprings& cell, const Eigen::Matrix<double, 3, 8>& u) {
+    const auto step_between = [](int v, int w) {
+      return Eigen::Vector3i((w & 1) - (v & 1), ((w >> 1) & 1) - ((v >> 1) & 1), (w >> 2) - (v >> 2));
+    };
+    double sum = 0;
+    for (int v = 0; v < 8; ++v)
+      for (int w = v + 1; w < 8; ++w) {
+        const Eigen::Vector3i step = step_between(v, w);
+        const Eigen::Vector3d along = step.cast<double>().cwiseProduct(body_.spacing).normalized();
+        const double elongation = along.dot(u.col(w) - u.col(v));
+        sum += 0.5 * stiffness_along(cell, {step[0], step[1], step[2]}) * elongation * elongation;
+      }
+    double change = 0; // of the volume over the volume
+    for (int v = 0; v < 8; ++v)
+      for (int a = 0; a < 3; ++a) change += ((v >> a) & 1 ? 0.25 : -0.25) * u(a, v) / body_.spacing[a];
+    return sum + 0.5 * cell.volume * body_.spacing.prod() * change * change;
+  };
+  double sum = 0;
+  for_each_place(body_.cells, [&](int i, int j, int k) {
+    if (body_.part && !body_.part->owns(i, j, k)) return;
+    Eigen::Matrix<double, 3, 8> u;
+    for (int v = 0; v < 8; ++v)
+      for (int a = 0; a < 3; ++a)
+        u(a, v) =
+            static_cast<double>(motion[body_.layout.at(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2), a)]);
+    sum += in_cell(body_.cell(i, j, k), u);
+  });
+  if (body_.part) body_.part->ranks->sum(&sum, 1);
+  return sum;
+}
+
 template class SpringField<double>;
 template class SpringField<float>;
 

@@ -26,6 +26,8 @@ class SpringField {
   /// yy, zz, yz, xz, xy.
   void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse) const;
   double energy(const Field<Real>& displacement) const;
+  /// What a small motion (mm) from rest stores to second order, as msm::small_motion_energy(), N mm.
+  double small_motion_energy(const Field<Real>& motion) const;
 
  private:
   const Body& body_;

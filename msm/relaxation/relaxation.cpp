@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <random>
+#include <utility>
 
 namespace springproof::msm {
 
@@ -16,12 +17,14 @@ namespace {
 using mechanics::NonlinearProblem;
 using mechanics::Vector;
 
-/// One explicit iteration at full load: moves `at`, where the residual is `force`, and evaluates the next.
+/// One explicit iteration at some load factor: moves `at`, where the residual is `force`, and evaluates the
+/// next.
 /// @return false when there is no way on
 using Method = std::function<bool(Vector& at, Vector& force)>;
 
 /// Largest eigenvalue of the tangent (N/mm), by the power method on differences of forces.
-double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vector& force) {
+double largest_eigenvalue(NonlinearProblem& problem, double load_factor, const Vector& at,
+                          const Vector& force) {
   constexpr int n_iterations = 40;
   constexpr double small = 1e-6; // mm
   std::mt19937 generator(5);
@@ -31,7 +34,7 @@ double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vec
   double eigenvalue = 0;
   for (int n = 0; n < n_iterations; ++n) {
     // What the first image leaves out are the entries that are not free.
-    const Vector image = (force - problem.residual(at + (small / mode.norm()) * mode, 1)) / small;
+    const Vector image = (force - problem.residual(at + (small / mode.norm()) * mode, load_factor)) / small;
     eigenvalue = image.norm();
     if (!(eigenvalue > 0)) return 1;
     mode = image;
@@ -39,18 +42,19 @@ double largest_eigenvalue(NonlinearProblem& problem, const Vector& at, const Vec
   return eigenvalue;
 }
 
-Method force_scaling(NonlinearProblem& problem, double eigenvalue) {
-  return [&problem, alpha = 1 / eigenvalue](Vector& at, Vector& force) { // alpha: mm/N
+Method force_scaling(NonlinearProblem& problem, double load_factor, double eigenvalue) {
+  return [&problem, load_factor, alpha = 1 / eigenvalue](Vector& at, Vector& force) { // alpha: mm/N
     at += alpha * force;
-    force = problem.residual(at, 1);
+    force = problem.residual(at, load_factor);
     return true;
   };
 }
 
 class Fire {
  public:
-  Fire(NonlinearProblem& problem, double eigenvalue)
-      : problem_(problem), longest_(1 / std::sqrt(eigenvalue)), time_step_(0.1 * longest_) {} // all masses 1
+  Fire(NonlinearProblem& problem, double load_factor, double eigenvalue)
+      : problem_(problem), load_factor_(load_factor), longest_(1 / std::sqrt(eigenvalue)), // all masses 1
+        time_step_(0.1 * longest_) {}
 
   bool operator()(Vector& at, Vector& force) {
     if (velocity_.size() == 0) velocity_ = Vector::Zero(at.size());
@@ -69,29 +73,30 @@ class Fire {
     }
     velocity_ += time_step_ * force;
     at += time_step_ * velocity_;
-    force = problem_.residual(at, 1);
+    force = problem_.residual(at, load_factor_);
     return true;
   }
 
  private:
   static constexpr double first_mixing = 0.1;
   NonlinearProblem& problem_;
-  double longest_, time_step_, mixing_ = first_mixing;
+  double load_factor_, longest_, time_step_, mixing_ = first_mixing;
   int n_downhill_ = 0;
   Vector velocity_;
 };
 
 class Lbfgs {
  public:
-  Lbfgs(NonlinearProblem& problem, double eigenvalue) : problem_(problem), scale_(1 / eigenvalue) {}
+  Lbfgs(NonlinearProblem& problem, double load_factor, double eigenvalue)
+      : problem_(problem), load_factor_(load_factor), scale_(1 / eigenvalue) {}
 
   bool operator()(Vector& at, Vector& force) {
     if (last_at_.size() > 0) remember(at - last_at_, last_force_ - force);
     last_at_ = at;
     last_force_ = force;
-    if (line_search(problem_, at, force, direction(force), 1)) return true;
+    if (line_search(problem_, at, force, direction(force), load_factor_)) return true;
     pairs_.clear(); // what was learnt here misleads: once more along the force alone
-    return line_search(problem_, at, force, scale_ * force, 1);
+    return line_search(problem_, at, force, scale_ * force, load_factor_);
   }
 
  private:
@@ -101,6 +106,7 @@ class Lbfgs {
     double product;
   };
   NonlinearProblem& problem_;
+  double load_factor_;
   double scale_; ///< mm/N
   Vector last_at_, last_force_;
   std::deque<Pair> pairs_;
@@ -129,37 +135,49 @@ class Lbfgs {
   }
 };
 
-Method make_method(cases::Solver method, NonlinearProblem& problem, double eigenvalue) {
-  if (method == cases::Solver::force_scaling) return force_scaling(problem, eigenvalue);
-  if (method == cases::Solver::fire) return Fire(problem, eigenvalue);
-  return Lbfgs(problem, eigenvalue);
+Method make_method(cases::Solver method, NonlinearProblem& problem, double load_factor, double eigenvalue) {
+  if (method == cases::Solver::force_scaling) return force_scaling(problem, load_factor, eigenvalue);
+  if (method == cases::Solver::fire) return Fire(problem, load_factor, eigenvalue);
+  return Lbfgs(problem, load_factor, eigenvalue);
 }
 
 } // namespace
 
 mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cases::Solver method,
                              const mechanics::EquilibriumSettings& settings) {
+  constexpr double on_the_way = 1e-3; ///< tolerance of load steps but the last
   const NonlinearProblem::Work before = problem.work();
   mechanics::Equilibrium result;
-  Vector at = start;
-  problem.move_supports(at, 1);
-  Vector force = problem.residual(at, 1);
-  const Method step = make_method(method, problem, largest_eigenvalue(problem, at, force));
+  result.n_unknowns = problem.n_unknowns();
   const auto give_up = [&](const std::string& reason) {
-    throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason, 0,
-                            result.residual);
+    result.work = problem.work() - before;
+    throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason,
+                            mechanics::to_solution(result));
   };
-  for (;; ++result.relaxation_iterations) {
-    result.residual = problem.size(force, at).relative;
-    if (!std::isfinite(result.residual)) give_up("it diverges");
-    if (result.residual <= settings.tolerance) break;
-    if (result.relaxation_iterations == settings.max_relaxation_iterations)
-      give_up("the limit of " + std::to_string(settings.max_relaxation_iterations) +
-              " iterations was reached");
-    if (settings.should_stop && settings.should_stop()) give_up("it was stopped");
-    if (!step(at, force)) give_up("no step lowers the potential");
+  Vector at = start, previous = start;
+  const double n_steps = std::ceil(1 / settings.first_load_step);
+  for (double n = 1; n <= n_steps; ++n) {
+    const double load_factor = n / n_steps,
+                 tolerance = n < n_steps ? std::max(settings.tolerance, on_the_way) : settings.tolerance;
+    Vector next = 2 * at - previous; // the last increment extrapolated
+    previous = std::exchange(at, std::move(next));
+    problem.move_supports(at, load_factor);
+    Vector force = problem.residual(at, load_factor);
+    const Method step =
+        make_method(method, problem, load_factor, largest_eigenvalue(problem, load_factor, at, force));
+    for (;; ++result.relaxation_iterations) {
+      result.residual = problem.size(force, at).relative;
+      if (!std::isfinite(result.residual)) give_up("it diverges");
+      if (result.residual <= tolerance) break;
+      if (result.relaxation_iterations == settings.max_relaxation_iterations)
+        give_up("the limit of " + std::to_string(settings.max_relaxation_iterations) +
+                " iterations was reached");
+      if (settings.should_stop && settings.should_stop()) give_up("it was stopped");
+      if (!step(at, force)) give_up("no step lowers the potential");
+    }
+    result.load_reached = load_factor;
+    ++result.load_steps;
   }
-  result.load_reached = 1;
   if (settings.stability != mechanics::Stability::ignore) result.is_stable = problem.is_stable(at);
   if (settings.lowest_eigenvalue == mechanics::LowestEigenvalue::report)
     result.lowest_eigenvalue = problem.lowest_mode(at)->eigenvalue;

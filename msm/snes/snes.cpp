@@ -1,6 +1,7 @@
 #include "msm/snes/snes.hpp"
 
 #include "mechanics/equilibrium/newton.hpp"
+#include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "mechanics/petsc/handles.hpp"
 #include "msm/model.hpp"
@@ -48,6 +49,8 @@ class Part {
     const WriteEntries applied(applied_.get());
     for (const PetscInt d : constrained_) applied[d - 3 * first_] = 0;
   }
+
+  std::size_t n_unknowns() const { return msm::n_unknowns(problem_); }
 
   petsc::Vector make_vector() const {
     const auto n_ghosts = static_cast<PetscInt>(ghosts_.size());
@@ -285,6 +288,7 @@ class SnesProblem : public petsc::DistributedProblem {
   mechanics::Merit merit() const override { return mechanics::Merit::none; }
   Work work() const override { return work_; }
 
+  std::size_t n_unknowns() const override { return part_.n_unknowns(); }
  private:
   const mechanics::EquilibriumSettings& settings_;
   Part part_;
@@ -349,7 +353,8 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
   problem.lattice = make_lattice(scene.mesh, stiffness);
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
-      mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES", settings);
+      mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES",
+                                  mechanics::in_small_turns(largest_turn(scene.definition), settings));
   return solution_of(problem, equilibrium, system.displacement(equilibrium.state));
 }
 

@@ -77,3 +77,28 @@ TEST_CASE("a bar whose end is turned by a quarter turn arrives there, and keeps 
     }
   }
 }
+
+TEST_CASE("a bar follows its end through most of a turn and a whole one, on either backend") {
+  for (const double angle : {300., 360.})
+    for (const auto backend : {fem_reference::Backend::assembled, fem_reference::Backend::grid}) {
+      cases::Case definition = box(Element::q1_bbar);
+      definition.body = cases::Box{Vector3d(2, 2, 12), {2, 2, 12}};
+      definition.fixed = {{region("z-")}};
+      cases::Moved turn;
+      turn.region = region("z+");
+      turn.centre = {1, 1, 12};
+      turn.angle = angle;
+      definition.moved = {turn};
+      const cases::Scene scene = cases::make_scene(definition);
+      const cases::Solution found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
+      cases::Region corner;
+      corner.near = Vector3d(2, 1, 3); // a quarter of the way up
+      const auto node = static_cast<std::size_t>(cases::select_node(scene.mesh, corner));
+      const Vector3d arm = scene.mesh.nodes[node] + found.displacement[node] - Vector3d(1, 1, 3);
+      INFO(angle << " degrees");
+      CHECK(std::atan2(arm.y(), arm.x()) * 180 / std::acos(-1.) ==
+            Approx(angle / 4).margin(5)); // the ends warp
+      CHECK(found.inverted_cells == 0);
+      CHECK(found.load_reached == 1);
+    }
+}

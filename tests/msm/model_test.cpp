@@ -81,7 +81,7 @@ cases::SolveError solve_error(const cases::Scene& scene, const msm::CellStiffnes
     return error;
   }
   FAIL("an equilibrium was reported");
-  return {"", 0, 0};
+  return cases::SolveError("");
 }
 
 } // namespace
@@ -97,6 +97,59 @@ TEST_CASE("a lattice of edges alone is a mechanism") {
   const cases::SolveError error =
       solve_error(box_scene({3, 3, 3}, bodies::tensile(0.01)), bodies::cell(31, 0, 0));
   CHECK(error.outcome() == cases::Outcome::mechanism);
+}
+
+TEST_CASE(
+    "a lattice whose stiffness is nothing, or lost in double precision, is a mechanism that ends at once") {
+  for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid})
+    for (const double stiffness : {0., 1e-320, 1e-300}) {
+      CAPTURE(stiffness, path == msm::Path::direct);
+      mechanics::EquilibriumSettings settings;
+      settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report; // as hard cases do
+      msm::Model model(box_scene({10, 10, 10}, bodies::tensile(0.01)), {bodies::cell(stiffness, 0, 0)},
+                       {path, 1});
+      try {
+        model.solve(settings);
+        FAIL("an equilibrium was reported");
+      } catch (const cases::SolveError& error) {
+        CHECK(error.outcome() == cases::Outcome::mechanism);
+      }
+    }
+}
+
+TEST_CASE("springs of any size but nothing are solved alike: the multigrid cycle has its own scale") {
+  const cases::Scene scene = box_scene({10, 10, 10}, bodies::tensile(0.01));
+  const cases::Solution usual = msm::Model(scene, {thesis_cell}, {msm::Path::multigrid, 1}).solve();
+  for (const int exponent : {-150, 150}) { // beyond single precision
+    const double factor = std::ldexp(1, exponent);
+    cases::Scene scaled = scene;
+    for (auto& applied : scaled.loads) applied.load.value *= factor;
+    const msm::CellStiffness cell{factor * thesis_cell.edge, factor * thesis_cell.face_diagonal,
+                                  factor * thesis_cell.internal_diagonal, 0};
+    const cases::Solution found = msm::Model(scaled, {cell}, {msm::Path::multigrid, 1}).solve();
+    CHECK(largest_difference(found, usual) == 0); // powers of two change no digit
+  }
+}
+
+TEST_CASE("a thin column and a nearly incompressible cube are sound, whatever multigrid makes of them") {
+  SECTION("of a thousand cells") {
+    const cases::Scene column = box_scene({1, 1, 1000}, {bodies::nodal_force("z+", {0, 0, 1e-4})});
+    const cases::Solution found = msm::Model(column, {thesis_cell}).solve();
+    CHECK(found.outcome == cases::Outcome::stable_equilibrium);
+    const cases::Scene piece = box_scene({1, 1, 100}, {bodies::nodal_force("z+", {0, 0, 1e-4})});
+    const double of_piece = msm::Model(piece, {thesis_cell}).solve().displacement.back().z();
+    CHECK(found.displacement.back().z() == Approx(10 * of_piece).epsilon(0.01)); // the clamped end is in both
+  }
+  SECTION("of Poisson's ratio 0.4999999") {
+    const cases::Scene cube = box_scene({8, 8, 8}, bodies::tensile(0.001)); // multigrid would take it
+    const msm::CellStiffness cell = bodies::cell(45, 10, 60, 5e5);
+    for (const msm::Path path : {msm::Path::automatic, msm::Path::direct}) {
+      const cases::Solution found = msm::Model(cube, {cell}, {path, 1}).solve();
+      CHECK(found.outcome == cases::Outcome::stable_equilibrium);
+      CHECK(largest_volume_difference(found, msm::Model(cube, {cell}, {msm::Path::direct, 1}).solve()) <
+            1e-6);
+    }
+  }
 }
 
 TEST_CASE("a body that nothing holds is a mechanism") {

@@ -79,3 +79,17 @@ TEST_CASE("SNES refuses a load beyond the limit point that the fast path finds",
   CHECK(fast < 0.8);
   CHECK(std::abs(fast - general) <= 8e-3); // both end within twice the smallest step
 }
+
+TEST_CASE("SNES leads a bar around by its end as the fast path does", "[snes]") {
+  cases::Case definition = bodies::clamped_box({2, 2, 12}, {});
+  cases::Moved turned;
+  turned.region = bodies::region("z+");
+  turned.angle = 300;
+  turned.centre = {1, 1, 12};
+  definition.moved = {turned};
+  const cases::Scene scene = cases::make_scene(definition);
+  const cases::Solution fast = msm::Model(scene, {springs}).solve(tight());
+  const cases::Solution general =
+      msm::solve_by_snes(without_its_grid(scene), {springs}, PETSC_COMM_WORLD, tight());
+  CHECK(largest_difference(fast, general) <= 1e-7); // mm, of displacements of millimetres
+}

@@ -28,7 +28,8 @@ cases::Solution solve(const cases::Scene& scene, Backend backend, double residua
   return fem_reference::Model(scene, MPI_COMM_SELF, backend).solve(settings);
 }
 
-/// Tolerance: both stop at a residual that the soft modes of these bodies amplify by less than 1e-8 / residual.
+/// Tolerance: both stop at a residual that the soft modes of these bodies amplify by less than 1e-8 /
+/// residual.
 void agree(const cases::Scene& scene, double residual = usual_residual) {
   const cases::Solution assembled = solve(scene, Backend::assembled, residual),
                         grid = solve(scene, Backend::grid, residual);
@@ -182,16 +183,25 @@ TEST_CASE("both backends count the negative eigenvalues of a column pressed beyo
   }
 }
 
-TEST_CASE("a load that cannot be carried is refused by both backends, at the same load") {
+TEST_CASE(
+    "a load that cannot be carried is refused by both backends, at the same load, with the work it took") {
   auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar, Test::tensile);
   for (auto& load : definition.loads) load.value *= 10;
   const cases::Scene scene = cases::make_scene(definition);
+  const std::vector<bool> constrained = cases::constrained_dofs(scene);
+  const auto n_free = std::size_t(std::count(constrained.begin(), constrained.end(), false));
   double reached[2] = {0, 1};
   for (const auto backend : {Backend::assembled, Backend::grid}) try {
       solve(scene, backend);
       FAIL("was carried");
     } catch (const cases::SolveError& error) {
       reached[backend == Backend::grid] = error.load_reached();
+      const cases::Solution& work = error.so_far();
+      CHECK(work.unknowns == n_free);
+      CHECK(work.newton_iterations > 10);
+      CHECK(work.force_evaluations > work.newton_iterations);
+      CHECK((backend == Backend::grid ? work.linear_iterations : work.factorisations) >=
+            work.newton_iterations);
     }
   CAPTURE(reached[0], reached[1]);
   CHECK(std::abs(reached[0] - reached[1]) <= 2. / 512); // two of the smallest load steps

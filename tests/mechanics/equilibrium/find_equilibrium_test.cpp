@@ -20,6 +20,7 @@ struct Bar : mechanics::NonlinearProblem {
   mechanics::Merit by = mechanics::Merit::energy;
 
   Vector residual(const Vector& at, double load_factor, mechanics::Expect) override {
+    ++n_evaluations;
     return Vector::Constant(1, load_factor * load - force(at[0]));
   }
   Size size(const Vector& residual, const Vector&) override { return {std::abs(residual[0] / load)}; }
@@ -34,6 +35,9 @@ struct Bar : mechanics::NonlinearProblem {
     return stored(at[0]) - load_factor * load * at[0];
   }
   std::optional<bool> is_stable(const Vector& at) override { return stiffness(at[0]) > 0; }
+  Work work() const override { return {0, 0, n_evaluations}; }
+  std::size_t n_unknowns() const override { return 1; }
+  long n_evaluations = 5; ///< some before any path
 };
 
 /// f = sinh(u): stiffens.
@@ -66,7 +70,7 @@ cases::SolveError error_of(Bar& bar, const EquilibriumSettings& settings = {}) {
     return error;
   }
   FAIL("an equilibrium was reported");
-  return {"", 0, 0};
+  return cases::SolveError("");
 }
 
 } // namespace
@@ -86,6 +90,22 @@ TEST_CASE("a path ends at its limit point, when every equilibrium on it has to b
   const cases::SolveError error = error_of(bar);
   CHECK(error.outcome() == cases::Outcome::limit_point);
   CHECK(error.load_reached() == Approx(2 / std::sqrt(27.0)).margin(2e-4)); // twice the smallest step
+}
+
+TEST_CASE("a path that ends early has counted its work, as one that arrives has") {
+  Bar bar = snapping();
+  const cases::Solution failed = error_of(bar).so_far();
+  CHECK(failed.status == cases::Status::failed);
+  CHECK(failed.message == "bar: no equilibrium was found beyond this load");
+  CHECK(failed.unknowns == 1);
+  CHECK(failed.newton_iterations > 0);
+  CHECK(failed.force_evaluations > failed.newton_iterations);
+  CHECK(failed.force_evaluations == bar.n_evaluations - 5);
+  Bar light = snapping();
+  light.load = 0.1;
+  const mechanics::Equilibrium found = solve(light);
+  CHECK(found.n_unknowns == 1);
+  CHECK(found.work.force_evaluations == light.n_evaluations - 5);
 }
 
 TEST_CASE("a path that ends without its stability known has an unknown outcome, and says what failed") {

@@ -67,6 +67,9 @@ TEST_CASE("an explicit relaxation that uses up its iterations says so, with the 
       CHECK_THAT(error.what(), Catch::Contains("limit of 5 iterations"));
       CHECK(error.residual() > 1e-9);
       CHECK(error.outcome() == cases::Outcome::unknown);
+      CHECK(error.so_far().relaxation_iterations == 5);
+      CHECK(error.so_far().force_evaluations > 5);
+      CHECK(error.so_far().unknowns == 3 * 48);
     }
   }
 }

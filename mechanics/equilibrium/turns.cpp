@@ -1,0 +1,20 @@
+#include "mechanics/equilibrium/turns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace springproof::mechanics {
+
+EquilibriumSettings in_small_turns(double degrees, EquilibriumSettings settings) {
+  constexpr double most_degrees =
+      30; ///< of a load step: a straight guess leaves the arc by 15 % of the radius
+  const double n_steps = std::ceil(std::abs(degrees * (settings.to - settings.from)) / most_degrees);
+  if (!(n_steps > 1)) return settings;
+  for (double* step : {&settings.first_load_step, &settings.largest_load_step})
+    *step = std::min(*step, 1 / n_steps);
+  // Some halvings must be left.
+  settings.smallest_load_step = std::min(settings.smallest_load_step, settings.largest_load_step / 16);
+  return settings;
+}
+
+} // namespace springproof::mechanics

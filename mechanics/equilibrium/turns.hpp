@@ -1,0 +1,13 @@
+#pragma once
+
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+namespace springproof::mechanics {
+
+/// Settings with load steps in which no support turns by more than 30 degrees. Where a turned support ends
+/// says nothing of whole turns: only small steps lead the body around with it.
+/// @param degrees   that a support turns by at load factor 1
+/// @param settings  with the load factors from and to
+EquilibriumSettings in_small_turns(double degrees, EquilibriumSettings settings);
+
+} // namespace springproof::mechanics
