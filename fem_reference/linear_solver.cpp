@@ -61,6 +61,7 @@ bool LinearSolver::solve(Vec right_hand_side, Vec solution, long tangent_number)
   const bool is_new = std::exchange(tangent_number_, tangent_number) != tangent_number;
   if (is_direct_ && is_new) ++n_factorisations_; // PETSc factorises anew then
   check(KSPSolve(solver, right_hand_side, solution));
+  mechanics::petsc::check_memory_of(solver);
   if (!is_direct_) n_iterations_ += get<PetscInt>(KSPGetIterationNumber, solver);
   return get<KSPConvergedReason>(KSPGetConvergedReason, solver) > 0;
 }

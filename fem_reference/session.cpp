@@ -1,5 +1,7 @@
 #include "fem_reference/session.hpp"
 
+#include "mechanics/petsc/handles.hpp"
+
 #include <chrono>
 #include <cstdlib>
 #include <deal.II/base/mpi.h>
@@ -45,6 +47,7 @@ Session::Session() {
   // one thread a rank: cases and ranks share the cores
   libraries_ = std::make_shared<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
   PETSC_STDOUT = stderr; // standard output is the results' alone
+  mechanics::petsc::keep_quiet();
 }
 
 int Session::rank() const {

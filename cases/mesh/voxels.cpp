@@ -3,6 +3,7 @@
 #include "cases/mesh/read_vtk.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -148,6 +149,20 @@ std::size_t n_open_edges(const Surface& surface) {
   std::size_t open = 0;
   for (const auto& [edge, difference] : balance) open += static_cast<std::size_t>(std::abs(difference));
   return open;
+}
+
+VoxelCounts count_voxels(const Voxels& voxels) {
+  const Surface surface = read_stl(voxels.path, voxels.where);
+  double volume = 0; // of the tetrahedra from the origin to the triangles
+  Eigen::AlignedBox3d body;
+  for (const auto& [a, b, c] : surface) {
+    volume += a.dot(b.cross(c)) / 6;
+    for (const Vector3d& vertex : {a, b, c}) body.extend(vertex);
+  }
+  VoxelCounts counts{std::abs(volume) / (voxels.edge * voxels.edge * voxels.edge), {}};
+  for (int a = 0; a < 3; ++a)
+    counts.of_grid[index(a)] = static_cast<int>(std::clamp(body.sizes()[a] / voxels.edge, 1., 1e6));
+  return counts;
 }
 
 HexMesh make_voxel_mesh(const Voxels& voxels) {

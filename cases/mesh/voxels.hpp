@@ -16,6 +16,15 @@ Surface read_stl(const std::string& path, const Where& where);
 /// @return how many edges have no such partner; 0: closed
 std::size_t n_open_edges(const Surface& surface);
 
+/// About how many cubes make_voxel_mesh() makes, of the volume within the surface, and how many its grid has
+/// along the axes (a million where there are more).
+/// @throws InputError if the surface is no STL
+struct VoxelCounts {
+  double in_body;
+  std::array<int, 3> of_grid;
+};
+VoxelCounts count_voxels(const Voxels& voxels);
+
 /// The grid of cubes of a voxel body: a cube belongs to it when its centre is inside the surface (winding
 /// number other than 0, by a ray along z through the centre). All cubes hang together by faces.
 /// @throws InputError, at the place of the surface in the case file, if the surface is no STL or not closed,

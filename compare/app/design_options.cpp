@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
 
 #include <algorithm>
@@ -96,7 +97,7 @@ msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element elem
 msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   if (n_materials(o) > 0)
     throw cases::InputError("command line: --case brings its own material; leave the others out");
-  const cases::Scene scene = cases::make_scene(cases::read_case(o.case_file));
+  const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file));
   return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
                         element);
 }

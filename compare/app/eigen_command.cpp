@@ -1,10 +1,10 @@
 #include "cases/case/read_case.hpp"
-#include "cases/scene/scene.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/write/json.hpp"
 
 #include <iostream>
@@ -26,7 +26,7 @@ struct EigenOptions {
 std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::CellVertices& cell) {
   const std::string& file = options.design.case_file;
   if (!file.empty()) {
-    cases::HexMesh mesh = cases::make_scene(cases::read_case(file)).mesh;
+    cases::HexMesh mesh = make_scene_within_memory(cases::read_case(file)).mesh;
     if (!mesh.grid) throw cases::InputError(file + ": free modes are for bodies of equal cells");
     return mesh;
   }

@@ -5,7 +5,9 @@
 #include "compare/solve/process_pool.hpp"
 #include "fem_reference/session.hpp"
 
+#include <cstdlib>
 #include <iostream>
+#include <new>
 #include <system_error>
 
 using namespace springproof;
@@ -33,6 +35,8 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     if (std::cout) return done;
   } catch (const cases::InputError& error) {
     message = error.what();
+  } catch (const std::bad_alloc&) {
+    message = "springproof: not enough memory";
   } catch (const cases::SolveError& error) { // of a design; those of cases are rows
     message = error.what();
     status = failed_solve;
@@ -66,6 +70,10 @@ int run_usage(const CLI::App& program, const CLI::ParseError& answer) {
 } // namespace
 
 int main(int argc, char** argv) {
+  if (const std::string reason = compare::why_not_to_start(); !reason.empty()) {
+    std::cerr << "springproof: " << reason << std::endl;
+    std::_Exit(wrong_input); // OpenBLAS' threads, which look for memory, would be waited for
+  }
   CLI::App program{"springproof: mass-spring models of soft tissue against finite elements, measured"};
   program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
   program.require_subcommand(1);

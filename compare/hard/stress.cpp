@@ -1,6 +1,7 @@
 #include "compare/hard/stress.hpp"
 
 #include "compare/gates/judge.hpp"
+#include "compare/solve/estimate.hpp"
 
 #include <algorithm>
 
@@ -27,7 +28,7 @@ std::optional<double> StressResult::hybrid_over_springs() const {
 }
 
 std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads) {
-  const cases::Scene scene = cases::make_scene(hard_case);
+  const cases::Scene scene = make_scene_within_memory(hard_case);
   std::vector<Question> jobs;
   for (const cases::ExpectedOutcome& expected : hard_case.stress->expected) {
     Question job{scene, {expected.side}};

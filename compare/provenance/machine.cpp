@@ -1,7 +1,9 @@
 #include "compare/provenance/machine.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <fstream>
 #include <limits>
 #include <mpi.h>
@@ -62,6 +64,12 @@ int mpi_rank() {
   return rank;
 }
 
+int n_mpi_ranks() {
+  int n = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &n);
+  return n;
+}
+
 /// Not getrusage(): its figure is inherited from the process that started this one.
 std::optional<double> peak_resident_megabytes() {
   return megabytes_in("/proc/self/status", "VmHWM:");
@@ -87,10 +95,28 @@ MemoryLimit memory_limit() {
   return least;
 }
 
+std::string why_not_to_start() {
+  constexpr double megabytes = 300; // 245 are taken until the first solve, 134 of them by OpenBLAS
+  const MemoryLimit limit = memory_limit();
+  if (!limit.is_of_a_process || limit.megabytes >= megabytes) return "";
+  return fmt::format("{} leaves {:.0f} MB of address space, and the libraries need {:.0f} to start", limit.of,
+                     std::max(0., limit.megabytes), megabytes);
+}
+
 bool use_one_blas_thread() {
   auto* const set_threads = find_function<void(int)>("openblas_set_num_threads");
-  if (set_threads) set_threads(1);
-  return set_threads != nullptr;
+  if (!set_threads) return false;
+  set_threads(1);
+  using Multiply =
+      void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+           const int*, const double*, const int*, const double*, double*, const int*);
+  if (auto* const multiply = find_function<Multiply>("dgemm_")) {
+    constexpr int n = 128; // products of up to 1e6 multiplications need no work space
+    constexpr double one = 1, zero = 0;
+    std::vector<double> zeros(n * n), product(n * n);
+    multiply("N", "N", &n, &n, &n, &one, zeros.data(), &n, zeros.data(), &n, &zero, product.data(), &n);
+  }
+  return true;
 }
 
 Machine describe_machine() {

@@ -17,6 +17,7 @@ std::string cases_folder();
 
 /// This process's number in MPI's world; 0 for a process alone. MPI must have been started.
 int mpi_rank();
+int n_mpi_ranks(); ///< of MPI's world
 
 /// The machine and build that a timing depends on.
 struct Machine {
@@ -44,7 +45,12 @@ struct MemoryLimit {
 /// group's, its address space.
 MemoryLimit memory_limit();
 
-/// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply.
+/// Why this process has too little address space (ulimit -v) for its libraries to start, as one line; empty
+/// when it has enough. OpenBLAS looks for memory without end where there is none.
+std::string why_not_to_start();
+
+/// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply. It takes
+/// its work space at once, before solves may leave no room for it.
 /// @return whether the BLAS that this process loaded is OpenBLAS, the only one that is told
 bool use_one_blas_thread();
 

@@ -1,6 +1,7 @@
 #include "compare/solve/estimate.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/voxels.hpp"
 #include "compare/solve/progress.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
@@ -90,15 +91,28 @@ BodySize size_of(const cases::Scene& scene) {
 }
 
 std::optional<BodySize> size_of(const cases::Case& definition) {
-  const auto* box = std::get_if<cases::Box>(&definition.body);
-  if (!box) return std::nullopt;
   BodySize body{1, 1, {}};
-  for (const int n : box->cells) {
-    body.n_cells *= n;
-    body.n_nodes *= n + 1.;
-  }
   body.outline.definition = definition;
-  body.outline.mesh.grid.emplace().cells = box->cells;
+  cases::Grid& grid = body.outline.mesh.grid.emplace();
+  if (const auto* box = std::get_if<cases::Box>(&definition.body)) {
+    grid.cells = box->cells;
+    grid.spacing = box->size.cwiseQuotient(Eigen::Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
+    for (const int n : box->cells) {
+      body.n_cells *= n;
+      body.n_nodes *= n + 1.;
+    }
+  } else if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
+    try {
+      const auto [in_body, of_grid] = cases::count_voxels(*voxels);
+      body.n_cells = std::max(1., in_body);
+      grid.cells = of_grid;
+    } catch (const cases::InputError&) { // make_scene() refuses it in its turn
+      return std::nullopt;
+    }
+    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
+  } else {
+    return std::nullopt;
+  }
   return body;
 }
 
@@ -176,6 +190,15 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
           "fewer cells, or refine it less",
           file, model.model, model.unknowns, memory_text(model.megabytes), limit.of,
           memory_text(std::max(0., limit.megabytes))));
+}
+
+cases::Scene make_scene_within_memory(const cases::Case& definition) {
+  constexpr double bytes_a_node = 150; // nodes, cells, and what selecting regions takes for a while
+  if (const auto body = size_of(definition))
+    check_memory(definition.file,
+                 {{"the mesh's nodes", 3 * body->n_nodes, 1e-6 * bytes_a_node * body->n_nodes, 0}},
+                 memory_limit());
+  return cases::make_scene(definition);
 }
 
 void check_memory(const std::vector<Question>& questions) {

@@ -19,7 +19,8 @@ struct BodySize {
   cases::Scene outline; ///< the definition and the grid, if the body is one; without nodes
 };
 BodySize size_of(const cases::Scene& scene);
-/// Of a box, before its mesh is made; nothing for other bodies.
+/// Of a box or of voxels (about), before the mesh is made; nothing for a mesh file or a
+/// surface that cannot be read.
 std::optional<BodySize> size_of(const cases::Case& definition);
 
 /// Of the definition's [fem], refined as it says.
@@ -42,6 +43,9 @@ std::string long_solve_text(const std::string& name, const std::vector<Estimate>
 /// @throws InputError if a model needs more memory than there is, with unknowns, estimate, limit and what to
 /// change
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit);
+
+/// The scene of a case whose mesh there is memory for.  @throws InputError as check_memory() and make_scene()
+cases::Scene make_scene_within_memory(const cases::Case& definition);
 
 /// Of every question, before any is solved.
 void check_memory(const std::vector<Question>& questions);

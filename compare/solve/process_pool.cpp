@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <poll.h>
 #include <spawn.h>
 #include <stdexcept>
@@ -183,6 +184,8 @@ void serve_jobs(const std::function<std::string(const std::string& job)>& work) 
     Frame answer{"ok", ""};
     try {
       answer.content = work(job->content);
+    } catch (const std::bad_alloc&) {
+      answer = {"failed", "not enough memory"};
     } catch (const std::exception& error) {
       answer = {"failed", error.what()};
     }

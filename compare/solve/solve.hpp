@@ -4,15 +4,17 @@
 #include "compare/solve/answers.hpp"
 
 #include <functional>
+#include <new>
 
 namespace springproof::compare {
 
-/// Solution of a failed solve; of a case that no model can be made of (InputError), refused.
+/// Solution of a failed solve; of a case that no model can be made of (InputError), refused; where memory is
+/// the reason (std::bad_alloc), the message says so.
 inline cases::Solution failed_solution(const std::exception& error) {
   if (const auto* solve_error = dynamic_cast<const cases::SolveError*>(&error)) return solve_error->so_far();
   cases::Solution solution;
   solution.status = cases::Status::failed;
-  solution.message = error.what();
+  solution.message = dynamic_cast<const std::bad_alloc*>(&error) ? "not enough memory" : error.what();
   if (dynamic_cast<const cases::InputError*>(&error)) solution.outcome = cases::Outcome::refused;
   return solution;
 }
@@ -28,6 +30,9 @@ Answer solve_side(const MakeModel& make_model, const Solve& solve) {
     answer.setup_seconds = stopwatch.lap();
     answer.solution = solve(model);
   } catch (const cases::SolveError& error) {
+    answer.solution = failed_solution(error);
+  } catch (const std::bad_alloc& error) {
+    if (n_mpi_ranks() > 1) throw; // the others wait for this rank
     answer.solution = failed_solution(error);
   }
   answer.solve_seconds = stopwatch.lap();

@@ -7,7 +7,7 @@
 #include "compare/solve/process_pool.hpp"
 
 #include <algorithm>
-#include <mpi.h>
+#include <new>
 #include <thread>
 #include <tuple>
 
@@ -27,6 +27,7 @@ Answers solve_in_this_process(const Question& question, const std::string& folde
   try {
     return solve(question.scene, question.request, solve_fem, FinishedCases::meshes_in(folder, question));
   } catch (const std::exception& error) {
+    if (n_mpi_ranks() > 1 && dynamic_cast<const std::bad_alloc*>(&error)) throw; // the others wait for this rank
     return failed_answers(question.request, error);
   }
 }
@@ -46,9 +47,7 @@ struct Open {
 
 /// Whether worker processes may be started.
 bool is_one_process() {
-  int n_ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-  return n_ranks == 1 && !is_under_mpi_launcher();
+  return n_mpi_ranks() == 1 && !is_under_mpi_launcher();
 }
 
 /// Questions of jobs whose case can be read, and what the others have failed by.
@@ -65,7 +64,7 @@ ReadJobs read_jobs(const std::vector<SolveJob>& jobs) {
     request.only = jobs[j].only;
     try {
       read.questions.push_back(
-          {cases::make_scene(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
+          {make_scene_within_memory(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
       read.job.push_back(j);
     } catch (const cases::InputError& error) {
       read.failed.emplace_back(j, failed_answers(request, error));
@@ -86,9 +85,8 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
   const MemoryLimit memory = memory_limit();
   for (const std::string& file : case_files) {
     const cases::Case definition = cases::read_case(file, settings);
-    if (const auto box = size_of(definition)) // its mesh alone may be too much
-      check_memory(file, estimate(*box, request), memory);
-    questions.push_back({cases::make_scene(definition), request});
+    if (const auto body = size_of(definition)) check_memory(file, estimate(*body, request), memory);
+    questions.push_back({make_scene_within_memory(definition), request});
   }
   return questions;
 }

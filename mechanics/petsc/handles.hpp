@@ -12,9 +12,15 @@
 /// Owning handles for PETSc's objects; its error codes as exceptions, and exceptions as its error codes.
 namespace springproof::mechanics::petsc {
 
-/// @throws std::runtime_error with PETSc's message for a non-zero code: a programming or memory error, never
-/// a solver that failed to converge
+/// @throws std::bad_alloc for want of memory; std::runtime_error with PETSc's message for another non-zero
+/// code: a programming error, never a solver that failed to converge
 void check(PetscErrorCode code);
+
+/// From now on PETSc prints nothing of its errors: check() tells them.
+void keep_quiet();
+
+/// @throws std::bad_alloc if MUMPS had too little memory for the factorisation in a solver's preconditioner
+void check_memory_of(KSP solver);
 
 /// What a function of PETSc sets through its last argument: get<PC>(KSPGetPC, solver).  @throws as check()
 template<class Value, class Function, class... Arguments>
@@ -96,9 +102,7 @@ class CallbackErrors {
   /// Calls a function of PETSc that calls back.  @throws what a callback threw, else as check()
   template<class Action>
   void call(const Action& action) {
-    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // prints nothing
     const PetscErrorCode code = action();
-    check(PetscPopErrorHandler());
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     check(code);
   }

@@ -248,6 +248,7 @@ class SnesProblem : public petsc::DistributedProblem {
     part_.move_supports(at_.get(), load_factor);
     errors_.call([&] { return SNESSolve(snes_.get(), nullptr, at_.get()); });
     work_.linear_iterations += petsc::get<PetscInt>(SNESGetLinearSolveIterations, snes_.get());
+    petsc::check_memory_of(petsc::get<KSP>(SNESGetKSP, snes_.get()));
     at = part_.own(at_.get());
     return Solved{petsc::get<SNESConvergedReason>(SNESGetConvergedReason, snes_.get()) > 0,
                   petsc::get<PetscInt>(SNESGetIterationNumber, snes_.get()),
@@ -287,8 +288,8 @@ class SnesProblem : public petsc::DistributedProblem {
   }
   mechanics::Merit merit() const override { return mechanics::Merit::none; }
   Work work() const override { return work_; }
-
   std::size_t n_unknowns() const override { return part_.n_unknowns(); }
+
  private:
   const mechanics::EquilibriumSettings& settings_;
   Part part_;

@@ -1,9 +1,12 @@
 #include "fem_reference/model.hpp"
 
 #include "scenes.hpp"
+#include "tests/support/largest.hpp"
+#include "tests/support/little_memory.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <new>
 
 using namespace springproof;
 
@@ -56,4 +59,18 @@ TEST_CASE("the cube of a Saint Venant-Kirchhoff solid has the heights, tilts and
   const auto definition = scenes::cube(expected.test, expected.set, scenes::thesis_elastic(),
                                        cases::Formulation::saint_venant_kirchhoff, cases::Element::q1);
   agrees(definition, expected, 1e-4); // one unit of the last digit given
+}
+
+TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium") {
+  const auto solve = [](int n) {
+    auto definition = scenes::cube(scenes::Test::shear, scenes::LoadSet::small, scenes::thesis_elastic(0.35),
+                                   cases::Formulation::log_strain, cases::Element::q2_p1, n);
+    return fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();
+  };
+  const cases::Solution before = solve(4); // BLAS has its work space from here on
+  {
+    const LittleMemory little(100 << 20); // the factor takes twice as much
+    CHECK_THROWS_AS(solve(8), std::bad_alloc);
+  }
+  CHECK(largest_difference(solve(4), before) < 1e-9); // mm; the residual of either
 }

@@ -108,3 +108,13 @@ TEST_CASE("an open surface, pieces that share no face, an edge too small or too 
   check(cuboid({0, 0, 0}, {1, 1, 1}), 1e-3, "needs more than");
   check(cuboid({0, 0, 0}, {1, 1, 1}), 5, "no cell of edge 5 mm has its centre inside");
 }
+
+TEST_CASE("the number of cubes is known from the surface, without making them") {
+  const TemporaryFolder folder;
+  const auto count = [&](const std::string& facets, double edge) {
+    return count_voxels({folder.write("body.stl", "solid\n" + facets + "endsolid\n"), edge, {}}).in_body;
+  };
+  CHECK(count(cuboid({-1, 2, 0.5}, {1, 3, 2}), 0.25) == Approx(8 * 4 * 6).epsilon(1e-6)); // single precision
+  CHECK(count(cuboid({100, 2, 0.5}, {103, 3, 2}), 1e-4) == Approx(4.5e12).epsilon(1e-4));
+  CHECK(count(ball(), 0.1) == Approx(double(voxels(ball(), 0.1).cells.size())).epsilon(0.1));
+}

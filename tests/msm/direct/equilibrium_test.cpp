@@ -2,10 +2,13 @@
 
 #include "cases/case/error.hpp"
 #include "msm/direct/direct_system.hpp"
+#include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/little_memory.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <new>
 
 using namespace springproof;
 
@@ -61,4 +64,17 @@ TEST_CASE("one cell pulled along z takes the shape of thesis eqs 5.3 and 5.4", "
     CHECK(1 + corner.y() == Approx(width).epsilon(1e-10));
     CHECK(1 + corner.z() == Approx(height).epsilon(1e-10));
   }
+}
+
+TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium") {
+  const auto solve = [](int n) {
+    cases::Scene scene = cases::make_scene(bodies::clamped_box({n, n, n}, bodies::tensile(0.001)));
+    return msm::Model(scene, {bodies::thesis_cell}, {msm::Path::direct, 1}).solve();
+  };
+  const cases::Solution before = solve(10); // BLAS has its work space from here on
+  {
+    const LittleMemory little(200 << 20); // the factor takes twice as much
+    CHECK_THROWS_AS(solve(24), std::bad_alloc);
+  }
+  CHECK(largest_difference(solve(10), before) == 0);
 }
