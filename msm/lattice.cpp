@@ -94,15 +94,62 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
   return lattice;
 }
 
-double energy(const Lattice& lattice, const Points& positions) {
+namespace {
+
+/// From point i to point j, by positions or by displacements.
+auto between(const Points& positions) {
+  return [&](int i, int j) -> Vector3d { return positions[index(j)] - positions[index(i)]; };
+}
+auto between(const Points& rest, const Points& displacement) {
+  return [&](int i, int j) -> Vector3d {
+    return (rest[index(j)] - rest[index(i)]) + (displacement[index(j)] - displacement[index(i)]);
+  };
+}
+
+/// The vertices of a cell as seen from the first.
+template<class Between>
+CellPositions cell_shape(const VolumeCell& cell, const Between& from_to) {
+  CellPositions x;
+  for (std::size_t v = 0; v < 8; ++v) x[v] = from_to(cell.nodes[0], cell.nodes[v]);
+  return x;
+}
+
+template<class Between>
+double energy_of(const Lattice& lattice, const Between& from_to) {
   double sum = 0;
-  for (const Link& link : lattice.links)
-    sum += spring_energy(positions[index(link.j)] - positions[index(link.i)], link.spring);
+  for (const Link& link : lattice.links) sum += spring_energy(from_to(link.i, link.j), link.spring);
   for (const VolumeCell& cell : lattice.volume_cells) {
-    const double change = trilinear_volume(cell_positions(cell, positions)) / cell.rest_volume - 1;
+    const double change = trilinear_volume(cell_shape(cell, from_to)) / cell.rest_volume - 1;
     sum += 0.5 * cell.stiffness * cell.rest_volume * change * change;
   }
   return sum;
+}
+
+template<class Between>
+Points force_of(const Lattice& lattice, const Between& from_to) {
+  Points force(lattice.rest.size(), Vector3d::Zero());
+  for (const Link& link : lattice.links) {
+    const Vector3d f = spring_force(from_to(link.i, link.j), link.spring);
+    force[index(link.i)] += f;
+    force[index(link.j)] -= f;
+  }
+  for (const VolumeCell& cell : lattice.volume_cells) {
+    const CellPositions x = cell_shape(cell, from_to);
+    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
+    const auto gradient = trilinear_volume_gradient(x);
+    for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
+  }
+  return force;
+}
+
+} // namespace
+
+double energy(const Lattice& lattice, const Points& positions) {
+  return energy_of(lattice, between(positions));
+}
+
+double energy_at(const Lattice& lattice, const Points& displacement) {
+  return energy_of(lattice, between(lattice.rest, displacement));
 }
 
 double small_motion_energy(const Lattice& lattice, const Points& motion) {
@@ -122,19 +169,11 @@ double small_motion_energy(const Lattice& lattice, const Points& motion) {
 }
 
 Points internal_force(const Lattice& lattice, const Points& positions) {
-  Points force(positions.size(), Vector3d::Zero());
-  for (const Link& link : lattice.links) {
-    const Vector3d f = spring_force(positions[index(link.j)] - positions[index(link.i)], link.spring);
-    force[index(link.i)] += f;
-    force[index(link.j)] -= f;
-  }
-  for (const VolumeCell& cell : lattice.volume_cells) {
-    const CellPositions x = cell_positions(cell, positions);
-    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
-    const auto gradient = trilinear_volume_gradient(x);
-    for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
-  }
-  return force;
+  return force_of(lattice, between(positions));
+}
+
+Points internal_force_at(const Lattice& lattice, const Points& displacement) {
+  return force_of(lattice, between(lattice.rest, displacement));
 }
 
 } // namespace springproof::msm

@@ -80,4 +80,9 @@ double small_motion_energy(const Lattice& lattice, const Points& motion);
 /// Internal force on every point, N: minus the gradient of energy().
 Points internal_force(const Lattice& lattice, const Points& positions);
 
+/// The same at a displacement (mm) from rest. Far from the origin positions have lost digits that the
+/// differences of displacements still have: springs of 1 mm in a column of 1 m lose three.
+double energy_at(const Lattice& lattice, const Points& displacement);
+Points internal_force_at(const Lattice& lattice, const Points& displacement);
+
 } // namespace springproof::msm

@@ -136,11 +136,13 @@ class DirectSystem : public SpringSystem {
   Vector residual(const Vector& displacement, double load_factor, mechanics::Expect) override {
     ++work_.force_evaluations;
     return load_factor * load_ +
-           on_free(to_vector(problem_, internal_force(problem_.lattice, positions(displacement))));
+           on_free(
+               to_vector(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement))));
   }
 
   double energy(const Vector& displacement, double load_factor) override {
-    return msm::energy(problem_.lattice, positions(displacement)) - load_factor * load_.dot(displacement);
+    return energy_at(problem_.lattice, to_points(problem_, displacement)) -
+           load_factor * load_.dot(displacement);
   }
 
   std::optional<bool> is_stable(const Vector& displacement) override {
@@ -218,7 +220,7 @@ class DirectSystem : public SpringSystem {
   }
 
   double reaction(const Vector& displacement) override {
-    const Points force = internal_force(problem_.lattice, positions(displacement));
+    const Points force = internal_force_at(problem_.lattice, to_points(problem_, displacement));
     double squared = 0;
     for (std::size_t d = 0; d < problem_.is_constrained.size(); ++d)
       if (problem_.is_constrained[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);

@@ -107,7 +107,7 @@ class Part {
   /// Minus the forces on the points at a displacement, N; of constrained degrees of freedom how far they are
   /// from where they should be, mm. SNES' function: it has the tangent as its derivative.
   void residual(Vec displacement, double load_factor, Vec out) const {
-    const Points internal = internal_force(lattice_, local_positions(displacement));
+    const Points internal = internal_force_at(lattice_, local_displacement(displacement));
     {
       const WriteEntries force(force_.get());
       for (std::size_t p = 0; p < internal.size(); ++p)
@@ -125,7 +125,9 @@ class Part {
 
   void tangent(Vec displacement, Mat matrix) const {
     check(MatZeroEntries(matrix));
-    add_tangent(local_positions(displacement), matrix);
+    Points positions = local_displacement(displacement);
+    for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += lattice_.rest[p];
+    add_tangent(positions, matrix);
     check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
                              nullptr, nullptr));
   }
@@ -191,14 +193,14 @@ class Part {
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
   }
 
-  Points local_positions(Vec displacement) const {
+  Points local_displacement(Vec displacement) const {
     check(VecCopy(displacement, moved_.get()));
     petsc::update_ghosts(moved_.get());
     const ReadEntries entries(moved_.get());
-    Points positions = lattice_.rest;
-    for (std::size_t p = 0; p < positions.size(); ++p)
-      positions[p] += Eigen::Vector3d(entries[3 * p], entries[3 * p + 1], entries[3 * p + 2]);
-    return positions;
+    Points local(lattice_.rest.size());
+    for (std::size_t p = 0; p < local.size(); ++p)
+      local[p] = Eigen::Vector3d(entries[3 * p], entries[3 * p + 1], entries[3 * p + 2]);
+    return local;
   }
 
   /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.

@@ -95,3 +95,17 @@ TEST_CASE("the internal force of a lattice is minus the gradient of its energy")
       CHECK(force[p][a] == Approx(-difference).margin(1e-9)); // N, see h
     }
 }
+
+TEST_CASE("forces by displacements are those by positions, and keep their digits far from the origin") {
+  msm::Lattice here = bodies::masked_lattice(), far = here;
+  for (Vector3d& point : far.rest) point += Vector3d(0, 0, 1 << 20);
+  Points displacement(here.rest.size(), Vector3d::Zero());
+  displacement = bodies::disturbed(displacement, 1e-6);
+  Points positions = here.rest;
+  for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += displacement[p];
+  const Points expected = msm::internal_force_at(here, displacement);
+  const auto norm = [](const Vector3d& force) { return force.norm(); };
+  CHECK(largest_difference(msm::internal_force(here, positions), expected, norm) < 1e-14); // N, of 1e-8
+  CHECK(msm::energy_at(here, displacement) == Approx(msm::energy(here, positions)).epsilon(1e-8));
+  CHECK(largest_difference(msm::internal_force_at(far, displacement), expected, norm) == 0);
+}
