@@ -14,6 +14,12 @@ bool exists(const Shard& shard) {
   return 1 <= shard.index && shard.index <= shard.count && shard.count <= most_shards;
 }
 
+/// 0, which no shard has, for anything else than a number that one may have.
+int shard_number(const nlohmann::json& value) {
+  const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : 0;
+  return 1 <= number && number <= most_shards ? static_cast<int>(number) : 0;
+}
+
 } // namespace
 
 std::optional<Shard> shard_from(const std::string& text) {
@@ -38,7 +44,7 @@ std::string text_of(const ShardRecord& record) {
 ShardRecord record_from(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
   ShardRecord record;
-  record.shard = {json.at("shard").get<int>(), json.at("of").get<int>()};
+  record.shard = {shard_number(json.at("shard")), shard_number(json.at("of"))};
   json.at("command").get_to(record.command);
   json.at("questions").get_to(record.questions);
   json.at("seconds").get_to(record.seconds);
