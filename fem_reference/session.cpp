@@ -1,5 +1,7 @@
 #include "fem_reference/session.hpp"
 
+#include "cases/case/error.hpp"
+#include "fem_reference/petsc_options.hpp"
 #include "mechanics/petsc/handles.hpp"
 
 #include <chrono>
@@ -38,6 +40,10 @@ void reserve_standard_streams() {
 Session::Session() {
   reserve_standard_streams();
   start_alone();
+  unsetenv("PETSC_OPTIONS_YAML");
+  const char* options = std::getenv("PETSC_OPTIONS");
+  refused_option_ = refused_petsc_option(options ? options : "");
+  if (!refused_option_.empty()) unsetenv("PETSC_OPTIONS");
   // The working folder may be a stranger's: its .petscrc is not read. Signals keep their default actions.
   static char name[] = "springproof", no_options_file[] = "-skip_petscrc",
               no_signal_handler[] = "-no_signal_handler";
@@ -48,6 +54,10 @@ Session::Session() {
   libraries_ = std::make_shared<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
   PETSC_STDOUT = stderr; // standard output is the results' alone
   mechanics::petsc::keep_quiet();
+}
+
+void Session::check_options() const {
+  if (!refused_option_.empty()) throw cases::InputError(refused_option_);
 }
 
 int Session::rank() const {

@@ -12,12 +12,16 @@ class Session {
   Session();
   int rank() const; ///< in MPI_COMM_WORLD
 
+  /// @throws cases::InputError if PETSC_OPTIONS has one that is not allowed; then PETSc has got none of them
+  void check_options() const;
+
   /// For a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
   /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
   void give_up(const std::string& message, int status) const;
 
  private:
   std::shared_ptr<void> libraries_;
+  std::string refused_option_;
 };
 
 } // namespace springproof::fem_reference

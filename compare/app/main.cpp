@@ -30,6 +30,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
   std::string message = lost_output;
   int status = wrong_input;
   try {
+    session.check_options();
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;

@@ -113,6 +113,26 @@ TEST_CASE("what PETSc is asked to print does not get into the results") {
   CHECK(nlohmann::json::accept(run.out));
 }
 
+TEST_CASE("options of PETSc that write a file or start a program are refused") {
+  const TemporaryFolder folder;
+  const std::string view = (folder.path / "view").string();
+  for (const std::string& option :
+       {"-log_view :" + view, "-msm_ksp_view ascii:" + view, "-options_file " + view,
+        std::string("-on_error_attach_debugger"), std::string("-ksp_view binary"),
+        std::string("-dll_append x"), "-log_trace " + view}) {
+    const ProgramRun run = run_program("run --only msm " + sheared_cube,
+                                       "cd " + folder.path.string() + " && PETSC_OPTIONS='" + option + "' ");
+    INFO(option);
+    CHECK(run.status == 2);
+    CHECK(run.error.rfind("PETSC_OPTIONS: has '", 0) == 0);
+    CHECK(std::count(run.error.begin(), run.error.end(), '\n') == 1);
+    CHECK(std::filesystem::is_empty(folder.path));
+  }
+  const ProgramRun solver = run_program("run --only msm " + sheared_cube,
+                                        "PETSC_OPTIONS='-msm_ksp_rtol 1e-9 -msm_pc_type gamg -ksp_monitor' ");
+  CHECK(solver.status == 0);
+}
+
 TEST_CASE("options of PETSc in the working folder are not read") {
   const TemporaryFolder folder;
   const std::string view = (folder.path / "view").string();
