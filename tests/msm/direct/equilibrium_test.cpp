@@ -66,7 +66,8 @@ TEST_CASE("one cell pulled along z takes the shape of thesis eqs 5.3 and 5.4", "
   }
 }
 
-TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium") {
+TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium",
+          "[little_memory]") {
   const auto solve = [](int n) {
     cases::Scene scene = cases::make_scene(bodies::clamped_box({n, n, n}, bodies::tensile(0.001)));
     return msm::Model(scene, {bodies::thesis_cell}, {msm::Path::direct, 1}).solve();
