@@ -154,7 +154,7 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
   }
   const auto solution = solve(right_side, forcing * norm(space_, right_side));
   if (!solution) {
-    has_tangent_ = false;
+    forget_tangent();
     return std::nullopt;
   }
   Vector step = Vector::Zero(at.size());

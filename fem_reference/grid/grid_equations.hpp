@@ -34,6 +34,12 @@ class GridEquations : public mechanics::NonlinearProblem {
   Work work() const override { return work_; }
   std::size_t n_unknowns() const override; ///< collective
 
+  /// The next direction is of its own state's tangent, and of nothing that was learnt on the way.
+  void forget_tangent() {
+    has_tangent_ = false;
+    multigrid_.forget();
+  }
+
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
   /// Deformed volumes, mm³, per cell entry of the elements.

@@ -228,6 +228,7 @@ bool GridModel::can_leave_rest() {
   constexpr double part = 1e-6; // of the load: so small that Newton's step is the answer to it
   constexpr double forcing = 1e-3, enough = 0.1;
   const Vector rest = equations.rest();
+  equations.forget_tangent();
   const Vector residual = equations.residual(rest, part, mechanics::Expect::direction);
   const auto step = equations.direction(rest, residual, part, forcing, mechanics::Convexity::exact);
   if (!step) return false;

@@ -152,6 +152,15 @@ void Multigrid::invert_diagonal(Level& level) const {
   });
 }
 
+void Multigrid::forget() {
+  for (Level& level : levels_) {
+    level.largest_eigenvalue = 0;
+    for (Field<float>* field : {&level.solution, &level.residual, &level.correction, &level.product})
+      field->setZero(); // 0 times what is not a number is not 0
+    if (level.rough.size() > 0) fill(level.space, level.rough);
+  }
+}
+
 /// Of the inverse diagonal times the matrix, by the power method; its vector is kept for the next time.
 void Multigrid::estimate_largest_eigenvalue(Level& level) const {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 8;

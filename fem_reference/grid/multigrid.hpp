@@ -20,6 +20,9 @@ class Multigrid {
   /// Assembles the tangent at a state and prepares the cycle.
   void linearise(const double* displacement, const double* pressure);
 
+  /// Drops what a state far off may have left: largest eigenvalues that lead astray, and what is no number.
+  void forget();
+
   /// product = tangent * field, whose ghosts are brought up to date; 0 on constrained entries when they are
   /// left out.
   enum class Rows { free, all };

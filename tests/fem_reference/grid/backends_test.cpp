@@ -207,6 +207,19 @@ TEST_CASE(
   CHECK(std::abs(reached[0] - reached[1]) <= 2. / 512); // two of the smallest load steps
 }
 
+TEST_CASE("a load that cannot be carried is not tried again with a factorisation: the body is to blame") {
+  auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar);
+  definition.body = cases::Box{Vector3d(10, 10, 10), {12, 12, 12}};
+  definition.loads = {traction("z+", {0.3, 0, 0})};
+  try {
+    solve(cases::make_scene(definition), Backend::automatic);
+    FAIL("was carried");
+  } catch (const cases::SolveError& error) {
+    CHECK(error.so_far().linear_iterations > 0);
+    CHECK(error.so_far().factorisations == 0);
+  }
+}
+
 TEST_CASE("the grid's backend knows whether its multigrid serves a body") {
   for (const bool is_compressible : {true, false}) {
     auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar);
@@ -223,7 +236,8 @@ TEST_CASE("a body that the grid's multigrid does not serve is solved by the othe
   definition.region_materials.push_back({cases::LinearElastic{3e7, 0.35}, "", {2, 2, 2}, {6, 6, 6}, {}});
   const cases::Scene scene = cases::make_scene(definition);
   CHECK_THROWS_AS(solve(scene, Backend::grid), cases::SolveError);
-  const cases::Solution found = solve(scene, Backend::automatic), assembled = solve(scene, Backend::assembled);
+  const cases::Solution found = solve(scene, Backend::automatic),
+                        assembled = solve(scene, Backend::assembled);
   CHECK_THAT(found.message, Catch::Contains("by the assembled tangent"));
   CHECK(assembled.message.empty());
   CHECK(found.displacement == assembled.displacement);
