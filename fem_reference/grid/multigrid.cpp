@@ -49,7 +49,8 @@ Multigrid::Multigrid(const Body& body, int n_threads, const mechanics::grid::Che
     const Layout& layout = level.layout();
     level.stencil.resize(index(stencil_row(layout) * layout.nodes[1] * layout.nodes[2]));
     level.inverse_diagonal.resize(index(6 * layout.size));
-    for (Field<float>* field : {&level.solution, &level.residual, &level.correction, &level.product})
+    for (Field<float>* field :
+         {&level.solution, &level.residual, &level.correction, &level.product, &level.rough})
       field->setZero(3 * layout.size);
     if (levels_.size() > 1) level.cell_matrices.resize(index(n_upper * layout.n_cell_entries() + 16));
     const std::array<bool, 3> axes = axes_to_coarsen(cells, spacing);
@@ -155,7 +156,8 @@ void Multigrid::invert_diagonal(Level& level) const {
 void Multigrid::forget() {
   for (Level& level : levels_) {
     level.largest_eigenvalue = 0;
-    for (Field<float>* field : {&level.solution, &level.residual, &level.correction, &level.product})
+    for (Field<float>* field :
+         {&level.solution, &level.residual, &level.correction, &level.product, &level.rough})
       field->setZero(); // 0 times what is not a number is not 0
     if (level.rough.size() > 0) fill(level.space, level.rough);
   }
