@@ -24,7 +24,7 @@ enum class Backend {
 };
 
 /// What `automatic` means for a scene's body and element.
-/// @param n_nodes  of the body's mesh after fem.refine; the scene's own mesh may be without nodes
+/// @param n_nodes  of the elements, after fem.refine; the scene's own mesh may be without nodes
 Backend choose_backend(const cases::Scene& scene, double n_nodes);
 
 /// Whether the assembled backend factorises a tangent of that many nodes.

@@ -7,12 +7,14 @@ namespace springproof::fem_reference {
 
 std::string refused_petsc_option(const std::string& options) {
   static const std::regex is_solvers("-(msm_)?(snes|ksp|pc|mg_levels|mg_coarse|mat_mumps)_[a-z0-9_]+"),
-      tells("-log_view|.*(view|monitor).*"), is_number("[-+]?[0-9.]+([eE][-+]?[0-9]+)?"),
+      tells("-log_view|.*(view|monitor|converged).*"), is_number("[-+]?[0-9.]+([eE][-+]?[0-9]+)?"),
       is_word("[a-z0-9_]+"), // MUMPS' 22 is its factors on disk
       names_a_file(".*(tmpdir|prefix|file|icntl_22).*");
+  constexpr std::size_t longest = 100; // std::regex recurses on every character
   std::istringstream words(options);
   std::string name;
   for (std::string word; words >> word;) {
+    if (word.size() > longest) return "PETSC_OPTIONS: has a word of more than 100 characters, must have none";
     const bool is_value = word.front() != '-' || std::regex_match(word, is_number);
     if (!is_value) name = word;
     const bool may_have_value = !std::regex_match(name, tells);
