@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 
 namespace springproof::msm {
 
@@ -13,11 +14,11 @@ using Eigen::Vector3d;
 
 /// Links between the same two points become one with the sum of their stiffnesses.
 std::vector<Link> merge(std::vector<Link> links) {
-  const auto points = [](const Link& link) { return std::pair(link.i, link.j); };
-  std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return points(a) < points(b); });
+  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.exponent); };
+  std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return kind(a) < kind(b); });
   std::vector<Link> merged;
   for (const Link& link : links) {
-    if (!merged.empty() && points(merged.back()) == points(link))
+    if (!merged.empty() && kind(merged.back()) == kind(link))
       merged.back().spring.stiffness += link.spring.stiffness;
     else
       merged.push_back(link);
@@ -74,19 +75,24 @@ CellPositions cell_positions(const VolumeCell& cell, const Points& positions) {
   return x;
 }
 
+VolumeLaw VolumeCell::law(const CellPositions& x) const {
+  return volume_law(trilinear_volume(x) / rest_volume, is_logarithmic);
+}
+
 Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness) {
   assert(stiffness.size() == 1 || stiffness.size() == mesh.cells.size());
   Lattice lattice;
   lattice.rest = mesh.nodes;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
-    for_each_spring(k, [&](int v, int w, double of_spring) {
+    for_each_spring(k, [&](int v, int w, double of_spring, const std::optional<double>& exponent) {
       const auto [i, j] = std::minmax(mesh.cells[c][index(v)], mesh.cells[c][index(w)]);
-      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0}});
+      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0, exponent}});
     });
     if (k.volume != 0)
-      lattice.volume_cells.push_back(
-          {mesh.cells[c], k.volume, cases::cell_volume(cases::cell_vertices(mesh, c))});
+      lattice.volume_cells.push_back({mesh.cells[c], k.volume,
+                                      cases::cell_volume(cases::cell_vertices(mesh, c)),
+                                      k.exponents.has_value()});
   }
   lattice.links = merge(std::move(lattice.links));
   for (Link& link : lattice.links)
@@ -118,10 +124,8 @@ template<class Between>
 double energy_of(const Lattice& lattice, const Between& from_to) {
   double sum = 0;
   for (const Link& link : lattice.links) sum += spring_energy(from_to(link.i, link.j), link.spring);
-  for (const VolumeCell& cell : lattice.volume_cells) {
-    const double change = trilinear_volume(cell_shape(cell, from_to)) / cell.rest_volume - 1;
-    sum += 0.5 * cell.stiffness * cell.rest_volume * change * change;
-  }
+  for (const VolumeCell& cell : lattice.volume_cells)
+    sum += cell.stiffness * cell.rest_volume * cell.law(cell_shape(cell, from_to)).integral;
   return sum;
 }
 
@@ -135,7 +139,7 @@ Points force_of(const Lattice& lattice, const Between& from_to) {
   }
   for (const VolumeCell& cell : lattice.volume_cells) {
     const CellPositions x = cell_shape(cell, from_to);
-    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
+    const double pressure = cell.stiffness * cell.law(x).pressure;
     const auto gradient = trilinear_volume_gradient(x);
     for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
   }

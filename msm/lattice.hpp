@@ -8,24 +8,35 @@ namespace springproof::msm {
 using Points = std::vector<Eigen::Vector3d>;
 using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j + 4k
 
-/// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
-/// diagonals, and the volume term (k_v/2) V0 (V/V0 - 1)².
-struct CellStiffness {
-  double edge = 0;              ///< k_e, N/mm
-  double face_diagonal = 0;     ///< k_f, N/mm
-  double internal_diagonal = 0; ///< k_d, N/mm
-  double volume = 0;            ///< k_v, MPa
+/// Exponents of power-log springs, by kind.
+struct Exponents {
+  double edge, face_diagonal, internal_diagonal;
 };
 
-/// Calls action(vertex, vertex, stiffness) for the springs of a cell.
+/// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
+/// diagonals, and the volume term; all of them at rest.
+struct CellStiffness {
+  double edge = 0;                      ///< k_e, N/mm
+  double face_diagonal = 0;             ///< k_f, N/mm
+  double internal_diagonal = 0;         ///< k_d, N/mm
+  double volume = 0;                    ///< k_v, MPa
+  std::optional<Exponents> exponents{}; ///< power-log springs and a logarithmic volume term, in place of
+                                        ///< Hooke's springs and the linear one, (k_v/2) V0 (V/V0 - 1)²
+};
+
+/// Calls action(vertex, vertex, stiffness, exponent of the power-log law or none) for the springs of a cell.
 template<class Action>
 void for_each_spring(const CellStiffness& stiffness, const Action& action) {
-  for (const auto& [v, w] : cases::cell_edges) action(v, w, stiffness.edge);
-  for (const auto& [v, w] : cases::cell_face_diagonals) action(v, w, stiffness.face_diagonal);
-  for (const auto& [v, w] : cases::cell_internal_diagonals) action(v, w, stiffness.internal_diagonal);
+  const auto of_kind = [&](const auto& pairs, double k, double Exponents::*kind) {
+    const auto p = stiffness.exponents ? std::optional((*stiffness.exponents).*kind) : std::nullopt;
+    for (const auto& [v, w] : pairs) action(v, w, k, p);
+  };
+  of_kind(cases::cell_edges, stiffness.edge, &Exponents::edge);
+  of_kind(cases::cell_face_diagonals, stiffness.face_diagonal, &Exponents::face_diagonal);
+  of_kind(cases::cell_internal_diagonals, stiffness.internal_diagonal, &Exponents::internal_diagonal);
 }
 
-/// Two points joined by a spring. Springs that cells share are one link with the sum of the cells'
+/// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 struct Link {
   int i, j; ///< i < j
@@ -37,9 +48,14 @@ struct VolumeCell {
   std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
   double stiffness;         ///< k_v, MPa
   double rest_volume;       ///< mm³
+  bool is_logarithmic = false;
+
+  /// Of the cell at these positions.
+  VolumeLaw law(const CellPositions& x) const;
 };
 
-/// A mass-spring body at rest: its points, links and volume terms. Links are sorted by (i, j) and unique.
+/// A mass-spring body at rest: its points, links and volume terms. Links are sorted by (i, j) and unique but
+/// for their law.
 struct Lattice {
   Points rest; ///< mm
   std::vector<Link> links;

@@ -24,11 +24,13 @@ void visit_tangent_blocks(const Lattice& lattice, const Points& positions, Trans
     const CellPositions x = cell_positions(cell, positions);
     const auto gradient = trilinear_volume_gradient(x);
     const auto second = trilinear_volume_second_derivative(x);
-    const double pressure = cell.stiffness * (trilinear_volume(x) / cell.rest_volume - 1);
+    const VolumeLaw law = cell.law(x);
+    const double pressure = cell.stiffness * law.pressure,
+                 slope = cell.stiffness / cell.rest_volume * law.slope;
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b) {
         if (cell.nodes[a] < cell.nodes[b]) continue;
-        Eigen::Matrix3d block = (cell.stiffness / cell.rest_volume) * gradient[a] * gradient[b].transpose();
+        Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
         if (term == TransverseTerm::exact) block += pressure * second[a][b];
         sink(cell.nodes[a], cell.nodes[b], block);
       }

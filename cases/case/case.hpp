@@ -122,6 +122,11 @@ struct Fem {
 
 SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, multi_load, given)
 
+/// Whether a method fits Hooke's springs to curves, so that its stiffnesses are of no other law.
+constexpr bool fits_hooke(Design design) {
+  return design == Design::nonlinear_method || design == Design::multi_load;
+}
+
 /// Homogeneous deformations that the multi-load design is fitted to.
 SPRINGPROOF_ENUMERATION(LoadPath,
                         uniaxial,    ///< along a lattice axis, free sides
@@ -140,6 +145,12 @@ SPRINGPROOF_ENUMERATION(
     snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
 )
 
+/// How a spring's tension follows its stretch q.
+SPRINGPROOF_ENUMERATION(SpringLaw,
+                        hooke,    ///< k l0 (q - 1), and a volume term of pressure k_v (J - 1)
+                        power_log ///< k l0 q^p ln q, and k_v ln J
+)
+
 struct Msm {
   Design design = Design::linear_method;
   Solver solver = Solver::newton;
@@ -147,8 +158,10 @@ struct Msm {
   std::optional<double> split;                    ///< t of the moduli, hybrid and multi_load designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
-  std::vector<LoadPath> paths;                    ///< multi_load; empty: all
-  std::vector<double> weights;                    ///< multi_load; one per path, >= 0; empty: all 1
+  SpringLaw law = SpringLaw::hooke;
+  std::optional<std::array<double, 3>> exponent;     ///< p of edges, face and internal diagonals; power_log
+  std::vector<LoadPath> paths;                       ///< multi_load; empty: all
+  std::vector<double> weights;                       ///< multi_load; one per path, >= 0; empty: all 1
   std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
   std::vector<Doubt> accepted;                       ///< not held against the side

@@ -219,6 +219,29 @@ void read_fit(Table& table, Msm& msm) {
   msm.has_volume_term = volume_term != "none";
 }
 
+/// One exponent for all springs, or one for each kind.
+std::array<double, 3> read_exponent(const Entry& entry) {
+  const std::string wanted = "a number, or three for edges, face and internal diagonals, from -20 to 20";
+  const auto is_allowed = [](double p) { return -20 <= p && p <= 20; };
+  if (entry.node && entry.node->is_array()) {
+    const auto p = Numbers{wanted, 3, is_allowed}(entry);
+    return {p[0], p[1], p[2]};
+  }
+  const double p = Number{wanted, is_allowed}(entry);
+  return {p, p, p};
+}
+
+void read_law(Table& table, Msm& msm) {
+  msm.law = table.optional("law", read_name<SpringLaw>).value_or(SpringLaw::hooke);
+  const bool is_power_log = msm.law == SpringLaw::power_log;
+  table.refuse_unless(is_power_log, {"exponent"}, "left out: it belongs to law = \"power_log\"");
+  if (!is_power_log) return;
+  if (fits_hooke(msm.design))
+    table.entry("law").refuse(
+        fmt::format("\"hooke\" with design = \"{}\", which fits springs of that law", name_of(msm.design)));
+  msm.exponent = read_exponent(table.entry("exponent"));
+}
+
 Msm read_msm(Table& table, const Material& material) {
   Msm msm;
   msm.where = table.where();
@@ -251,6 +274,7 @@ Msm read_msm(Table& table, const Material& material) {
   table.know({"stiffness"});
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
+  read_law(table, msm);
   read_fit(table, msm);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);

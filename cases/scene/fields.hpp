@@ -44,7 +44,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, 
 SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, centre)
 SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_auto_formulation,
                    has_auto_accuracy, accepted, where)
-SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, poissons_ratio, split, stiffness,
+SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poissons_ratio, split, stiffness,
                    volume_stiffness, paths, weights, strain_range, has_volume_term, accepted, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
                    centre, where)

@@ -155,6 +155,8 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
       definition.msm.design = cases::Design::given;
       definition.msm.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
       definition.msm.volume_stiffness = k.volume;
+      definition.msm.law = request.options.law;
+      definition.msm.exponent = request.options.exponent;
       springs.push_back(compare_case(definition, {cases::Side::msm}));
       solves.push_back({test, springs.back()});
     }

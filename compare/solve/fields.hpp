@@ -6,7 +6,8 @@
 /// The fields of answers, for cereal: see cases/mesh/fields.hpp.
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume)
+SPRINGPROOF_FIELDS(springproof::msm::Exponents, edge, face_diagonal, internal_diagonal)
+SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, exponents)
 SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs_modulus, poissons_ratio,
                    shear_modulus)
 SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, warnings, cells)

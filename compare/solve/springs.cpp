@@ -48,8 +48,8 @@ std::vector<msm::CellStiffness> stiffened(std::vector<msm::CellStiffness> spring
   if (springs.size() == 1) springs.resize(mesh.cells.size(), springs.front());
   for (std::size_t c = 0; c < springs.size(); ++c) {
     if (!(cases::centre_of(mesh, mesh.cells[c])[static_cast<int>(stiffer.axis)] > stiffer.beyond)) continue;
-    auto& [edge, face_diagonal, internal_diagonal, volume] = springs[c];
-    for (double* k : {&edge, &face_diagonal, &internal_diagonal, &volume}) *k *= stiffer.factor;
+    msm::CellStiffness& k = springs[c];
+    for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= stiffer.factor;
   }
   return springs;
 }

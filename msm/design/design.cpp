@@ -225,7 +225,12 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
 }
 
 DesignResult design(const DesignRequest& request) {
-  const auto [stiffness, residual] = known_methods.at(request.options.design)(request);
+  const cases::Msm& options = request.options;
+  if (options.exponent && fits_hooke(options.design))
+    refuse(request, fmt::format("design = \"{}\" fits Hooke's springs: law must be \"hooke\"",
+                                name_of(options.design)));
+  auto [stiffness, residual] = known_methods.at(options.design)(request);
+  if (const auto& p = options.exponent) stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
   return {stiffness, residual, lattice_moduli(stiffness, request.cell), examine(stiffness, request.cell)};
 }
 

@@ -26,12 +26,15 @@ struct NodeSpring {
 
 std::vector<NodeSpring> node_springs(const CellStiffness& k, double edge) {
   std::vector<NodeSpring> springs;
-  const auto add = [&](double stiffness, std::initializer_list<Eigen::Vector3d> directions) {
-    for (const Eigen::Vector3d& d : directions) springs.push_back({d, {stiffness, edge * d.norm()}});
+  const auto add = [&](double stiffness, double Exponents::*kind,
+                       std::initializer_list<Eigen::Vector3d> directions) {
+    const auto p = k.exponents ? std::optional((*k.exponents).*kind) : std::nullopt;
+    for (const Eigen::Vector3d& d : directions) springs.push_back({d, {stiffness, edge * d.norm(), p}});
   };
-  add(4 * k.edge, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  add(2 * k.face_diagonal, {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
-  add(k.internal_diagonal, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
+  add(4 * k.edge, &Exponents::edge, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  add(2 * k.face_diagonal, &Exponents::face_diagonal,
+      {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
+  add(k.internal_diagonal, &Exponents::internal_diagonal, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
   return springs;
 }
 
@@ -81,11 +84,12 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
   const double rest_volume = edge * edge * edge;
   const auto gradient = trilinear_volume_gradient(x);
   const auto second = trilinear_volume_second_derivative(x);
-  const double pressure = stiffness.volume * (trilinear_volume(x) / rest_volume - 1);
+  const VolumeLaw law = volume_law(trilinear_volume(x) / rest_volume, stiffness.exponents.has_value());
+  const double pressure = stiffness.volume * law.pressure, slope = stiffness.volume / rest_volume * law.slope;
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t b = 0; b < 8; ++b)
       matrix.block(vertices[b] - vertices[a]) +=
-          stiffness.volume / rest_volume * gradient[a] * gradient[b].transpose() + pressure * second[a][b];
+          slope * gradient[a] * gradient[b].transpose() + pressure * second[a][b];
   return matrix;
 }
 
@@ -133,12 +137,14 @@ double last_stable(double start, double end, const std::function<bool(double)>& 
 double lattice_energy_density(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   double energy = 0;
   for (const auto& [d, spring] : node_springs(stiffness, edge)) energy += spring_energy(edge * f * d, spring);
-  const double dilatation = f.determinant() - 1;
-  return energy / (edge * edge * edge) + 0.5 * stiffness.volume * dilatation * dilatation;
+  return energy / (edge * edge * edge) +
+         stiffness.volume * volume_law(f.determinant(), stiffness.exponents.has_value()).integral;
 }
 
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
-  Eigen::Matrix3d stress = stiffness.volume * (f.determinant() - 1) * cofactor(f);
+  const double pressure =
+      stiffness.volume * volume_law(f.determinant(), stiffness.exponents.has_value()).pressure;
+  Eigen::Matrix3d stress = pressure * cofactor(f);
   for (const auto& [d, spring] : node_springs(stiffness, edge))
     stress += spring_force(edge * f * d, spring) * d.transpose() / (edge * edge);
   return stress;

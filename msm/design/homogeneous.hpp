@@ -8,7 +8,8 @@
 namespace springproof::msm {
 
 /// Energy per rest volume, MPa:
-///   W = (1/h³) sum over the 13 springs of K/2 (|F d| - |d|)² + k_v/2 (det F - 1)²,
+///   W = (1/h³) sum over the 13 springs of K/2 (|F d| - |d|)² + k_v/2 (det F - 1)²
+/// (or the power-log law's integrals),
 /// with assembled K_e = 4 k_e, K_f = 2 k_f, K_d = k_d.  @param edge  h, mm
 double lattice_energy_density(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
 

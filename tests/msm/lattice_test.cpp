@@ -24,6 +24,12 @@ double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
   return 0;
 }
 
+/// Of Hooke's springs, and of power-log ones of three exponents.
+Lattice any_lattice() {
+  return bodies::masked_lattice(GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
+                                         std::optional(msm::Exponents{-1.3, -2, 4.3})));
+}
+
 } // namespace
 
 TEST_CASE("springs shared by cells are one spring with the sum of their stiffnesses") {
@@ -71,7 +77,7 @@ TEST_CASE("cells of different stiffness add what each brings") {
 }
 
 TEST_CASE("a rigid motion of the lattice gives no force") {
-  const Lattice lattice = bodies::masked_lattice();
+  const Lattice lattice = any_lattice();
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(1.9, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   Points moved = lattice.rest;
@@ -82,7 +88,7 @@ TEST_CASE("a rigid motion of the lattice gives no force") {
 }
 
 TEST_CASE("the internal force of a lattice is minus the gradient of its energy") {
-  const Lattice lattice = bodies::masked_lattice();
+  const Lattice lattice = any_lattice();
   const Points at = bodies::disturbed(lattice.rest, 0.2);
   const Points force = msm::internal_force(lattice, at);
   const double h = 1e-6; // mm; the central difference then errs by about 1e-13, its rounding by 1e-10
@@ -94,6 +100,19 @@ TEST_CASE("the internal force of a lattice is minus the gradient of its energy")
       const double difference = (msm::energy(lattice, after) - msm::energy(lattice, before)) / (2 * h);
       CHECK(force[p][a] == Approx(-difference).margin(1e-9)); // N, see h
     }
+}
+
+TEST_CASE("springs of different laws between the same points stay apart") {
+  msm::CellStiffness hooke = bodies::cell(1, 2, 3), power_log = hooke, other = hooke;
+  power_log.exponents = {-1, -1, -1};
+  other.exponents = {-1, -1, 2};
+  const auto n_links = [](const msm::CellStiffness& left, const msm::CellStiffness& right) {
+    return msm::make_lattice(cases::make_box_mesh({2, 1, 1}, {{2, 1, 1}}), {left, right}).links.size();
+  };
+  const std::size_t shared = 4 + 2; // edges and diagonals of the face between the two cells
+  CHECK(n_links(hooke, hooke) == 2 * 28 - shared);
+  CHECK(n_links(power_log, other) == 2 * 28 - shared); // internal diagonals are of one cell
+  CHECK(n_links(hooke, power_log) == 2 * 28);
 }
 
 TEST_CASE("forces by displacements are those by positions, and keep their digits far from the origin") {

@@ -13,6 +13,7 @@ using msm::TransverseTerm;
 namespace {
 
 const Spring spring{2.5, 1.3};
+const Spring springs[] = {spring, {2.5, 1.3, -1.5}, {2.5, 1.3, -1}, {2.5, 1.3, -1 + 1e-5}, {2.5, 1.3, 1.788}};
 const Vector3d stretched(1.1, -0.7, 0.9);
 const Vector3d compressed(0.6, 0.3, -0.5);
 constexpr double h = 1e-6; // mm; the central difference then errs by about 1e-12 and its rounding by 1e-10
@@ -27,25 +28,70 @@ TEST_CASE("a stretched spring pulls its ends together and a compressed one pushe
 }
 
 TEST_CASE("the force of a spring is the derivative of its energy") {
-  for (const Vector3d& d : {stretched, compressed})
-    for (int a = 0; a < 3; ++a) {
-      const Vector3d step = h * Vector3d::Unit(a);
-      const double difference =
-          (msm::spring_energy(d + step, spring) - msm::spring_energy(d - step, spring)) / (2 * h);
-      CHECK(msm::spring_force(d, spring)[a] == Approx(difference).margin(1e-9)); // see h
-    }
+  for (const Spring& of : springs)
+    for (const Vector3d& d : {stretched, compressed})
+      for (int a = 0; a < 3; ++a) {
+        const Vector3d step = h * Vector3d::Unit(a);
+        const double difference =
+            (msm::spring_energy(d + step, of) - msm::spring_energy(d - step, of)) / (2 * h);
+        CHECK(msm::spring_force(d, of)[a] == Approx(difference).margin(1e-9)); // see h
+      }
 }
 
 TEST_CASE("the stiffness of a spring is the derivative of its force") {
-  for (const Vector3d& d : {stretched, compressed}) {
-    const Matrix3d stiffness = msm::spring_stiffness(d, spring, TransverseTerm::exact);
-    for (int a = 0; a < 3; ++a) {
-      const Vector3d step = h * Vector3d::Unit(a);
-      const Vector3d difference =
-          (msm::spring_force(d + step, spring) - msm::spring_force(d - step, spring)) / (2 * h);
-      CHECK((stiffness.col(a) - difference).norm() < 1e-9); // see h
+  for (const Spring& of : springs)
+    for (const Vector3d& d : {stretched, compressed}) {
+      const Matrix3d stiffness = msm::spring_stiffness(d, of, TransverseTerm::exact);
+      for (int a = 0; a < 3; ++a) {
+        const Vector3d step = h * Vector3d::Unit(a);
+        const Vector3d difference =
+            (msm::spring_force(d + step, of) - msm::spring_force(d - step, of)) / (2 * h);
+        CHECK((stiffness.col(a) - difference).norm() < 1e-9); // see h
+      }
     }
+}
+
+TEST_CASE("a power-log spring has the stiffness of Hooke's at rest, and the curvature of its exponent") {
+  for (const double p : {-1.5, -1., 0., 4.273}) {
+    const Spring of{2.5, 1.3, p};
+    const auto [along, transverse] = msm::spring_slopes(1.3, of);
+    CHECK(along == Approx(2.5).epsilon(1e-14));
+    CHECK(transverse == 0);
+    const double step = 1e-4, curvature = (msm::spring_slopes(1.3 + step, of).along -
+                                           msm::spring_slopes(1.3 - step, of).along) /
+                                          (2 * step);
+    CHECK(curvature == Approx((2 * p - 1) * 2.5 / 1.3).epsilon(1e-6)); // the difference errs by step²
   }
+}
+
+TEST_CASE("the energy of a power-log spring is one function of its exponent") {
+  const double q = 1.7, log = std::log(q);
+  for (const double s : {-2.5, -0.5, 0.5, 3.}) // where the closed form has its digits
+    CHECK(msm::power_log_integral(log, s - 1) ==
+          Approx((std::pow(q, s) * (s * log - 1) + 1) / (s * s)).epsilon(1e-13));
+  CHECK(msm::power_log_integral(log, -1) == Approx(log * log / 2).epsilon(1e-15));
+  for (const double s : {1 / log, -1 / log}) // series and closed form meet
+    CHECK(msm::power_log_integral(log, s * (1 - 1e-12) - 1) ==
+          Approx(msm::power_log_integral(log, s * (1 + 1e-12) - 1)).epsilon(1e-11));
+}
+
+TEST_CASE("the energy of a power-log spring next to rest keeps its digits") {
+  const Spring of{2.5, 1.3, 1.788};
+  for (const double strain : {1e-9, -1e-7, 1e-5}) {
+    const double d = 1.3 * strain,
+                 curved = (2 * 1.788 - 1) / 3 * strain; // k d²/2 (1 + (2p - 1) strain/3 + ...)
+    // the length has 1e-16 of itself
+    CHECK(msm::spring_energy({0, 0, 1.3 + d}, of) ==
+          Approx(1.25 * d * d * (1 + curved)).epsilon(4e-16 / std::abs(strain) + strain * strain * 10));
+  }
+}
+
+TEST_CASE("the clamped stiffness of a spring that has passed its largest tension is not negative") {
+  const Spring of{2.5, 1.3, -2}; // its largest tension is at ln q = 1/2
+  const Vector3d far(0, 0, 3);
+  CHECK(msm::spring_slopes(3, of).along < 0);
+  CHECK(Eigen::SelfAdjointEigenSolver<Matrix3d>(msm::spring_stiffness(far, of, TransverseTerm::clamped))
+            .eigenvalues()[0] >= 0);
 }
 
 TEST_CASE(

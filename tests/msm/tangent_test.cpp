@@ -27,7 +27,9 @@ VectorXd flat(const Points& points) {
 } // namespace
 
 TEST_CASE("the tangent of a lattice is minus the derivative of its internal force") {
-  const Lattice lattice = bodies::masked_lattice();
+  const bool is_power_log = GENERATE(false, true);
+  const Lattice lattice =
+      bodies::masked_lattice(is_power_log ? std::optional(msm::Exponents{-1.3, -2, 4.3}) : std::nullopt);
   const Points at = bodies::disturbed(lattice.rest, 0.2);
   Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
   const MatrixXd matrix = full(tangent.assemble(at, TransverseTerm::exact));

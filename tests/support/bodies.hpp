@@ -70,8 +70,10 @@ inline cases::Grid masked_grid() {
   return grid;
 }
 
-inline msm::Lattice masked_lattice() {
-  return msm::make_lattice(cases::make_grid_mesh(masked_grid()), {cell(31, 47, 33, 0.14)});
+inline msm::Lattice masked_lattice(const std::optional<msm::Exponents>& exponents = {}) {
+  msm::CellStiffness springs = cell(31, 47, 33, 0.14);
+  springs.exponents = exponents;
+  return msm::make_lattice(cases::make_grid_mesh(masked_grid()), {springs});
 }
 
 /// Points moved by up to `size` mm, the same ones in every run.

@@ -165,5 +165,28 @@ TEST_CASE("a mistake in [msm] is refused where it is made") {
        "msm.poissons_ratio",
        {"left out"}},
       {msm, "design = 'hybrid'\npoissons_ratio = 0.2\n", 23, "msm.design", {"0.25 and more", "0.2"}},
+      {"split = 0.8", "law = 'power'", 25, "msm.law", {"\"hooke\"", "\"power_log\""}},
+      {"split = 0.8", "law = 'power_log'", 22, "msm.exponent", {"is missing", "a number, or three"}},
+      {"split = 0.8", "exponent = -1.5", 25, "msm.exponent", {"left out", "law = \"power_log\""}},
+      {"split = 0.8", "law = 'hooke'\nexponent = 1", 26, "msm.exponent", {"left out", "law = \"power_log\""}},
+      {"split = 0.8", "law = 'power_log'\nexponent = nan", 26, "msm.exponent", {"is nan", "from -20 to 20"}},
+      {"split = 0.8", "law = 'power_log'\nexponent = [1, 2]", 26, "msm.exponent", {"is [1, 2]", "three"}},
+      {"split = 0.8", "law = 'power_log'\nexponent = [1, 2, 21]", 26, "msm.exponent", {"from -20 to 20"}},
+      {"design = 'moduli'",
+       "design = 'multi_load'\nlaw = 'power_log'\nexponent = -1",
+       24,
+       "msm.law",
+       {"\"hooke\" with design = \"multi_load\""}},
   });
+}
+
+TEST_CASE("an exponent is one number for all springs or one for each kind") {
+  const auto read = [](const std::string& lines) {
+    return read_case_text(replaced(good_case, "split = 0.8", lines), "case.toml").msm;
+  };
+  CHECK(read("split = 0.8").law == SpringLaw::hooke);
+  CHECK_FALSE(read("split = 0.8").exponent);
+  CHECK(read("law = 'power_log'\nexponent = -1.5").law == SpringLaw::power_log);
+  CHECK(read("law = 'power_log'\nexponent = -1.5").exponent == std::array{-1.5, -1.5, -1.5});
+  CHECK(read("law = 'power_log'\nexponent = [-1.3, -2, 2]").exponent == std::array{-1.3, -2., 2.});
 }

@@ -2,6 +2,7 @@
 
 #include "msm/design/lattice_moduli.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
@@ -11,6 +12,7 @@ namespace {
 
 const msm::CellStiffness plain_springs = {0.031, 0.047, 0.033, 0};
 const msm::CellStiffness springs_and_volume = {0.05, 0.01, 0.04, 0.3};
+const msm::CellStiffness power_log = {0.05, 0.01, 0.04, 0.3, msm::Exponents{-1.3, -2, 1.8}};
 const double cell_edge = 1.3;
 
 Eigen::Matrix3d some_deformation() {
@@ -22,7 +24,7 @@ Eigen::Matrix3d some_deformation() {
 } // namespace
 
 TEST_CASE("a lattice block's energy per volume is the closed form", "[verification]") {
-  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume}) {
+  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume, power_log}) {
     const int n = 3;
     const msm::Lattice lattice = msm::make_lattice(
         cases::make_box_mesh(Eigen::Vector3d::Constant(n * cell_edge), {{n, n, n}}), {stiffness});
@@ -36,7 +38,7 @@ TEST_CASE("a lattice block's energy per volume is the closed form", "[verificati
 
 TEST_CASE("the lattice's stress is the derivative of its energy", "[verification]") {
   const Eigen::Matrix3d f = some_deformation();
-  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume}) {
+  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume, power_log}) {
     const Eigen::Matrix3d stress = msm::lattice_stress(stiffness, cell_edge, f);
     const double h = 1e-5;
     for (int i = 0; i < 3; ++i)
@@ -49,6 +51,54 @@ TEST_CASE("the lattice's stress is the derivative of its energy", "[verification
                              (2 * h);
         CHECK(slope == Approx(stress(i, j)).margin(1e-8)); // h² and round-off / h of energies near 0.1 MPa
       }
+  }
+}
+
+TEST_CASE("homogeneous energy and stress of power-log springs turn with the lattice") {
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(1.9, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d f = some_deformation();
+  CHECK(msm::lattice_energy_density(power_log, cell_edge, rotation * f) ==
+        Approx(msm::lattice_energy_density(power_log, cell_edge, f)).epsilon(1e-13)); // rounding
+  CHECK((msm::lattice_stress(power_log, cell_edge, rotation * f) -
+         rotation * msm::lattice_stress(power_log, cell_edge, f))
+            .norm() < 1e-15);
+}
+
+namespace {
+
+/// c of the nominal stress E (e + c e² + ...) along a lattice axis with free sides.
+double second_order_coefficient(const msm::CellStiffness& stiffness) {
+  const double e = 1e-3;
+  const auto stress = [&](double strain) {
+    const double lateral = msm::free_lateral_stretch(stiffness, 1, 1 + strain);
+    return msm::lattice_stress(stiffness, 1, Eigen::Vector3d(lateral, lateral, 1 + strain).asDiagonal())(2,
+                                                                                                         2);
+  };
+  return (stress(e) + stress(-e)) / (stress(e) - stress(-e)) / e;
+}
+
+} // namespace
+
+TEST_CASE("power-log springs curve the uniaxial stress as an independent program finds it",
+          "[verification]") {
+  // Cauchy stress E ln(stretch), contraction nu ln(stretch): c = -(1/2 + 2 nu). The exponents that give it
+  // were found by root search elsewhere, for springs with a volume term of the material's moduli and t = 0.8.
+  const std::pair<double, double> found[] = {
+      {0.25, -1.380}, {0.3, -1.443}, {0.35, -1.485}, {0.45, -1.522}, {0.49, -1.528}};
+  const auto with = [](double nu, double p) {
+    const double mu = 1 / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu), t = 0.8;
+    return msm::CellStiffness{(1 + t) * mu / 4, (1 - t) * mu / 2, 0.75 * t * mu, lambda - mu,
+                              msm::Exponents{p, p, p}};
+  };
+  for (const auto& [nu, p] : found) {
+    const double c = second_order_coefficient(with(nu, p));
+    CHECK(c ==
+          Approx(-(0.5 + 2 * nu)).margin(1.5e-3)); // p has three decimals, c grows by 1.4 to 2 times as much
+    // linear in p
+    const double low = second_order_coefficient(with(nu, -2)), high = second_order_coefficient(with(nu, 2));
+    CHECK(second_order_coefficient(with(nu, 0)) ==
+          Approx((low + high) / 2).margin(1e-4)); // e² of the differences
   }
 }
 
