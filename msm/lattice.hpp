@@ -11,6 +11,10 @@ using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j
 /// Exponents of power-log springs, by kind.
 struct Exponents {
   double edge, face_diagonal, internal_diagonal;
+  bool operator==(const Exponents& other) const {
+    return edge == other.edge && face_diagonal == other.face_diagonal &&
+           internal_diagonal == other.internal_diagonal;
+  }
 };
 
 /// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal

@@ -15,13 +15,15 @@ namespace {
 constexpr std::size_t most_factorised = 40000;
 
 bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
-  const auto is_another = [](const CellStiffness& k) {
-    return k.exponents || k.edge < 0 || k.face_diagonal < 0 || k.internal_diagonal < 0 || k.volume < 0;
+  const auto is_another = [&](const CellStiffness& k) {
+    return !(k.exponents == stiffness.front().exponents) || k.edge < 0 || k.face_diagonal < 0 ||
+           k.internal_diagonal < 0 || k.volume < 0;
   };
   const bool can = scene.mesh.grid && std::none_of(stiffness.begin(), stiffness.end(), is_another);
   if (wanted == Path::multigrid && !can)
-    throw cases::InputError("the multigrid path needs a body that is a grid of cells, Hooke's springs, and "
-                            "no negative stiffness");
+    throw cases::InputError(
+        "the multigrid path needs a body that is a grid of cells, springs of one law, and "
+        "no negative stiffness");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   const std::size_t n_nodes = scene.mesh.nodes.size();
   if (can && scene.mesh.grid->slenderness() > cases::Grid::thin && n_nodes <= most_factorised) return false;

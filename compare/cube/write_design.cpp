@@ -30,6 +30,10 @@ std::array<double, 3> newton_per_metre(const msm::CellStiffness& k) {
   return {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
 }
 
+std::array<double, 3> exponents_of(const msm::Exponents& p) {
+  return {p.edge, p.face_diagonal, p.internal_diagonal};
+}
+
 /// For either load set a column per measure, then what they come to.
 void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
   for (const auto& [name, load_set] :
@@ -77,6 +81,8 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   const msm::LatticeModuli& m = design.moduli;
   fmt::print(out, "{}\n  k_e, k_f, k_d    {:.6g} N/m\n", attempt.name, fmt::join(newton_per_metre(k), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
+  if (k.exponents)
+    fmt::print(out, "  exponents        {:.6g}\n", fmt::join(exponents_of(*k.exponents), ", "));
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
   fmt::print(out, "  lattice          C11 {:.6g}, C12 {:.6g}, C44 {:.6g} MPa, Zener ratio {:.4f}\n", m.c11,
              m.c12, m.c44, m.zener);
@@ -137,6 +143,7 @@ Json attempt_to_json(const DesignAttempt& attempt) {
                   {"shear_modulus", m.shear_modulus}}},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
+  if (design.stiffness.exponents) document["exponents"] = exponents_of(*design.stiffness.exponents);
   if (attempt.stability) {
     document["stability"] = range_to_json(*attempt.stability);
     document["stability"]["searched"] = range_to_json(msm::search_ends);

@@ -51,6 +51,7 @@ std::optional<Body> coarsen(const Body& fine) {
     if (fine.cells[a] > 2) smallest = std::min(smallest, fine.spacing[static_cast<int>(a)]);
   if (std::isinf(smallest)) return std::nullopt;
   Body coarse;
+  coarse.exponents = fine.exponents;
   std::array<int, 3> factor;
   bool divides = true;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -3,6 +3,7 @@
 #include "mechanics/grid/field.hpp"
 #include "msm/grid/kernels.hpp"
 #include "msm/grid/part.hpp"
+#include "msm/lattice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -42,6 +43,7 @@ struct Body {
   std::vector<std::ptrdiff_t> constrained; ///< entries of a field that never change: constrained dofs, and
                                            ///< entries without a cell. Sorted.
   std::optional<Part> part{};              ///< set when other ranks have the rest of the grid
+  std::optional<Exponents> exponents{};    ///< of power-log springs; none: Hooke's
 
   bool is_uniform() const { return springs.size() == 1; }
   const CellSprings& cell(int i, int j, int k) const;

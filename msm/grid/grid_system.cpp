@@ -252,6 +252,7 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
   Body& body = result.body;
   body.cells = grid.cells;
   body.spacing = grid.spacing;
+  body.exponents = stiffness.front().exponents;
   if (grid.present.empty() && stiffness.size() == 1) {
     body.springs = {cell_springs(stiffness.front())};
   } else {

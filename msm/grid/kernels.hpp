@@ -45,6 +45,8 @@ struct Springs {
   Real rest[n_springs][3];     ///< from a node to its neighbour at rest
   Real rest_length[n_springs]; ///< length of that
   Real stiffness[n_springs];   ///< of one cell's spring; of 1 where `by_node` gives the stiffness
+  bool is_power_log;        ///< power-log springs and logarithmic volume terms; else Hooke's and linear ones
+  Real exponent[n_springs]; ///< of power-log springs
   /// Without holes: number of cells that share a spring is share[dy + 1][dx + 1] of its node's place in the
   /// plane times share_z[k][dz + 1]. Arrays of layout.plane from the first node of a plane on, 0 for ghosts.
   const Real* share;

@@ -122,9 +122,9 @@ SPRINGPROOF_INLINE void store(Real* b, std::ptrdiff_t i, const Vec<Real> (&f)[8]
   }
 }
 
-template<class Real>
-void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* force) {
-  const Real rest_volume = s.rest_volume;
+template<class Real, class Law>
+void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
+                  Real* force) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k);
 #pragma GCC ivdep
@@ -132,7 +132,7 @@ void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* di
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
-      const Real pressure = cells.stiffness[i] * (volume(x, g) - rest_volume);
+      const Real pressure = law.pressure(volume(x, g), cells.stiffness[i]);
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
       store(b, i, g);
@@ -141,11 +141,10 @@ void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Real* di
   sweep_cells(s, slab, action, force);
 }
 
-/// k_v/V0 g (g . v) + p (change of g along v), the second part only where the tangent is not clamped.
-template<class Real, Clamp clamp>
-void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement,
+/// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped.
+template<Clamp clamp, class Real, class Law>
+void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
                     const Real* direction, Real* product) {
-  const Real rest_volume = s.rest_volume;
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
 #pragma GCC ivdep
@@ -157,14 +156,15 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* 
       Real change = 0; // the gradients of a cell sum to 0: y may be taken from the first vertex
 #pragma GCC unroll 8
       for (int v = 1; v < 8; ++v) change += dot(g[v], y[v]);
-      change *= -cells.stiffness[i]; // sweep_cells subtracts
-      const Real pressure = cells.stiffness[i] * (rest_volume - volume(x, g));
+      const Real size = volume(x, g), stiffness = cells.stiffness[i];
+      change *= -law.template volume_slope<clamp>(size, stiffness); // sweep_cells subtracts
+      const Real pressure = clamp == Clamp::no ? -law.pressure(size, stiffness) : Real(0);
 #pragma GCC unroll 8
-      for (int v = 0; v < 8; ++v) {
+      for (int a = 0; a < 8; ++a) {
         if constexpr (clamp == Clamp::no)
-          f[v] = change * g[v] + pressure * volume_gradient_change(x, y, v);
+          f[a] = change * g[a] + pressure * volume_gradient_change(x, y, a);
         else
-          f[v] = change * g[v];
+          f[a] = change * g[a];
       }
       store(b, i, f);
     }

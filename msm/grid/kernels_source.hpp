@@ -13,6 +13,10 @@ namespace {
 
 #include "msm/grid/kernels_packs.hpp"
 
+#include "msm/grid/kernels_logarithm.hpp"
+
+#include "msm/grid/kernels_laws.hpp"
+
 #include "msm/grid/kernels_springs.hpp"
 
 #include "msm/grid/kernels_cells.hpp"
@@ -21,27 +25,33 @@ namespace {
 
 template<class Real>
 void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* result) {
-  sweep_springs(s, slab, Force<Real>{}, displacement, displacement, result);
-  if (s.volume_stiffness) volume_force(s, slab, displacement, result);
+  const auto sweep = [&](const auto& law, const auto& action) {
+    sweep_springs(s, slab, action, displacement, displacement, result);
+    if (s.volume_stiffness) volume_force(s, slab, law, displacement, result);
+  };
+  if (s.is_power_log)
+    sweep(PowerLog<Real>(s), PowerLogForce<Real>{PowerLog<Real>(s)});
+  else
+    sweep(Hooke<Real>{s}, Force<Real>{});
 }
 
 template<class Real, Clamp clamp>
 void product_with(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement,
                   const Real* direction, Real* result) {
-  sweep_springs(s, slab, Product<Real, clamp>{}, displacement, direction, result);
-  if (s.volume_stiffness) volume_product<Real, clamp>(s, slab, displacement, direction, result);
+  const auto sweep = [&](const auto& law, const auto& action) {
+    sweep_springs(s, slab, action, displacement, direction, result);
+    if (s.volume_stiffness) volume_product<clamp>(s, slab, law, displacement, direction, result);
+  };
+  if (s.is_power_log)
+    sweep(PowerLog<Real>(s), PowerLogProduct<Real, clamp>{PowerLog<Real>(s)});
+  else
+    sweep(Hooke<Real>{s}, Product<Real, clamp>{});
 }
 template<class Real>
 void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
              const Real* direction, Real* result) {
   const auto& run = clamp == Clamp::yes ? product_with<Real, Clamp::yes> : product_with<Real, Clamp::no>;
   run(s, slab, displacement, direction, result);
-}
-
-/// 1/|d|.
-template<class Real>
-SPRINGPROOF_INLINE Real inverse_length(Real squared) {
-  return inverse_root(squared > Real(1e-30) ? squared : Real(1e-30));
 }
 
 /// One spring of every node of plane k, for loops that the compiler turns into packs.
@@ -67,8 +77,8 @@ SPRINGPROOF_INLINE PlaneOfSprings<Real> plane_of_springs(const Springs<Real>& s,
           in_plane};
 }
 
-template<class Real>
-double energy(const Springs<Real>& s, int first, int last, const Real* displacement) {
+template<class Real, class Law>
+double energy_with(const Springs<Real>& s, const Law& law, int first, int last, const Real* displacement) {
   const Layout& layout = s.layout;
   const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
   double total = 0;
@@ -76,12 +86,10 @@ double energy(const Springs<Real>& s, int first, int last, const Real* displacem
     for (int spring = 0; spring < n_springs; ++spring) {
       if (k + spring_steps[spring][2] == layout.nodes[2]) continue;
       const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
-      const Real l0 = s.rest_length[spring];
       Real sum = 0;
       for (std::ptrdiff_t i = 0; i < n; ++i) {
         const Vec<Real> d = springs.at(i);
-        const Real squared = dot(d, d), elongation = squared * inverse_length(squared) - l0;
-        sum += s.counted[i] * springs.share.share[i] * elongation * elongation;
+        sum += law.twice_energy(dot(d, d), s.counted[i] * springs.share.share[i], spring);
       }
       total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum);
     }
@@ -92,19 +100,23 @@ double energy(const Springs<Real>& s, int first, int last, const Real* displacem
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
-      const Real change = volume(x, g) - s.rest_volume;
-      sum += s.counted[i] * cells.stiffness[i] * change * change;
+      sum += law.twice_volume_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
     }
     total += 0.5 * static_cast<double>(sum);
   }
   return total;
 }
 
-/// Blocks of the springs: t I + (k - t) d d^T/|d|² with t = k (1 - l0/|d|), to both ends. Not the
-/// time-critical one: the ends get theirs one spring at a time.
 template<class Real>
-void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
-              Real* result) {
+double energy(const Springs<Real>& s, int first, int last, const Real* displacement) {
+  return s.is_power_log ? energy_with(s, PowerLog<Real>(s), first, last, displacement)
+                        : energy_with(s, Hooke<Real>{s}, first, last, displacement);
+}
+
+/// Blocks of the springs to both ends. Not the time-critical one: the ends get theirs one spring at a time.
+template<Clamp clamp, class Real, class Law>
+void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
+                   Real* result) {
   const Layout& layout = s.layout;
   const auto clear = [](Real* begin, std::ptrdiff_t n) {
     for (std::ptrdiff_t i = 0; i < n; ++i) begin[i] = 0;
@@ -114,7 +126,6 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
           layout.plane * (slab.last - slab.first));
     clear(slab.spill + c * layout.plane, layout.plane);
   }
-  const Real least = clamp == Clamp::yes ? Real(0) : Real(-1e30);
   const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
   Real* const b = slab.scratch;
   for (int k = slab.first; k < slab.last; ++k) {
@@ -122,17 +133,13 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
       const int dz = spring_steps[spring][2];
       if (k + dz == layout.nodes[2]) continue;
       const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
-      const Real l0 = s.rest_length[spring];
       for (std::ptrdiff_t first = 0; first < n; first += block) {
         const std::ptrdiff_t length = first + block < n ? block : n - first;
 #pragma GCC ivdep
         for (std::ptrdiff_t i = 0; i < length; ++i) {
           const Vec<Real> d = springs.at(first + i);
           const Real stiffness = springs.share.scale * springs.share.share[first + i];
-          const Real inverse = inverse_length(dot(d, d));
-          Real t = stiffness * (Real(1) - l0 * inverse);
-          t = t > least * stiffness ? t : least * stiffness;
-          const Real along = (stiffness - t) * inverse * inverse;
+          const auto [t, along] = law.template slopes<clamp>(dot(d, d), stiffness, spring);
           b[i] = t + along * d.x * d.x;
           b[i + block] = t + along * d.y * d.y;
           b[i + 2 * block] = t + along * d.z * d.z;
@@ -155,15 +162,31 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
+      const Real slope = law.template volume_slope<clamp>(volume(x, g), cells.stiffness[i]);
       for (int v = 0; v < 8; ++v) {
         const Real products[6] = {g[v].x * g[v].x, g[v].y * g[v].y, g[v].z * g[v].z,
                                   g[v].y * g[v].z, g[v].x * g[v].z, g[v].x * g[v].y};
         for (int c = 0; c < 6; ++c)
           result_plane(layout, slab, result, k + (v >> 2), c)[i + (v & 1) + ((v >> 1) & 1) * layout.row] +=
-              cells.stiffness[i] * products[c];
+              slope * products[c];
       }
     }
   }
+}
+
+template<class Real>
+void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
+              Real* result) {
+  const auto with = [&](const auto& law) {
+    if (clamp == Clamp::yes)
+      diagonal_with<Clamp::yes>(s, slab, law, displacement, result);
+    else
+      diagonal_with<Clamp::no>(s, slab, law, displacement, result);
+  };
+  if (s.is_power_log)
+    with(PowerLog<Real>(s));
+  else
+    with(Hooke<Real>{s});
 }
 
 template<class Real>

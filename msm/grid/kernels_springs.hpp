@@ -23,7 +23,8 @@ SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
-// direction, k and k l0: the first end receives the result and the second one its opposite.
+// direction, k, k l0 and the spring's place among the 13: the first end receives the result and the second
+// one its opposite.
 
 /// 1/|d|. A ghost may lie where a node is: hence the 1e-30.
 template<class P>
@@ -37,7 +38,8 @@ template<class Real>
 struct Force {
   using P = Pack<Real>;
   static constexpr bool needs_direction = false;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P& k_rest) const {
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P& k_rest,
+                                       int) const {
     return (k - k_rest * inverse_length(d)) * d;
   }
 };
@@ -48,13 +50,36 @@ template<class Real, Clamp clamp>
 struct Product {
   using P = Pack<Real>;
   static constexpr bool needs_direction = true;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k,
-                                       const P& k_rest) const {
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, const P& k_rest,
+                                       int) const {
     const P inverse = inverse_length(d);
     P t = k - k_rest * inverse;
     if constexpr (clamp == Clamp::yes) t = t > Real(0) ? t : P{};
     const P along = (t - k) * (dot(d, change) * (inverse * inverse));
     return along * d - t * change;
+  }
+};
+
+template<class Real>
+struct PowerLogForce {
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = false;
+  PowerLog<Real> law;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P&,
+                                       int spring) const {
+    return law.transverse(dot(d, d), k, spring) * d;
+  }
+};
+
+template<class Real, Clamp clamp>
+struct PowerLogProduct {
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = true;
+  PowerLog<Real> law;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, const P&,
+                                       int spring) const {
+    const Slopes<P> slopes = law.template slopes<clamp>(dot(d, d), k, spring);
+    return (-slopes.along * dot(d, change)) * d - slopes.transverse * change;
   }
 };
 
@@ -151,8 +176,8 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
-  const Vec<P> f =
-      action(d, change, load(stiffness + spring * lanes), load(stiffness + (n_springs + spring) * lanes));
+  const Vec<P> f = action(d, change, load(stiffness + spring * lanes),
+                          load(stiffness + (n_springs + spring) * lanes), spring);
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
   // Rows are swept upwards: nothing has come before to the row and plane after the senders'.

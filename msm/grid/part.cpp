@@ -7,6 +7,7 @@ namespace springproof::msm::grid {
 Body cut_out(const Body& whole, const std::array<int, 3>& first, const std::array<int, 3>& last) {
   Body here;
   here.spacing = whole.spacing;
+  here.exponents = whole.exponents;
   Part part;
   std::array<int, 3> n_nodes;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -20,6 +20,11 @@ double stiffness_along(const CellSprings& cell, const int (&step)[3]) {
   return cell.edge[x ? 0 : y ? 1 : 2];
 }
 
+double exponent_along(const Exponents& exponents, const int (&step)[3]) {
+  const int n_axes = (step[0] != 0) + (step[1] != 0) + (step[2] != 0);
+  return n_axes == 1 ? exponents.edge : n_axes == 2 ? exponents.face_diagonal : exponents.internal_diagonal;
+}
+
 } // namespace
 
 template<class Real>
@@ -27,11 +32,14 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     : body_(body), n_threads_(n_threads), springs_{} {
   springs_.layout = body.layout;
   springs_.rest_volume = static_cast<Real>(body.spacing.prod());
+  springs_.is_power_log = body.exponents.has_value();
   for (int s = 0; s < n_springs; ++s) {
     const Eigen::Vector3d rest =
         Eigen::Map<const Eigen::Vector3i>(spring_steps[s]).cast<double>().cwiseProduct(body.spacing);
     Eigen::Map<Eigen::Matrix<Real, 3, 1>>(springs_.rest[s]) = rest.cast<Real>();
     springs_.rest_length[s] = static_cast<Real>(rest.norm());
+    if (body.exponents)
+      springs_.exponent[s] = static_cast<Real>(exponent_along(*body.exponents, spring_steps[s]));
   }
   if (body.is_uniform())
     set_shares();

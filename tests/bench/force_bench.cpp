@@ -44,9 +44,10 @@ void grid_force(benchmark::State& state) {
 BENCHMARK_TEMPLATE(grid_force, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_force, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
 
-template<class Real>
+template<class Real, bool is_power_log = false>
 void grid_product(benchmark::State& state) {
-  const Body body = compare::timed_cube(static_cast<int>(state.range(0)));
+  Body body = compare::timed_cube(static_cast<int>(state.range(0)));
+  if (is_power_log) body.exponents = msm::Exponents{-1.3, -1.8, -2.2};
   const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
   Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), direction = displacement,
               product = displacement;
@@ -55,6 +56,8 @@ void grid_product(benchmark::State& state) {
 }
 BENCHMARK_TEMPLATE(grid_product, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_product, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, double, true)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, float, true)->Args({40, 1})->UseRealTime();
 
 void multigrid_cycle(benchmark::State& state) {
   const Body body = compare::timed_cube(static_cast<int>(state.range(0)));

@@ -87,8 +87,11 @@ TEST_CASE("the multigrid path and the direct path carry a moved top to the same 
   tight.lowest_eigenvalue = mechanics::LowestEigenvalue::report;
   const std::vector<cases::Moved> motions = {shifted("z+", {0.5, 0, -1}),
                                              turned("z+", 60, Vector3d::UnitZ(), {3, 3, 6})};
+  msm::CellStiffness softening = bodies::hybrid_cell, stiffening = softening;
+  softening.exponents = {-1.3, -1.8, -2.2};
+  stiffening.exponents = {1.8, 1.8, 1.8};
   for (const cases::Moved& motion : motions)
-    for (const msm::CellStiffness& stiffness : {thesis_cell, bodies::hybrid_cell}) {
+    for (const msm::CellStiffness& stiffness : {thesis_cell, bodies::hybrid_cell, softening, stiffening}) {
       const cases::Scene scene = moved_scene({6, 6, 6}, {motion});
       const cases::Solution direct = Model(scene, {stiffness}, {Path::direct, 1}).solve(tight);
       const cases::Solution multigrid = Model(scene, {stiffness}, {Path::multigrid, 1}).solve(tight);

@@ -29,6 +29,11 @@ void check_agreement(const cases::Scene& scene, const std::vector<msm::CellStiff
   CHECK(multigrid.unknowns == direct.unknowns);
 }
 
+msm::CellStiffness with_exponents(msm::CellStiffness springs, const msm::Exponents& exponents) {
+  springs.exponents = exponents;
+  return springs;
+}
+
 cases::Scene masked_scene() {
   cases::Grid grid;
   grid.cells = {7, 6, 8};
@@ -59,8 +64,13 @@ TEST_CASE("the multigrid path and the direct path find the same equilibrium", "[
     check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))),
                     {bodies::hybrid_cell});
   }
+  SECTION("of a cube of power-log springs under torsion") {
+    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))),
+                    {with_exponents(bodies::hybrid_cell, {-1.3, -1.8, -2.2})});
+  }
   SECTION("of a body with holes") {
     check_agreement(masked_scene(), {bodies::hybrid_cell});
+    check_agreement(masked_scene(), {with_exponents(bodies::hybrid_cell, {1.8, 1.8, 1.8})});
   }
   SECTION("of flat cells") {
     cases::Case flat = bodies::clamped_box({12, 12, 8}, bodies::tensile(0.02));
@@ -101,8 +111,11 @@ TEST_CASE("the multigrid path tells a mechanism and a limit point") {
                 bodies::cell(23.3, 6.5, 22.7)) == cases::Outcome::limit_point);
 }
 
-TEST_CASE("the multigrid path refuses negative springs and a body that is no grid") {
+TEST_CASE("the multigrid path refuses negative springs, two laws and a body that is no grid") {
   cases::Scene scene = cases::make_scene(bodies::clamped_box({2, 2, 2}, bodies::tensile(0.02)));
+  std::vector<msm::CellStiffness> two_laws(8, bodies::thesis_cell);
+  two_laws.back().exponents = {-1, -1, -1};
+  CHECK_THROWS_AS(Model(scene, two_laws, {Path::multigrid, 1}), cases::InputError);
   CHECK_THROWS_AS(Model(scene, {bodies::cell(31, -4, 33)}, {Path::multigrid, 1}), cases::InputError);
   scene.mesh.grid.reset();
   CHECK_THROWS_AS(Model(scene, {bodies::cell(31, 47, 33)}, {Path::multigrid, 1}), cases::InputError);

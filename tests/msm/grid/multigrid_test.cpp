@@ -41,6 +41,8 @@ double energy_in_uniform_strain(const Body& body, const Eigen::Matrix3d& gradien
 TEST_CASE("a coarsened body has the energy of the fine one in uniform strain") {
   Body fine = clamped_body({8, 4, 4});
   fine.springs.front().volume = 0.14;
+  fine.exponents = GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
+                            std::optional(msm::Exponents{-1.3, -2, 4.3}));
   const Body coarse = coarsen(fine).value();
   REQUIRE(coarse.cells == std::array<int, 3>{4, 2, 2});
   Eigen::Matrix3d gradient;

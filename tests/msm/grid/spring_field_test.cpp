@@ -48,8 +48,7 @@ struct Both {
   }
   template<class Real>
   Vector free(const Field<Real>& field) const {
-    return msm::to_vector(problem,
-                          msm::grid::to_points(problem, grid.body, field.template cast<double>()));
+    return msm::to_vector(problem, msm::grid::to_points(problem, grid.body, field.template cast<double>()));
   }
 };
 
@@ -64,6 +63,15 @@ std::vector<Both> bodies_of_all_kinds() {
   all.emplace_back(cases::make_grid_mesh(bodies::masked_grid()), std::vector{hybrid});
   all.emplace_back(cases::make_box_mesh({2, 1, 1}, {2, 1, 1}),
                    std::vector{springs, bodies::cell(310, 4, 90, 0.05)}); // two materials
+  // power-log springs, of one exponent each and with one where the energy's closed form has no value
+  CellStiffness stiffening = springs, softening = hybrid, other = bodies::cell(310, 4, 90, 0.05);
+  stiffening.exponents = {4.3, 1.8, 0.5};
+  softening.exponents = other.exponents = {-1.3, -1, -2.6};
+  all.emplace_back(cases::make_box_mesh({5, 4, 11}, {{5, 4, 11}}), std::vector{stiffening});
+  all.emplace_back(cases::make_box_mesh({60, 2, 2}, {{60, 2, 2}}), std::vector{softening});
+  all.emplace_back(cases::make_box_mesh({3, 2, 0.6}, {{3, 2, 2}}), std::vector{softening});
+  all.emplace_back(cases::make_grid_mesh(bodies::masked_grid()), std::vector{softening});
+  all.emplace_back(cases::make_box_mesh({2, 1, 1}, {{2, 1, 1}}), std::vector{softening, other});
   return all;
 }
 
