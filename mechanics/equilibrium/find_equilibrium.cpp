@@ -4,6 +4,7 @@
 #include "mechanics/equilibrium/newton.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -55,6 +56,8 @@ class PathFollower {
       if (is_rest && settings_.stability == Stability::require) check_rest();
       if (!is_rest && attempt(now_, std::min(1.0, step), Convexity::clamped, guess_factor))
         step = settings_.largest_load_step;
+      else if (!is_rest)
+        check_start();
     }
     if (step == 1 && settings_.guess && !problem_.moves_supports())
       attempt(*settings_.guess, 1, Convexity::exact);
@@ -107,6 +110,17 @@ class PathFollower {
     reached_ = target;
     ++result_.load_steps;
     return true;
+  }
+
+  /// A start with inverted cells may have no forces.
+  void check_start() {
+    if (std::isfinite(problem_.size(problem_.residual(now_, load(0)), now_).relative)) return;
+    cases::Solution none;
+    none.unknowns = problem_.n_unknowns();
+    none.inverted_cells = inverted_;
+    none.outcome = cases::Outcome::refused;
+    throw cases::SolveError(name_ + ": the start has cells turned inside out, where the law has no forces",
+                            std::move(none));
   }
 
   /// Without load the body must resist every motion.

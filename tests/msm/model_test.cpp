@@ -250,3 +250,21 @@ TEST_CASE("a lattice turned inside out stays so without a volume term, and is tu
   for (std::size_t n = 0; n < mirrored.size(); ++n)
     CHECK((turned.displacement[n] - from_rest.displacement[n]).norm() < 1e-6); // mm, as below
 }
+
+TEST_CASE("a start inside out is refused by volume terms that have no forces there") {
+  const cases::Scene scene = box_scene({8, 8, 8}, bodies::shear(0.002));
+  msm::Points mirrored;
+  for (const Vector3d& node : scene.mesh.nodes) mirrored.emplace_back(0, 0, -2 * node.z());
+  msm::CellStiffness springs = bodies::hybrid_cell;
+  springs.exponents = {-1, -1, -1};
+  for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid}) {
+    try {
+      msm::Model(scene, {springs}, {path, 1}).solve({}, mirrored);
+      FAIL("accepted");
+    } catch (const cases::SolveError& error) {
+      CHECK(error.outcome() == cases::Outcome::refused);
+      CHECK_THAT(error.what(), Catch::Contains("the start has cells turned inside out"));
+      CHECK(error.residual() == 0); // none: a number all the same
+    }
+  }
+}

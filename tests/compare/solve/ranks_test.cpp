@@ -145,14 +145,17 @@ Field<double> any_field(const Body& body, unsigned seed) {
 } // namespace
 
 TEST_CASE("a grid's equilibrium and the way to it are the same on any number of ranks", "[ranks]") {
-  const auto [name, scene] = GENERATE(table<std::string, cases::Scene>(
-      {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003)))},
-       {"mask", masked_scene()},
-       {"moved supports", scene_of(moved_box())},
-       {"symmetry planes", scene_of(quarter_of_a_box())},
-       {"flat cells", scene_of(flat_cells())}}));
+  msm::CellStiffness hooke = bodies::hybrid_cell, power_log = hooke;
+  power_log.exponents = {-1.3, -1.8, -2.2};
+  const auto [name, scene, cell] = GENERATE_REF(table<std::string, cases::Scene, msm::CellStiffness>(
+      {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003))), hooke},
+       {"mask", masked_scene(), hooke},
+       {"mask of power-log springs", masked_scene(), power_log},
+       {"moved supports", scene_of(moved_box()), hooke},
+       {"symmetry planes", scene_of(quarter_of_a_box()), hooke},
+       {"flat cells", scene_of(flat_cells()), hooke}}));
   INFO(name);
-  const std::vector<msm::CellStiffness> springs{bodies::hybrid_cell};
+  const std::vector<msm::CellStiffness> springs{cell};
   const cases::Solution alone = msm::solve_by_snes(scene, springs, PETSC_COMM_SELF, to_rounding());
   const cases::Solution together = msm::solve_by_snes(scene, springs, PETSC_COMM_WORLD, to_rounding());
   const double size = largest_displacement(alone);
@@ -168,7 +171,9 @@ TEST_CASE("a grid's equilibrium and the way to it are the same on any number of 
 }
 
 TEST_CASE("operators on parts of a grid give what they give on the whole of it", "[ranks]") {
-  const Body whole = GENERATE(body_with_holes({13, 11, 12}), uniform_body({13, 11, 12}));
+  Body whole = GENERATE(body_with_holes({13, 11, 12}), uniform_body({13, 11, 12}));
+  whole.exponents = GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
+                             std::optional(msm::Exponents{-1.3, -1.8, 2.2}));
   const Body here = msm::deal_out_to(PETSC_COMM_WORLD)(whole);
   REQUIRE(here.part.has_value() == (n_ranks() > 1));
   const Field<double> u = 0.05 * any_field(whole, 1), v = any_field(whole, 2);

@@ -1,10 +1,14 @@
 #include "msm/design/homogeneous.hpp"
 
 #include "msm/design/lattice_moduli.hpp"
+#include "msm/tangent.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
 
 using namespace springproof;
 
@@ -121,6 +125,43 @@ TEST_CASE("long waves at rest have the stiffness of the softest acoustic wave of
   CHECK(smallest > 0);
   CHECK(smallest < mu); // the zone's boundary
   CHECK(smallest > 0.05 * mu);
+}
+
+TEST_CASE("waves have the stiffness that the tangent of a block of the lattice gives them",
+          "[verification]") {
+  const Eigen::Matrix3d f = some_deformation();
+  for (const msm::CellStiffness& stiffness : {plain_springs, springs_and_volume, power_log}) {
+    const msm::Lattice block = msm::make_lattice(
+        cases::make_box_mesh(Eigen::Vector3d::Constant(2 * cell_edge), {{2, 2, 2}}), {stiffness});
+    msm::Points positions = block.rest;
+    for (Eigen::Vector3d& x : positions) x = f * x;
+    Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(81, 81);
+    msm::visit_tangent_blocks(block, positions, msm::TransverseTerm::exact,
+                              [&](int i, int j, const Eigen::Matrix3d& part) {
+                                tangent.block<3, 3>(3 * i, 3 * j) += part;
+                                if (i != j) tangent.block<3, 3>(3 * j, 3 * i) += part.transpose();
+                              });
+    const auto stiffness_of = [&](const Eigen::Vector3d& phase) {
+      Eigen::Matrix3cd sum = Eigen::Matrix3cd::Zero();
+      for (int n = 0; n < 27; ++n) {
+        const auto at = static_cast<std::size_t>(n);
+        const Eigen::Vector3d cells =
+            (block.rest[at] - block.rest[13]) / cell_edge; // from the block's centre
+        sum += tangent.block<3, 3>(39, 3 * n) * std::polar(1.0, phase.dot(cells));
+      }
+      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3cd>(sum).eigenvalues()[0] / phase.squaredNorm();
+    };
+    double smallest = INFINITY; // over the waves that are sampled: pi/4 apart, and long ones
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j)
+        for (int k = -4; k <= 4; ++k) {
+          const Eigen::Vector3d q(i, j, k);
+          if (q.squaredNorm() == 0) continue;
+          smallest = std::min({smallest, stiffness_of(q * M_PI / 4), stiffness_of(0.01 * q.normalized())});
+        }
+    CHECK(msm::smallest_wave_stiffness(stiffness, cell_edge, f) ==
+          Approx(smallest).margin(1e-11)); // N/mm; rounding of 0.1 over 0.01²
+  }
 }
 
 TEST_CASE("a lattice without diagonals has waves without stiffness, and none of its deformations is stable") {
