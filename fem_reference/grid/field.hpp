@@ -33,15 +33,15 @@ void for_each_layer(const Slab& slab, int n_threads, const Action& action) {
 /// number of neither threads nor ranks.
 template<class Real, class Other>
 double dot(const Space& space, const Field<Real>& a, const Field<Other>& b) {
-  const auto [begin, end] = space.slab.computed();
-  std::vector<double> of_planes(static_cast<std::size_t>(end - begin));
-  for_each_plane({begin, end}, space.n_threads, [&](int k) {
+  const Slab::Range planes = space.slab.computed();
+  std::vector<double> of_planes(static_cast<std::size_t>(planes.end - planes.begin));
+  for_each_plane(planes, space.n_threads, [&](int k) {
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
       const std::ptrdiff_t at = c * space.layout.size + space.layout.at(0, 0, k), n = space.layout.plane;
       sum += static_cast<double>(a.segment(at, n).dot(b.segment(at, n).template cast<Real>()));
     }
-    of_planes[static_cast<std::size_t>(k - begin)] = sum;
+    of_planes[static_cast<std::size_t>(k - planes.begin)] = sum;
   });
   return space.slab.total(of_planes);
 }

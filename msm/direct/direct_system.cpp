@@ -8,12 +8,21 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <omp.h>
 #include <random>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 namespace springproof::msm {
 
 namespace {
+
+#ifndef _OPENMP // as in the sanitized build
+void omp_set_max_active_levels(int) {}
+int omp_get_max_active_levels() {
+  return 1;
+}
+#endif
 
 /// While it lives, OpenMP's parallel regions have one thread. CHOLMOD asks for four of its own accord,
 /// whatever OMP_NUM_THREADS says; on two cores that took three to five times as long as one.

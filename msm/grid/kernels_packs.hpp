@@ -34,9 +34,16 @@ SPRINGPROOF_INLINE void store(Real* to, const Pack<Real>& value) {
 /// The numbers from, from + 1, ... of a and then b.
 template<class P>
 SPRINGPROOF_INLINE P window(const P& a, const P& b, int from) {
+  constexpr int n = sizeof(P) / sizeof(a[0]);
+#ifdef __clang__ // of the sanitized build; it has no __builtin_shuffle
+  P result;
+  for (int i = 0; i < n; ++i) result[i] = from + i < n ? a[from + i] : b[from + i - n];
+  return result;
+#else
   decltype(a < b) places;
-  for (int i = 0; i < static_cast<int>(sizeof(P) / sizeof(a[0])); ++i) places[i] = from + i;
+  for (int i = 0; i < n; ++i) places[i] = from + i;
   return __builtin_shuffle(a, b, places);
+#endif
 }
 /// The first n numbers of a and the others of b.
 template<class P>

@@ -61,7 +61,8 @@ TEST_CASE("the cube of a Saint Venant-Kirchhoff solid has the heights, tilts and
   agrees(definition, expected, 1e-4); // one unit of the last digit given
 }
 
-TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium") {
+TEST_CASE("a factorisation that memory is too small for says so, and loses no equilibrium",
+          "[little_memory]") {
   const auto solve = [](int n) {
     auto definition = scenes::cube(scenes::Test::shear, scenes::LoadSet::small, scenes::thesis_elastic(0.35),
                                    cases::Formulation::log_strain, cases::Element::q2_p1, n);

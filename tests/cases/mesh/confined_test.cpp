@@ -89,7 +89,7 @@ TEST_CASE("a confined function that does not answer is an error with its reason"
                     Catch::Contains("longer than 1 s"));
 }
 
-TEST_CASE("a confined function that claims more memory than it may have is told so") {
+TEST_CASE("a confined function that claims more memory than it may have is told so", "[little_memory]") {
   const auto claim = [](std::size_t size) {
     return [size] { return std::to_string(std::vector<char>(size, 'x').size()); };
   };
