@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -63,21 +64,34 @@ void keep_owner_and_mode(const fs::path& target, const fs::path& place) {
   chmod(place.c_str(), old.st_mode & 0777);
 }
 
-/// @param flags  for open(2)
-void claim(const std::string& folder, int flags) {
+/// A folder where a file of results may be written: renaming does not replace it. Subfolders have files
+/// alone.
+bool is_in_the_way(const fs::directory_entry& entry, bool is_in_subfolder) {
+  static const std::set<std::string> of_results{".csv", ".gp",  ".html", ".json",
+                                                ".png", ".svg", ".txt",  ".vtu"};
+  return fs::is_directory(entry.symlink_status()) &&
+         (is_in_subfolder || of_results.count(entry.path().extension().string()) > 0);
+}
+
+/// @param is_subfolder  of the folder of `--out`: must be no link
+void claim(const std::string& folder, bool is_subfolder) {
   if (folder.empty() || mpi_rank() != 0) return;
   std::error_code error;
   fs::create_directories(folder, error);
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
+  const int descriptor =
+      open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (is_subfolder ? O_NOFOLLOW : 0));
   if (descriptor < 0) refuse(folder, error ? error.message() : std::generic_category().message(errno));
   // The lock goes with the process. File systems that have none go without it.
   const bool is_locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno == EWOULDBLOCK) refuse(folder, "another springproof writes into it");
   try_to_write(folder + "/try" + unfinished, folder);
-  if (!is_locked) return; // what is unfinished may be another's work
   std::vector<fs::path> left;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == unfinished) left.push_back(entry.path());
+    if (entry.path().extension() == unfinished)
+      left.push_back(entry.path());
+    else if (is_in_the_way(entry, is_subfolder))
+      refuse(entry.path().string(), std::generic_category().message(EISDIR));
+  if (!is_locked) return; // what is unfinished may be another's work
   for (const fs::path& path : left) fs::remove(path, error);
 }
 
@@ -131,11 +145,11 @@ std::string read_file(const std::string& path) {
 }
 
 void claim_folder(const std::string& folder) {
-  claim(folder, 0);
+  claim(folder, false);
 }
 
 void claim_subfolder(const std::string& folder, const std::string& name) {
-  claim(folder.empty() ? "" : folder + "/" + name, O_NOFOLLOW);
+  claim(folder.empty() ? "" : folder + "/" + name, true);
 }
 
 } // namespace springproof::compare

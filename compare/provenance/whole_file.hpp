@@ -37,7 +37,8 @@ std::string read_file(const std::string& path);
 /// overwrite each other's results. What killed ones have left unfinished is removed. Rank 0 does so, before
 /// anything is solved.
 /// @param folder  empty: none
-/// @throws InputError if it cannot be made, or written to, or is claimed
+/// @throws InputError if it cannot be made, or written to, or is claimed, or a folder stands where a file of
+/// results may be written
 void claim_folder(const std::string& folder);
 
 /// The same for a folder in it, which must be no link.

@@ -131,7 +131,6 @@ TEST_CASE("what stands in the way of results is found before anything is solved"
       "regression.toml", cube_without_expectations() +
                              "[[expect]]\nmeasure = \"alpha_1\"\nmsm = [0, 1]\nreference = \"regression\"\n"
                              "reason = \"a test\"\n");
-  fs::create_symlink(in_the_way, solved);
   const auto check_refused = [](const std::string& words, const std::string& before = "") {
     INFO(words);
     const ProgramRun refused = run_program(words, before);
@@ -139,8 +138,20 @@ TEST_CASE("what stands in the way of results is found before anything is solved"
     CHECK(refused.out.empty());
     CHECK(std::count(refused.error.begin(), refused.error.end(), '\n') == 1);
   };
-  check_refused("run " + workplace.file + " --out " + workplace.out);
-  check_refused("gate " + workplace.file + " --out " + workplace.out);
+  const auto check_both_refused = [&] {
+    check_refused("run " + workplace.file + " --out " + workplace.out);
+    check_refused("gate " + workplace.file + " --out " + workplace.out);
+  };
+  fs::create_symlink(in_the_way, solved);
+  check_both_refused();
+  fs::remove(solved);
+  for (const char* name :
+       {"/results.json", "/sheared-cube.vtu", "/solved/sheared-cube"}) { // folders, not files
+    INFO(name);
+    fs::create_directories(workplace.out + name);
+    check_both_refused();
+    fs::remove(workplace.out + name);
+  }
   check_refused("gate " + workplace.file + " --junit " + workplace.folder.path.string());
   check_refused("gate " + workplace.file + " --junit " + in_the_way + "/junit.xml");
   fs::create_directory(regression + ".springproof-part"); // stands for a folder that takes no new file
