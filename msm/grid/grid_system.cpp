@@ -5,6 +5,8 @@
 #include "mechanics/grid/conjugate_gradients.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace springproof::msm::grid {
@@ -69,7 +71,8 @@ class GridSystem : public SpringSystem {
 
   std::optional<bool> is_stable(const Vector& displacement) override {
     if (on_all_ranks(problem_.body, displacement.isZero(0))) return true; // a sum of squares
-    return lowest_mode(displacement)->eigenvalue > 0;
+    const auto mode = lowest_mode(displacement);
+    return mode ? std::optional(mode->eigenvalue > 0) : std::nullopt;
   }
 
   /// The tangent at rest has no negative eigenvalue. That it has no zero one shows in conjugate gradients
@@ -142,6 +145,7 @@ class GridSystem : public SpringSystem {
       }
       if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
     }
+    if (!std::isfinite(eigenvalue)) return std::nullopt; // of a lattice whose stiffness is lost in rounding
     mode_ = Mode{eigenvalue, basis[0]};
     mode_at_ = displacement;
     return mode_;

@@ -180,7 +180,7 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
   }
   if (settings.stability != mechanics::Stability::ignore) result.is_stable = problem.is_stable(at);
   if (settings.lowest_eigenvalue == mechanics::LowestEigenvalue::report)
-    result.lowest_eigenvalue = problem.lowest_mode(at)->eigenvalue;
+    if (const auto mode = problem.lowest_mode(at)) result.lowest_eigenvalue = mode->eigenvalue;
   result.state = std::move(at);
   result.work = problem.work() - before;
   return result;

@@ -326,6 +326,20 @@ TEST_CASE("a hard case that ends otherwise than expected makes stress answer 1, 
   CHECK_THAT(outcome.out, Catch::Contains("1 of 2 hard cases ended as expected"));
 }
 
+TEST_CASE("springs without any stiffness are a mechanism, and nothing told of them is not a number") {
+  const TemporaryFolder folder;
+  std::string text = content(cases_folder + "/hard/mechanism.toml");
+  for (const char* stiffness : {"[0, 0, 0]", "[1e-317, 0, 0]"}) {
+    const std::size_t at = text.find("stiffness = ") + std::string("stiffness = ").size();
+    text.replace(at, text.find('\n', at) - at, stiffness);
+    const ProgramRun outcome = run_program("stress --json " + folder.write("nothing.toml", text));
+    REQUIRE(outcome.status == 0);
+    const auto side = nlohmann::json::parse(outcome.out)["cases"][0]["sides"][0];
+    CHECK(side["outcome"] == "mechanism");
+    CHECK(side["met"] == true);
+  }
+}
+
 TEST_CASE("a hard case that does not exist is refused with the nearest name, and run refuses hard cases") {
   const ProgramRun unknown = run_program("stress mechansim");
   CHECK(unknown.status == 2);
