@@ -120,7 +120,7 @@ struct Fem {
   Where where;
 };
 
-SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, multi_load, given)
+SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, multi_load, given)
 
 /// Whether a method fits Hooke's springs to curves, so that its stiffnesses are of no other law.
 constexpr bool fits_hooke(Design design) {
@@ -154,15 +154,16 @@ SPRINGPROOF_ENUMERATION(SpringLaw,
 struct Msm {
   Design design = Design::linear_method;
   Solver solver = Solver::newton;
-  std::optional<double> poissons_ratio;           ///< design from another nu than the material's
-  std::optional<double> split;                    ///< t of the moduli, hybrid and multi_load designs, 0 to 1
+  std::optional<double> poissons_ratio; ///< design from another nu than the material's
+  std::optional<double> split;          ///< t of the moduli, hybrid, matched and multi_load designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
   SpringLaw law = SpringLaw::hooke;
-  std::optional<std::array<double, 3>> exponent;     ///< p of edges, face and internal diagonals; power_log
-  std::vector<LoadPath> paths;                       ///< multi_load; empty: all
-  std::vector<double> weights;                       ///< multi_load; one per path, >= 0; empty: all 1
-  std::optional<std::array<double, 2>> strain_range; ///< multi_load and nonlinear_method: logarithmic strains
+  std::optional<std::array<double, 3>> exponent; ///< p of edges, face and internal diagonals; power_log. The
+                                                 ///< matched design finds its own where there is none
+  std::vector<LoadPath> paths;                   ///< multi_load; empty: all
+  std::vector<double> weights;                   ///< multi_load; one per path, >= 0; empty: all 1
+  std::optional<std::array<double, 2>> strain_range; ///< matched, multi_load, nonlinear_method: logarithmic
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
   std::vector<Doubt> accepted;                       ///< not held against the side
   Where where;

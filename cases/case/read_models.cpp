@@ -189,10 +189,10 @@ std::string design_needed(const Msm& msm, const Material& material) {
     return "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
            "material has none without bulk_modulus; or give msm.poissons_ratio";
   const double ratio = msm.poissons_ratio.value_or(linear ? linear->poissons_ratio : 0.5);
-  if (msm.design == Design::hybrid && ratio < 0.25)
-    return fmt::format("another design than \"hybrid\", which needs a Poisson's ratio of 0.25 and more: "
+  if ((msm.design == Design::hybrid || msm.design == Design::matched) && ratio < 0.25)
+    return fmt::format("another design than \"{}\", which needs a Poisson's ratio of 0.25 and more: "
                        "at {} its volume stiffness would be negative",
-                       ratio);
+                       name_of(msm.design), ratio);
   return "";
 }
 
@@ -232,6 +232,11 @@ std::array<double, 3> read_exponent(const Entry& entry) {
 }
 
 void read_law(Table& table, Msm& msm) {
+  if (msm.design == Design::matched) {
+    table.refuse_unless(false, {"law", "exponent"}, "left out: design = \"matched\" finds power-log springs");
+    msm.law = SpringLaw::power_log;
+    return;
+  }
   msm.law = table.optional("law", read_name<SpringLaw>).value_or(SpringLaw::hooke);
   const bool is_power_log = msm.law == SpringLaw::power_log;
   table.refuse_unless(is_power_log, {"exponent"}, "left out: it belongs to law = \"power_log\"");
@@ -250,14 +255,17 @@ Msm read_msm(Table& table, const Material& material) {
                                                                      : Design::linear_method);
   const bool is_given = msm.design == Design::given;
   const bool is_multi_load = msm.design == Design::multi_load;
-  const bool has_split = msm.design == Design::moduli || msm.design == Design::hybrid || is_multi_load;
+  const bool is_matched = msm.design == Design::matched;
+  const bool has_split =
+      msm.design == Design::moduli || msm.design == Design::hybrid || is_matched || is_multi_load;
   const std::string belongs = "left out: it belongs to design = ";
   table.refuse_unless(!is_given, {"poissons_ratio"},
                       "left out: a given stiffness is not designed from a Poisson's ratio");
-  table.refuse_unless(has_split, {"split"}, belongs + "\"moduli\" | \"hybrid\" | \"multi_load\"");
+  table.refuse_unless(has_split, {"split"},
+                      belongs + "\"moduli\" | \"hybrid\" | \"matched\" | \"multi_load\"");
   table.refuse_unless(is_multi_load, {"paths", "weights", "volume_term"}, belongs + "\"multi_load\"");
-  table.refuse_unless(is_multi_load || msm.design == Design::nonlinear_method, {"strain_range"},
-                      belongs + "\"multi_load\" | \"nonlinear_method\"");
+  table.refuse_unless(is_matched || is_multi_load || msm.design == Design::nonlinear_method, {"strain_range"},
+                      belongs + "\"matched\" | \"multi_load\" | \"nonlinear_method\"");
   table.refuse_unless(is_given, {"stiffness", "volume_stiffness"}, belongs + "\"given\"");
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);

@@ -155,8 +155,11 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
       definition.msm.design = cases::Design::given;
       definition.msm.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
       definition.msm.volume_stiffness = k.volume;
-      definition.msm.law = request.options.law;
-      definition.msm.exponent = request.options.exponent;
+      if (k.exponents) {
+        definition.msm.law = cases::SpringLaw::power_log;
+        definition.msm.exponent = {k.exponents->edge, k.exponents->face_diagonal,
+                                   k.exponents->internal_diagonal};
+      }
       springs.push_back(compare_case(definition, {cases::Side::msm}));
       solves.push_back({test, springs.back()});
     }

@@ -113,6 +113,8 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
         out, "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
         a.name, edge, face, internal, k.volume, m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
         a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-", stretch, compression);
+    if (k.exponents)
+      fmt::print(out, "{:<17}exponents {:.4g}\n", "", fmt::join(exponents_of(*k.exponents), ", "));
     for (const std::string& warning : a.design->warnings) fmt::print(out, "  WARNING: {}\n", warning);
   }
   write_cube_errors(out, attempts);

@@ -15,10 +15,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell) {
+/// @param exponents  of another cell of the same material, which are this one's too: no second fit
+msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
+                              const std::optional<msm::Exponents>& exponents = {}) {
   const cases::Material material =
       cases::materials_of(scene.definition)[static_cast<std::size_t>(cases::material_of(scene, cell))];
-  return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), scene.definition.msm));
+  cases::Msm options = scene.definition.msm;
+  if (exponents) options.exponent = {exponents->edge, exponents->face_diagonal, exponents->internal_diagonal};
+  return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), options));
 }
 
 /// Cells of equal shape and material share one design. Every warning comes once, with the number of its
@@ -29,8 +33,9 @@ msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
   std::map<int, msm::DesignResult> of_material;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
     const int material = cases::material_of(scene, c);
-    if (!scene.mesh.grid) of_material.clear(); // every cell has its own shape
-    if (of_material.count(material) == 0) of_material[material] = design_cell(scene, c);
+    // Unless the mesh is a grid, every cell has its own shape.
+    if (of_material.count(material) == 0 || !scene.mesh.grid)
+      of_material[material] = design_cell(scene, c, of_material[material].stiffness.exponents);
     const msm::DesignResult& cell = of_material[material];
     for (const std::string& warning : cell.warnings) ++n_cells[warning];
     all.cells.push_back(cell.stiffness);

@@ -71,16 +71,20 @@ void write_box_plot(CsvWriter& csv, const ThesisResults& results) {
 
 void write_advice(CsvWriter& csv, const ThesisResults& results) {
   csv.row("poissons_ratio", "design", "recommended", "k_e_per_E_L0", "k_f_per_E_L0", "k_d_per_E_L0",
-          "k_v_per_E", "small_worst_percent", "small_mean_percent", "small_volume_percent", "small_stable",
-          "large_worst_percent", "large_mean_percent", "large_volume_percent", "large_stable", "reason",
-          "command", "command_of_small_worst", "command_of_large_worst");
+          "k_v_per_E", "p_e", "p_f", "p_d", "small_worst_percent", "small_mean_percent",
+          "small_volume_percent", "small_stable", "large_worst_percent", "large_mean_percent",
+          "large_volume_percent", "large_stable", "reason", "command", "command_of_small_worst",
+          "command_of_large_worst");
   for (const Advice& a : results.advice) {
-    std::vector<std::optional<double>> k(4);
+    std::vector<std::optional<double>> k(4), p(3);
     if (a.stiffness)
       k = {a.stiffness->edge, a.stiffness->face_diagonal, a.stiffness->internal_diagonal,
            a.stiffness->volume};
+    if (a.stiffness && a.stiffness->exponents)
+      p = {a.stiffness->exponents->edge, a.stiffness->exponents->face_diagonal,
+           a.stiffness->exponents->internal_diagonal};
     const LoadSetErrors &small = a.cube.small, &large = a.cube.large;
-    csv.row(a.poissons_ratio, a.design, a.is_recommended, k, small.worst, small.mean, small.worst_volume,
+    csv.row(a.poissons_ratio, a.design, a.is_recommended, k, p, small.worst, small.mean, small.worst_volume,
             small.is_stable, large.worst, large.mean, large.worst_volume, large.is_stable, a.refusal(),
             a.trace.command, a.small_trace.command, a.large_trace.command);
   }
@@ -203,6 +207,8 @@ Json advice_to_json(const Advice& a) {
     row["stiffness_per_E_L0"] = {a.stiffness->edge, a.stiffness->face_diagonal,
                                  a.stiffness->internal_diagonal};
     row["volume_stiffness_per_E"] = a.stiffness->volume;
+    if (const auto& p = a.stiffness->exponents)
+      row["exponents"] = {p->edge, p->face_diagonal, p->internal_diagonal};
   }
   row["small"]["command_of_worst"] = text_or_null(a.small_trace.command);
   row["large"]["command_of_worst"] = text_or_null(a.large_trace.command);

@@ -115,6 +115,12 @@ std::string stiffness(const std::optional<msm::CellStiffness>& k) {
                      k->volume);
 }
 
+std::string exponents(const msm::CellStiffness& k) {
+  if (!k.exponents) return "";
+  return fmt::format(", exponents {:.3f}, {:.3f}, {:.3f}", k.exponents->edge, k.exponents->face_diagonal,
+                     k.exponents->internal_diagonal);
+}
+
 /// A line that a reader with E and nu in hand can use as it stands.
 void write_recommendation(std::ostream& out, const Advice& a) {
   const double youngs_modulus = 0.05;            // MPa, soft tissue
@@ -123,11 +129,13 @@ void write_recommendation(std::ostream& out, const Advice& a) {
   fmt::print(
       out,
       "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = {:.5f} "
-      "MPa; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume within "
+      "MPa{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume "
+      "within "
       "{:.1f} %.\n      its stiffnesses again (E = 1 MPa): {}\n      its worst errors again: {}\n      {}\n",
       a.poissons_ratio, a.design, per_metre * k.edge, per_metre * k.face_diagonal,
-      per_metre * k.internal_diagonal, youngs_modulus * k.volume, *a.cube.small.worst, *a.cube.large.worst,
-      *a.cube.worst_volume(), a.trace.command, a.small_trace.command, a.large_trace.command);
+      per_metre * k.internal_diagonal, youngs_modulus * k.volume, exponents(k), *a.cube.small.worst,
+      *a.cube.large.worst, *a.cube.worst_volume(), a.trace.command, a.small_trace.command,
+      a.large_trace.command);
 }
 
 void write_beyond(std::ostream& out, const TableEntry& entry) {

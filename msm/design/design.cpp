@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "mechanics/elastic_moduli.hpp"
+#include "msm/design/matched.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
@@ -34,6 +35,9 @@ constexpr double largest_linear_strain = 0.1;
 /// stiff at small ones; with this one both errors on the thesis's cube are alike.
 constexpr std::array<double, 2> ogden_range = {-0.15, 0.15};
 constexpr std::array<double, 2> linear_range = {-0.05, 0.05};
+
+/// The same of the matched design, whose springs follow the curve.
+constexpr std::array<double, 2> matched_range = {-0.2, 0.2};
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
 /// method still converges in few steps.
@@ -74,8 +78,9 @@ double required_cube_edge(const DesignRequest& request) {
 }
 
 double split(const DesignRequest& request) {
-  const double t =
-      request.options.split.value_or(by_material(request, large_strain_split, small_strain_split));
+  const bool keeps_its_curve = request.options.design == cases::Design::matched;
+  const double t = request.options.split.value_or(
+      keeps_its_curve ? small_strain_split : by_material(request, large_strain_split, small_strain_split));
   if (t >= 0 && t <= 1) return t;
   refuse(request, fmt::format("split = {:f}: must lie in [0, 1]", t));
 }
@@ -113,6 +118,19 @@ Designed from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0.25); // below, k_v would be negative
   const auto [lambda, mu, kappa] = elastic_moduli(request);
   return {hybrid_method(lambda, mu, split(request), request.cell), {}};
+}
+
+Designed from_matched_method(const DesignRequest& request) {
+  Designed result = from_hybrid_method(request);
+  if (request.options.exponent) return result;
+  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
+  const cases::Material material =
+      is_ogden ? request.material : cases::Material(designed_material(request, 0.25));
+  const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
+                                           request.options.strain_range.value_or(matched_range));
+  result.first.exponents = fit.exponents;
+  result.second = fit.objective;
+  return result;
 }
 
 Designed from_nonlinear_method(const DesignRequest& request) {
@@ -158,6 +176,7 @@ const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods 
     {cases::Design::nonlinear_method, from_nonlinear_method},
     {cases::Design::moduli, from_moduli_method},
     {cases::Design::hybrid, from_hybrid_method},
+    {cases::Design::matched, from_matched_method},
     {cases::Design::multi_load, from_multi_load},
     {cases::Design::given, from_given},
 };

@@ -165,6 +165,9 @@ TEST_CASE("a mistake in [msm] is refused where it is made") {
        "msm.poissons_ratio",
        {"left out"}},
       {msm, "design = 'hybrid'\npoissons_ratio = 0.2\n", 23, "msm.design", {"0.25 and more", "0.2"}},
+      {msm, "design = 'matched'\npoissons_ratio = 0.2\n", 23, "msm.design", {"0.25 and more", "\"matched\""}},
+      {msm, "design = 'matched'\nlaw = 'hooke'\n", 24, "msm.law", {"left out", "\"matched\""}},
+      {msm, "design = 'matched'\nexponent = -1\n", 24, "msm.exponent", {"left out", "\"matched\""}},
       {"split = 0.8", "law = 'power'", 25, "msm.law", {"\"hooke\"", "\"power_log\""}},
       {"split = 0.8", "law = 'power_log'", 22, "msm.exponent", {"is missing", "a number, or three"}},
       {"split = 0.8", "exponent = -1.5", 25, "msm.exponent", {"left out", "law = \"power_log\""}},
@@ -189,4 +192,15 @@ TEST_CASE("an exponent is one number for all springs or one for each kind") {
   CHECK(read("law = 'power_log'\nexponent = -1.5").law == SpringLaw::power_log);
   CHECK(read("law = 'power_log'\nexponent = -1.5").exponent == std::array{-1.5, -1.5, -1.5});
   CHECK(read("law = 'power_log'\nexponent = [-1.3, -2, 2]").exponent == std::array{-1.3, -2., 2.});
+}
+
+TEST_CASE("the matched design has power-log springs, whose exponents the file leaves to it") {
+  const Msm msm = read_case_text(replaced(good_case, "design = 'moduli'",
+                                          "design = 'matched'\nstrain_range = [-0.1, 0.3]"),
+                                 "case.toml")
+                      .msm;
+  CHECK(msm.design == Design::matched);
+  CHECK(msm.law == SpringLaw::power_log);
+  CHECK_FALSE(msm.exponent);
+  CHECK(msm.strain_range == std::array{-0.1, 0.3});
 }

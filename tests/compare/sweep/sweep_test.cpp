@@ -73,7 +73,7 @@ TEST_CASE("every plan has the designs, both strains and the elements, and says w
     return std::count_if(full.variants.begin(), full.variants.end(),
                          [&](const Variant& v) { return method_name(v) == method; });
   };
-  for (const char* design : {"linear_method", "nonlinear_method", "moduli", "hybrid", "multi_load"})
+  for (const char* design : {"linear_method", "nonlinear_method", "moduli", "hybrid", "matched", "multi_load"})
     CHECK(count(std::string("springs ") + design) == 4 * 3); // levels, tolerances
   for (const char* method : {"small_strain q1", "small_strain q1_bbar", "small_strain q2", "log_strain q1",
                              "log_strain q1_bbar", "log_strain q2", "CalculiX small_strain q1"})

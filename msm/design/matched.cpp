@@ -1,0 +1,114 @@
+#include "msm/design/matched.hpp"
+
+#include "cases/case/error.hpp"
+#include "msm/design/homogeneous.hpp"
+#include "msm/design/moduli_method.hpp"
+#include "msm/design/multi_load.hpp"
+
+#include <Eigen/LU>
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+#include <cmath>
+#include <numeric>
+
+namespace springproof::msm {
+
+namespace {
+
+constexpr int n_matched_states = 20; // per path, as in the other fits
+constexpr std::array<cases::LoadPath, 2> matched_paths = {cases::LoadPath::uniaxial,
+                                                          cases::LoadPath::pure_shear};
+
+Eigen::Matrix3d deviator(const Eigen::Matrix3d& stress) {
+  return stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
+}
+
+/// Relative error of the lattice's deviator along one path, a function of the three exponents.
+class PathError {
+ public:
+  PathError(const cases::Material& material, cases::LoadPath path, const CellStiffness& springs,
+            const std::array<double, 2>& strain_range)
+      : springs_(springs) {
+    double squares = 0;
+    for (int i = 0; i < n_matched_states; ++i) {
+      const double part = static_cast<double>(i) / (n_matched_states - 1);
+      states_.push_back(
+          material_state(material, path, strain_range[0] + part * (strain_range[1] - strain_range[0])));
+      squares += deviator(states_.back().cauchy_stress).squaredNorm();
+    }
+    if (!(squares > 0))
+      throw cases::InputError("matched design: the material has no stress on path " + cases::name_of(path));
+    norm_ = std::sqrt(squares * matched_paths.size());
+  }
+
+  bool operator()(const double* p, double* residual) const {
+    CellStiffness springs = springs_;
+    springs.exponents = Exponents{p[0], p[1], p[2]};
+    for (const auto& [f, stress] : states_) {
+      const Eigen::Matrix3d of_lattice = lattice_stress(springs, 1, f) * f.transpose() / f.determinant();
+      const Eigen::Matrix3d error = deviator(of_lattice - stress) / norm_;
+      residual = std::copy(error.data(), error.data() + 9, residual);
+    }
+    return true;
+  }
+
+ private:
+  CellStiffness springs_; ///< of a cell of edge 1
+  std::vector<MaterialState> states_;
+  double norm_ = 0;
+};
+
+} // namespace
+
+double second_order_coefficient(const cases::Material& material, double poissons_ratio) {
+  const double nu = poissons_ratio;
+  const auto* ogden = std::get_if<cases::Ogden>(&material);
+  if (ogden == nullptr) return -(0.5 + 2 * nu);
+  const double mean_alpha = std::inner_product(ogden->mu.begin(), ogden->mu.end(), ogden->alpha.begin(), 0.) /
+                            mechanics::shear_modulus(*ogden);
+  return -1.5 + mean_alpha * (1 + nu) * (1 + nu) / 9 + (1 - 2 * nu) * (1 - 2 * nu) / 3;
+}
+
+double closed_form_exponent(double second_order_coefficient, const mechanics::ElasticModuli& moduli,
+                            double split) {
+  const auto& [lambda, mu, kappa] = moduli;
+  const double t = split, nu = lambda / (2 * (lambda + mu)), sum = 1 + nu, volume = 1 - 2 * nu;
+  // Logarithmic strain of the diagonals per axial strain, to first order; an edge has 1 or -nu.
+  const double face = (1 - nu) / 2, internal = volume / 3;
+  // Over mu, terms with p + 1 and without: docs/designing.md.
+  const double with = (1 + t) * (1 - 2 * std::pow(nu, 3)) +
+                      2 * (1 - t) * (4 * std::pow(face, 3) - 2 * std::pow(nu, 3)) +
+                      9 * t * std::pow(internal, 3);
+  const double without =
+      6 * (1 - t) * face * sum * sum + 6 * t * internal * sum * sum + (lambda / mu - 1) * std::pow(volume, 3);
+  return ((second_order_coefficient + 1.5) * 2 * sum - without) / with - 1;
+}
+
+MatchedFit matched_exponents(const cases::Material& material, const mechanics::ElasticModuli& moduli,
+                             double split, const std::array<double, 2>& strain_range) {
+  const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
+  const double start = closed_form_exponent(second_order_coefficient(material, nu), moduli, split);
+  const CellStiffness springs = hybrid_method(moduli.lambda, moduli.mu, split, cube(1));
+  std::array<double, 3> p = {start, start, start};
+  ceres::Problem problem;
+  for (const cases::LoadPath path : matched_paths)
+    problem.AddResidualBlock(
+        new ceres::NumericDiffCostFunction<PathError, ceres::CENTRAL, 9 * n_matched_states, 3>(
+            new PathError(material, path, springs, strain_range)),
+        nullptr, p.data());
+  problem.AddResidualBlock(
+      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
+      nullptr, p.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.function_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-10;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable())
+    throw cases::SolveError("matched design: the minimisation failed: " + summary.message);
+  return {{p[0], p[1], p[2]}, 2 * summary.final_cost};
+}
+
+} // namespace springproof::msm
