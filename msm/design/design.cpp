@@ -114,10 +114,32 @@ Designed from_moduli_method(const DesignRequest& request) {
   return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), {}};
 }
 
+/// Eigenvalues of a cell's tangent at rest that are no round-off.
+struct Signs {
+  Eigen::Index n_negative, n_zero;
+};
+
+Signs signs_at_rest(const CellStiffness& stiffness, const CellVertices& vertices) {
+  const CellMatrix matrix = cell_stiffness_matrix(vertices, stiffness);
+  const auto eigenvalues =
+      Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
+  // Far above round-off, far below any spring's share.
+  const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
+  return {(eigenvalues.array() < -zero).count(), (eigenvalues.array().abs() <= zero).count()};
+}
+
+/// Below nu = 1/4 the volume term is negative. In a cube the springs outweigh it; in another cell they may
+/// not, and cells that are stable alone are stable together.
 Designed from_hybrid_method(const DesignRequest& request) {
-  if (!is_incompressible(request)) designed_material(request, 0.25); // below, k_v would be negative
+  if (!is_incompressible(request)) designed_material(request, 0);
   const auto [lambda, mu, kappa] = elastic_moduli(request);
-  return {hybrid_method(lambda, mu, split(request), request.cell), {}};
+  const CellStiffness stiffness = hybrid_method(lambda, mu, split(request), request.cell);
+  if (stiffness.volume < 0 && signs_at_rest(stiffness, request.cell).n_negative > 0)
+    refuse(request,
+           fmt::format("design = \"{}\": below nu = 0.25 the volume term is negative, and the springs "
+                       "of this cell do not outweigh it",
+                       name_of(request.options.design)));
+  return {stiffness, {}};
 }
 
 Designed from_matched_method(const DesignRequest& request) {
@@ -125,7 +147,7 @@ Designed from_matched_method(const DesignRequest& request) {
   if (request.options.exponent) return result;
   const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
   const cases::Material material =
-      is_ogden ? request.material : cases::Material(designed_material(request, 0.25));
+      is_ogden ? request.material : cases::Material(designed_material(request, 0));
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
   result.first.exponents = fit.exponents;
@@ -192,13 +214,7 @@ std::vector<std::string> examine(const CellStiffness& stiffness, const CellVerti
     if (!std::isfinite(value)) return {fmt::format("{}: the stiffness is not a finite number", name)};
     if (value < 0) warnings.push_back(fmt::format("{}: the stiffness is negative", name));
   }
-  const CellMatrix matrix = cell_stiffness_matrix(vertices, stiffness);
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
-  // Far above round-off, far below any spring's share.
-  const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
-  const auto n_negative = (eigenvalues.array() < -zero).count();
-  const auto n_zero = (eigenvalues.array().abs() <= zero).count();
+  const auto [n_negative, n_zero] = signs_at_rest(stiffness, vertices);
   if (n_negative > 0)
     warnings.push_back(
         fmt::format("the cell's tangent at rest is indefinite: {} negative eigenvalues", n_negative));
@@ -250,7 +266,16 @@ DesignResult design(const DesignRequest& request) {
                                 name_of(options.design)));
   auto [stiffness, residual] = known_methods.at(options.design)(request);
   if (const auto& p = options.exponent) stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
-  return {stiffness, residual, lattice_moduli(stiffness, request.cell), examine(stiffness, request.cell)};
+  DesignResult result{stiffness, residual, lattice_moduli(stiffness, request.cell),
+                      examine(stiffness, request.cell)};
+  const auto range = options.strain_range.value_or(matched_range);
+  const double edge = cube_edge(request.cell);
+  if (options.design == cases::Design::matched && edge > 0 && !is_stable_over(range, stiffness, edge))
+    result.warnings.push_back(fmt::format(
+        "a large lattice of these cells is not stable over the logarithmic strains from {:g} to {:g} of "
+        "its exponents: waves of two cells may grow in it",
+        range[0], range[1]));
+  return result;
 }
 
 } // namespace springproof::msm

@@ -6,6 +6,7 @@
 #include "msm/design/multi_load.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 #include <cmath>
@@ -89,7 +90,9 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
   const double start = closed_form_exponent(second_order_coefficient(material, nu), moduli, split);
   const CellStiffness springs = hybrid_method(moduli.lambda, moduli.mu, split, cube(1));
-  std::array<double, 3> p = {start, start, start};
+  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
+  const double bounded = is_ogden ? std::max(start, lowest_ogden_exponent) : start;
+  std::array<double, 3> p = {bounded, bounded, bounded};
   ceres::Problem problem;
   for (const cases::LoadPath path : matched_paths)
     problem.AddResidualBlock(
@@ -99,6 +102,8 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   problem.AddResidualBlock(
       new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
       nullptr, p.data());
+  for (int kind = 0; is_ogden && kind < 3; ++kind)
+    problem.SetParameterLowerBound(p.data(), kind, lowest_ogden_exponent);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.function_tolerance = 1e-14;
@@ -109,6 +114,18 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   if (!summary.IsSolutionUsable())
     throw cases::SolveError("matched design: the minimisation failed: " + summary.message);
   return {{p[0], p[1], p[2]}, 2 * summary.final_cost};
+}
+
+bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge) {
+  return std::all_of(strain_range.begin(), strain_range.end(), [&](double strain) {
+    try {
+      const double axial = std::exp(strain), lateral = free_lateral_stretch(stiffness, edge, axial);
+      return smallest_wave_stiffness(stiffness, edge, Eigen::Vector3d(lateral, lateral, axial).asDiagonal()) >
+             0;
+    } catch (const cases::SolveError&) {
+      return false;
+    }
+  });
 }
 
 } // namespace springproof::msm

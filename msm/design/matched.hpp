@@ -27,13 +27,22 @@ struct MatchedFit {
 /// An exponent may leave the closed form by one for an error in the stresses that is smaller by this part.
 constexpr double exponent_prior = 0.01;
 
+/// The lowest exponent of springs for an Ogden material. Its nominal stress grows without end, the tension of
+/// a spring with p < 0 up to ln q = -1/p alone: with this bound to a stretch of 3.5. Logarithmic strain has
+/// a largest nominal stress itself, at a strain of 1/(2 nu), and no bound.
+constexpr double lowest_ogden_exponent = -0.8;
+
 /// One exponent for each kind of spring: the least squares of the deviatoric Cauchy stress in uniaxial tests
 /// and pure shear along the axes, as parts of the norm of the material's over each path, and of
-/// exponent_prior (p - closed form).
+/// exponent_prior (p - closed form), within the bound.
 /// @param material  as for material_state()    @param moduli, split  as for closed_form_exponent()
 /// @param strain_range  lowest and highest logarithmic strain of both paths
 /// @throws SolveError when the minimisation fails
 MatchedFit matched_exponents(const cases::Material& material, const mechanics::ElasticModuli& moduli,
                              double split, const std::array<double, 2>& strain_range);
+
+/// Whether the infinite lattice has no unstable wave at either end of the strains, in uniaxial tests along an
+/// axis.
+bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge);
 
 } // namespace springproof::msm

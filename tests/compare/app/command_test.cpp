@@ -215,12 +215,12 @@ TEST_CASE("design --json is one document with the keys that were promised") {
 }
 
 TEST_CASE("design --compare shows every method, and why one refuses") {
-  const ProgramRun outcome = run_program("design --young 0.3 --poisson 0.2 --compare --json");
+  const ProgramRun outcome = run_program("design --young 0.3 --poisson -0.2 --compare --json");
   REQUIRE(outcome.status == 0);
   const auto methods = nlohmann::json::parse(outcome.out)["methods"];
   REQUIRE(methods.size() == 6);
   CHECK(methods[3]["method"] == "hybrid");
-  CHECK(methods[3]["refused"].get<std::string>().find("0.25") != std::string::npos);
+  CHECK(methods[3]["refused"].get<std::string>().find("-0.2") != std::string::npos);
 }
 
 TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
@@ -230,7 +230,7 @@ TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
       {"--young 0.3 --poisson 0.5", "nu < 0.5"},
       {"--young 0.3 --poisson -0.1", "nu < 0.5"},
       {"--young -1 --poisson 0.3", "Young's modulus"},
-      {"--young 0.3 --poisson 0.2 --method hybrid", "0.25"},
+      {"--young 0.3 --poisson -0.2 --method hybrid", "0.0"},
       {"--young 0.3 --poisson 0.3 --edge 0", "--edge"},
       {"--young 0.3 --poisson 0.3 --edge 1e300", "--edge: is 1e+300"},
       {"--young 1e300 --poisson 0.3", "Young's modulus is 1e+300"},

@@ -79,13 +79,13 @@ TEST_CASE("workers give the numbers of this process to the last bit, one worker 
 
 TEST_CASE(
     "settings that make no case, and loads that cannot be carried, fail their own side with the reason") {
-  const auto solved = solve({shear(Side::msm, {"msm.design=hybrid", "material.poissons_ratio=0.2"}),
+  const auto solved = solve({shear(Side::msm, {"msm.design=hybrid", "material.poissons_ratio=-0.2"}),
                              shear(Side::msm, {"msm.design=given", "msm.stiffness=[0, 0, 30]"}),
                              {linear_elastic + "no_such_case.toml", {}, Side::fem},
                              shear(Side::msm)},
                             2);
   for (const std::size_t j : {0, 1}) CHECK(solved[j].answers.msm.solution.status == cases::Status::failed);
-  CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("0.25"));
+  CHECK_THAT(solved[0].answers.msm.solution.message, Catch::Contains("0 and more"));
   CHECK_FALSE(solved[1].answers.msm.solution.message.empty()); // diagonals alone are a mechanism
   CHECK(solved[2].answers.fem.solution.status == cases::Status::failed);
   CHECK(solved[2].answers.msm.solution.status == cases::Status::skipped);

@@ -147,6 +147,25 @@ TEST_CASE("a matched design has the hybrid's stiffnesses, and exponents of neith
   CHECK(others.exponents->internal_diagonal == Approx(springs.exponents->internal_diagonal).margin(1e-6));
 }
 
-TEST_CASE("a matched design refuses a Poisson's ratio below 1/4") {
-  CHECK_THROWS_AS(msm::design(matched(cases::LinearElastic{0.3, 0.2})), cases::InputError);
+TEST_CASE("springs of a soft Ogden material keep the tension that it keeps at large stretches") {
+  const cases::Ogden softening{{0.03, 0.013}, {2, -2}, std::nullopt};
+  const auto [edge, face, internal] = *msm::design(matched(softening)).stiffness.exponents;
+  for (const double exponent : {edge, face, internal})
+    CHECK(exponent >= msm::lowest_ogden_exponent - 1e-12); // Ceres projects
+  CHECK(edge == Approx(msm::lowest_ogden_exponent));       // unbounded: about -1.1
+}
+
+TEST_CASE("a matched lattice that is unstable within its range of strains is warned of") {
+  msm::DesignRequest request = matched(cases::LinearElastic{0.3, 0.49});
+  request.options.strain_range = {-0.1, 0.1};
+  CHECK(msm::design(request).warnings.empty());
+  request.options.strain_range = {-0.1, 0.25}; // design prints a limit of about 1.18
+  const auto warnings = msm::design(request).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings.front(), Catch::Contains("not stable over the logarithmic strains from -0.1 to 0.25"));
+}
+
+TEST_CASE("a matched design refuses a Poisson's ratio below 0") {
+  CHECK_THROWS_AS(msm::design(matched(cases::LinearElastic{0.3, -0.01})), cases::InputError);
+  CHECK(msm::design(matched(cases::LinearElastic{0.3, 0})).stiffness.exponents);
 }

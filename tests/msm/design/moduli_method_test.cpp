@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "msm/design/design.hpp"
+#include "msm/design/homogeneous.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -61,8 +62,26 @@ TEST_CASE("an incompressible Ogden material has moduli E = 3 mu and G = mu") {
   CHECK(result.warnings.empty());
 }
 
-TEST_CASE("the hybrid method refuses Poisson's ratios below a quarter") {
-  CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.2})),
+TEST_CASE("below nu = 1/4 the hybrid's volume term is negative, and cell and lattice are stable at rest",
+          "[verification]") {
+  const double nu = GENERATE(0., 0.1, 0.2);
+  msm::DesignRequest hybrid = request(cases::Design::hybrid, cases::LinearElastic{0.3, nu}, 0.6);
+  hybrid.options.split = GENERATE(0.2, 0.5, 0.8);
+  const msm::DesignResult result = msm::design(hybrid);
+  CHECK(result.stiffness.volume < 0);
+  CHECK(result.moduli.youngs_modulus == Approx(0.3).epsilon(round_off));
+  CHECK(result.moduli.poissons_ratio == Approx(nu).margin(round_off));
+  CHECK(result.warnings == std::vector<std::string>{"volume term k_v: the stiffness is negative"});
+  CHECK(msm::smallest_wave_stiffness(result.stiffness, 0.6, Eigen::Matrix3d::Identity()) > 0);
+}
+
+TEST_CASE(
+    "the hybrid method refuses Poisson's ratios below 0 and of 1/2, and cells whose springs do not outweigh "
+    "a negative volume term") {
+  msm::DesignRequest flat = request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.});
+  for (Eigen::Vector3d& x : flat.cell) x.z() *= 0.05;
+  CHECK_THROWS_WITH(msm::design(flat), Catch::Contains("outweigh"));
+  CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, -0.01})),
                   cases::InputError);
   CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.5})),
                   cases::InputError);
