@@ -5,6 +5,9 @@
 #include "fem_reference/grid/transfer.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace springproof::fem_reference::grid {
 
 namespace {
@@ -13,6 +16,8 @@ using cases::index;
 using mechanics::Vector;
 
 constexpr int fewest_nodes = 200;
+/// Of a coarse body's path: a guess is worth no more.
+constexpr double smallest_step = 0.25, tolerance = 1e-3;
 
 /// A field's values at the fine nodes in the same places.
 Field<double> inject(const Field<double>& fine, const Body& from, const Body& to,
@@ -63,24 +68,25 @@ Supported coarsen(const Supported& fine, const Body& from, const Body& to, const
 
 } // namespace
 
-std::optional<Vector> coarse_guess(const Body& body, const Supported& supported, double load_factor,
-                                   int n_threads) {
+CoarseGuess coarse_guess(const Body& body, const Supported& supported, double load_factor, int n_threads) {
   const std::array<bool, 3> axes = axes_to_coarsen(body.cells_of_grid(), body.spacing);
-  if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
+  if (!axes[0] && !axes[1] && !axes[2]) return {};
   const Body coarse = coarsen(body, axes);
   const Layout &from = coarse.layout, &to = body.layout;
-  if (from.nodes[0] * from.nodes[1] * coarse.slab.n_planes_of_grid() < fewest_nodes) return std::nullopt;
+  if (from.nodes[0] * from.nodes[1] * coarse.slab.n_planes_of_grid() < fewest_nodes) return {};
   const Supported held = coarsen(supported, body, coarse, axes, n_threads);
-  GridEquations equations(coarse, held, n_threads);
+  GridEquations equations(coarse, held, n_threads, nullptr, tolerance);
   mechanics::EquilibriumSettings settings;
-  settings.tolerance = 1e-3; // a guess
+  settings.tolerance = tolerance;
   settings.to = load_factor;
   settings.max_newton_per_step = 14;
   settings.easy_newton_per_step = 6;
-  settings.smallest_load_step = 0.25;
+  settings.smallest_load_step = smallest_step;
   settings.max_convexified_per_step = 0;
   settings.stability = mechanics::Stability::ignore;
-  settings.guess = coarse_guess(coarse, held, load_factor, n_threads);
+  const CoarseGuess coarser = coarse_guess(coarse, held, load_factor, n_threads);
+  settings.guess = coarser.state;
+  settings.first_load_step = coarser.first_load_step;
   try {
     const Vector found =
         mechanics::find_equilibrium(equations, equations.rest(), "coarse grid", settings).state;
@@ -101,9 +107,9 @@ std::optional<Vector> coarse_guess(const Body& body, const Supported& supported,
             guess[3 * to.size + to.cell(i, j, k)] =
                 found[3 * from.size + from.cell(axes[0] ? i / 2 : i, axes[1] ? j / 2 : j,
                                                 (axes[2] ? (first + k) / 2 : first + k) - first_coarse)];
-    return guess;
-  } catch (const cases::SolveError&) {
-    return std::nullopt; // the fine grid has to find its own way
+    return {std::move(guess)};
+  } catch (const cases::SolveError& failed) { // the fine grid has to find its own way
+    return {std::nullopt, std::clamp(failed.so_far().load_reached / load_factor, smallest_step, 0.5)};
   }
 }
 

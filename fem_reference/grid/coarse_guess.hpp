@@ -6,10 +6,14 @@
 
 namespace springproof::fem_reference::grid {
 
-/// A state near the equilibrium of a body at a load factor: the interpolated one of the body in cells twice
-/// as large, found the same way. Nothing when that body is too small to be worth it, or its load is not
-/// carried.
-std::optional<mechanics::Vector> coarse_guess(const Body& body, const Supported& supported,
-                                              double load_factor, int n_threads);
+/// What the body in cells twice as large, with its loads and supports, tells of a path from rest.
+struct CoarseGuess {
+  std::optional<mechanics::Vector> state; ///< near the equilibrium at the end; none where it was not found
+  double first_load_step = 1;             ///< to try, of the path; less than 1 where the coarse body failed
+};
+
+/// The equilibrium of the body in cells twice as large, found the same way and interpolated. A body too small
+/// to be worth it tells nothing.
+CoarseGuess coarse_guess(const Body& body, const Supported& supported, double load_factor, int n_threads);
 
 } // namespace springproof::fem_reference::grid

@@ -13,7 +13,6 @@ namespace {
 
 using cases::index;
 
-constexpr double volume_tolerance = 1e-12; ///< as of the assembled equations
 /// 15 iterations in all for the sheared cube of 40^3 cells, 19 with a polynomial of degree 2; quadratic
 /// elements gain nothing from the better one, because trilinear ones are only near them.
 constexpr mechanics::grid::Chebyshev linear_smoother{3, 12}, quadratic_smoother{2, 6};
@@ -27,10 +26,10 @@ constexpr int restart_of(std::ptrdiff_t n) {
 } // namespace
 
 GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
-                             QuadraticElements* quadratic)
+                             QuadraticElements* quadratic, double volume_tolerance)
     : body_(body), supported_(supported), space_(body.space(n_threads)), quadratic_(quadratic),
       multigrid_(body, n_threads, quadratic ? quadratic_smoother : linear_smoother),
-      load_norm_(norm(space_, supported.load)) {}
+      load_norm_(norm(space_, supported.load)), volume_tolerance_(volume_tolerance) {}
 
 /// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
 /// admissible
@@ -102,7 +101,7 @@ GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
   const double imbalance = std::sqrt(dot(residual, residual)),
                scale = load_norm_ > 0 ? load_norm_ : reaction_;
   return {imbalance == 0 ? 0 : imbalance / scale,
-          volume_mismatch_ <= volume_tolerance && largest_gap_ <= 1e-12};
+          volume_mismatch_ <= volume_tolerance_ && largest_gap_ <= 1e-12};
 }
 
 /// Close to the solution the last tangent serves as long as each step gains much.

@@ -15,8 +15,10 @@ class GridEquations : public mechanics::NonlinearProblem {
  public:
   /// @param body, supported  must outlive this
   /// @param quadratic  elements on the body's nodes in place of its own, or null; must outlive this
+  /// @param volume_tolerance  on what a cell's pressure leaves of its volume, relative; as of the assembled
+  ///                          equations
   GridEquations(const Body& body, const Supported& supported, int n_threads,
-                QuadraticElements* quadratic = nullptr);
+                QuadraticElements* quadratic = nullptr, double volume_tolerance = 1e-12);
 
   using Vector = mechanics::Vector;
   Vector rest() const { return Vector::Zero(n_displacements() + n_pressures()); }
@@ -51,7 +53,7 @@ class GridEquations : public mechanics::NonlinearProblem {
   Space space_;
   QuadraticElements* quadratic_;
   Multigrid multigrid_;
-  double load_norm_;
+  double load_norm_, volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;
   double norm_before_ = 0;  ///< of the right side that the tangent was last used for, N

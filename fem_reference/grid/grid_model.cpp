@@ -242,8 +242,11 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   settings.from = m.last_load_factor;
   settings.to = load_factor;
   settings = mechanics::in_small_turns(cases::largest_turn(m.scene.definition), std::move(settings));
-  if (settings.from == 0 && settings.first_load_step == 1 && m.body.law != Law::small_strain)
-    settings.guess = coarse_guess(m.body, m.supported, load_factor, m.n_threads);
+  if (settings.from == 0 && settings.first_load_step == 1 && m.body.law != Law::small_strain) {
+    CoarseGuess coarse = coarse_guess(m.body, m.supported, load_factor, m.n_threads);
+    settings.guess = std::move(coarse.state);
+    settings.first_load_step = coarse.first_load_step;
+  }
   const auto equilibrium = mechanics::find_equilibrium(m.equations, m.last, "finite elements", settings);
   m.last = equilibrium.state;
   m.last_load_factor = load_factor;

@@ -71,7 +71,7 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
       settings_.max_newton_per_step * std::max(iteration_factor, fallback == Convexity::shifted ? 4 : 1);
   const int max_convexified =
       result_.convexified_steps + iteration_factor * settings_.max_convexified_per_step;
-  double forcing = 0.1, norm_before = 0;
+  double forcing = 0.1, norm_before = 0, norm_at_first = 0;
   Vector residual = problem_.residual(at, load_factor, Expect::direction);
   for (int iteration = 0;; ++iteration) {
     const NonlinearProblem::Size size = problem_.size(residual, at);
@@ -79,6 +79,11 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     if (!std::isfinite(norm)) return fail("cells turn inside out");
     if (norm <= settings_.tolerance && size.constraints_hold) return true;
     if (iteration == max_iterations || result_.convexified_steps > max_convexified)
+      return fail("Newton's method does not converge");
+    if (iteration == 0) norm_at_first = norm;
+    // A load step that succeeds has gained a hundred times by then; one that wanders goes on wandering. Where
+    // an energy falls, the residual may well grow on the way.
+    if (problem_.merit() != Merit::energy && iteration == max_iterations / 2 && norm > 0.1 * norm_at_first)
       return fail("Newton's method does not converge");
     const auto may_be_rounding = [&] {
       return size.constraints_hold && (problem_.moves_supports() || norm < 1e-6);
