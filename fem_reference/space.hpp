@@ -23,8 +23,10 @@ struct Space {
     std::vector<dealii::Point<3>> vertices;
     for (const Eigen::Vector3d& node : scene.mesh.nodes) vertices.emplace_back(node.x(), node.y(), node.z());
     std::vector<dealii::CellData<3>> cells(scene.mesh.cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      cells[c].vertices.assign(scene.mesh.cells[c].begin(), scene.mesh.cells[c].end());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::array<int, 8> nodes = scene.mesh.cells[c];
+      cells[c].vertices.assign(nodes.begin(), nodes.end());
+    }
     mesh.create_triangulation(vertices, cells, dealii::SubCellData());
     dofs.distribute_dofs(element);
   }

@@ -82,7 +82,7 @@ VolumeLaw VolumeCell::law(const CellPositions& x) const {
 Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness) {
   assert(stiffness.size() == 1 || stiffness.size() == mesh.cells.size());
   Lattice lattice;
-  lattice.rest = mesh.nodes;
+  lattice.rest = mesh.nodes.to_vector();
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
     for_each_spring(k, [&](int v, int w, double of_spring, const std::optional<double>& exponent) {

@@ -31,6 +31,12 @@ void serialize(Archive& archive, Eigen::Vector3d& vector) {
 
 SPRINGPROOF_FIELDS(springproof::cases::Selection, nodes, edges, faces)
 SPRINGPROOF_FIELDS(springproof::cases::Grid, cells, spacing, origin, present)
+SPRINGPROOF_FIELDS(springproof::cases::GridNodes, cells, origin, step, far_corner)
+SPRINGPROOF_FIELDS(springproof::cases::GridCells, cells)
+template<class Archive, class Rule>
+void serialize(Archive& archive, springproof::cases::RuledList<Rule>& list) {
+  archive(list.values, list.rule);
+}
 SPRINGPROOF_FIELDS(springproof::cases::HexMesh, nodes, cells, groups, group_of_cell, grid)
 
 } // namespace cereal

@@ -143,6 +143,14 @@ bool Grid::has(int i, int j, int k) const {
 
 HexMesh make_grid_mesh(const Grid& grid) {
   assert(grid.present.empty() || grid.present.size() == grid.n_lattice_cells());
+  HexMesh mesh;
+  mesh.grid = grid;
+  if (grid.present.empty()) {
+    const Vector3d size = grid.spacing.cwiseProduct(Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
+    mesh.nodes = RuledList(GridNodes{grid.cells, grid.origin, grid.spacing, grid.origin + size});
+    mesh.cells = RuledList(GridCells{grid.cells});
+    return mesh;
+  }
   const std::array<int, 3> points{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1};
   std::vector<int> numbers(index(points[0]) * index(points[1]) * index(points[2]), -1);
   /// Calls action(place of a vertex in the cell, its number) for the vertices of every present cell.
@@ -153,18 +161,20 @@ HexMesh make_grid_mesh(const Grid& grid) {
     });
   };
   for_each_vertex([](int, int& number) { number = 0; });
-  HexMesh mesh;
+  std::vector<Vector3d> nodes;
+  std::vector<std::array<int, 8>> cells;
   for_each_place(points, [&](int i, int j, int k) {
     int& number = numbers[number_of(i, j, k, points)];
     if (number < 0) return;
-    number = static_cast<int>(mesh.nodes.size());
-    mesh.nodes.emplace_back(grid.origin + Vector3d(i, j, k).cwiseProduct(grid.spacing));
+    number = static_cast<int>(nodes.size());
+    nodes.emplace_back(grid.origin + Vector3d(i, j, k).cwiseProduct(grid.spacing));
   });
   for_each_vertex([&](int v, int number) {
-    if (v == 0) mesh.cells.emplace_back();
-    mesh.cells.back()[index(v)] = number;
+    if (v == 0) cells.emplace_back();
+    cells.back()[index(v)] = number;
   });
-  mesh.grid = grid;
+  mesh.nodes = std::move(nodes);
+  mesh.cells = std::move(cells);
   return mesh;
 }
 
@@ -174,9 +184,7 @@ HexMesh make_box_mesh(const Vector3d& size, const std::array<int, 3>& cells) {
   grid.spacing = size.cwiseQuotient(Vector3d(cells[0], cells[1], cells[2]));
   HexMesh mesh = make_grid_mesh(grid);
   // n * (size / n) need not be size: the far faces are put where the case file says.
-  for (Vector3d& node : mesh.nodes)
-    for (int a = 0; a < 3; ++a)
-      if (std::abs(node[a] - size[a]) < 1e-9 * size[a]) node[a] = size[a];
+  mesh.nodes = RuledList(GridNodes{grid.cells, grid.origin, grid.spacing, size});
   return mesh;
 }
 
@@ -205,10 +213,11 @@ bool find_grid(HexMesh& mesh) {
 
   if (mesh.cells.size() < grid.n_lattice_cells()) grid.present.assign(grid.n_lattice_cells(), false);
   const std::vector<std::string> groups = mesh.group_of_cell;
+  std::vector<std::array<int, 8>>& cells = mesh.cells.stored();
   std::size_t c = 0;
   for (const auto& [number, cell] : by_place) {
     if (!grid.present.empty()) grid.present[number] = true;
-    mesh.cells[c] = cell.first;
+    cells[c] = cell.first;
     if (!groups.empty()) mesh.group_of_cell[c] = groups[cell.second];
     ++c;
   }
@@ -218,12 +227,14 @@ bool find_grid(HexMesh& mesh) {
 
 HexMesh refine(const HexMesh& mesh) {
   HexMesh fine;
-  fine.nodes = mesh.nodes;
-  Midpoints midpoints(fine.nodes);
-  fine.cells.reserve(8 * mesh.cells.size());
+  std::vector<Vector3d>& nodes = fine.nodes.stored();
+  std::vector<std::array<int, 8>>& cells = fine.cells.stored();
+  nodes = mesh.nodes.to_vector();
+  Midpoints midpoints(nodes);
+  cells.reserve(8 * mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (int child = 0; child < 8; ++child) {
-      std::array<int, 8>& cell = fine.cells.emplace_back();
+      std::array<int, 8>& cell = cells.emplace_back();
       for (int v = 0; v < 8; ++v) {
         std::vector<int> around; // vertices of the coarse cell on the child's side wherever v is on it too
         for (int w = 0; w < 8; ++w)
@@ -236,7 +247,7 @@ HexMesh refine(const HexMesh& mesh) {
   // A three-dimensional group has no faces of its own: its nodes are those of its cells.
   for (std::size_t c = 0; c < fine.group_of_cell.size(); ++c) {
     Selection& group = fine.groups[fine.group_of_cell[c]];
-    group.nodes.insert(group.nodes.end(), fine.cells[c].begin(), fine.cells[c].end());
+    group.nodes.insert(group.nodes.end(), cells[c].begin(), cells[c].end());
   }
   for (auto& entry : fine.groups) make_set(entry.second.nodes);
   return fine;

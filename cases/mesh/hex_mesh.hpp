@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cases/mesh/grid_lists.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -40,8 +42,8 @@ struct Grid {
 
 /// The body's mesh, which both models are made from.
 struct HexMesh {
-  std::vector<Eigen::Vector3d> nodes;      ///< rest positions, mm
-  std::vector<std::array<int, 8>> cells;   ///< vertex v = i + 2j + 4k sits at (i, j, k) in the reference cube
+  RuledList<GridNodes> nodes;              ///< rest positions, mm
+  RuledList<GridCells> cells;              ///< vertex v = i + 2j + 4k sits at (i, j, k) in the reference cube
   std::map<std::string, Selection> groups; ///< physical groups of a mesh file
   std::vector<std::string> group_of_cell; ///< name of the three-dimensional physical group; empty: none named
   std::optional<Grid> grid;               ///< set when the mesh is a grid of cells
@@ -58,6 +60,7 @@ extern const std::array<std::array<int, 4>, 6> cell_faces; ///< x-, x+, y-, y+, 
 constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
+/// Where every cell is present, neither nodes nor cells are stored.
 HexMesh make_grid_mesh(const Grid& grid);
 
 /// Box from the origin to size (mm), divided into cells.

@@ -27,12 +27,12 @@ void check(const HexMesh& mesh) {
 } // namespace
 
 std::string bytes_of_mesh(const HexMesh& mesh) {
-  return to_bytes(mesh.nodes, mesh.cells, mesh.groups, mesh.group_of_cell);
+  return to_bytes(mesh.nodes.to_vector(), mesh.cells.to_vector(), mesh.groups, mesh.group_of_cell);
 }
 
 HexMesh mesh_from(const std::string& bytes) {
   HexMesh mesh;
-  from_bytes(bytes, mesh.nodes, mesh.cells, mesh.groups, mesh.group_of_cell);
+  from_bytes(bytes, mesh.nodes.stored(), mesh.cells.stored(), mesh.groups, mesh.group_of_cell);
   check(mesh);
   find_grid(mesh);
   return mesh;

@@ -83,7 +83,7 @@ class Builder {
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
         cell_number_[elements.tags[e]] = mesh_.cells.size();
         cell_tags_.push_back(elements.tags[e]);
-        std::array<int, 8>& cell = mesh_.cells.emplace_back();
+        std::array<int, 8>& cell = mesh_.cells.stored().emplace_back();
         for (std::size_t v = 0; v < 8; ++v) {
           const std::size_t tag = elements.nodes[e][around_cell[v]];
           if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
@@ -111,9 +111,9 @@ class Builder {
       if (found == place.end())
         refuse(fmt::format("has a hexahedron with node {}, which does not exist", tag));
       node_number_[index(tag)] = static_cast<int>(mesh_.nodes.size());
-      mesh_.nodes.emplace_back(&coordinates[3 * found->second]);
+      mesh_.nodes.stored().emplace_back(&coordinates[3 * found->second]);
     }
-    for (auto& cell : mesh_.cells)
+    for (auto& cell : mesh_.cells.stored())
       for (int& node : cell) node = node_number_[index(node)];
   }
 

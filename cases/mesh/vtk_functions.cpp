@@ -72,7 +72,7 @@ vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& nodes) {
 
 std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<PointField>& point_fields,
                                     const std::vector<CellField>& cell_fields) {
-  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes);
+  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
   grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
   for (const std::array<int, 8>& cell : mesh.cells) {
     std::array<vtkIdType, 8> nodes;

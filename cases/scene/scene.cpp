@@ -26,13 +26,14 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
       std::min_element(mesh.nodes.begin(), mesh.nodes.end(), [&](const auto& a, const auto& b) {
         return (a - point).squaredNorm() < (b - point).squaredNorm();
       });
-  const double distance = (*nearest - point).norm();
+  const Vector3d found = *nearest;
+  const double distance = (found - point).norm();
   if (!(distance <= near_tolerance))
     throw InputError(region.where,
                      fmt::format("no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
                                  near_tolerance, fmt::join(point, ", "), distance,
-                                 fmt::join(*nearest, ", ")));
-  return {{static_cast<int>(nearest - mesh.nodes.begin())}, {}, {}};
+                                 fmt::join(found, ", ")));
+  return {{static_cast<int>(nearest.number())}, {}, {}};
 }
 
 /// Whether these are names of a box's faces.
@@ -132,7 +133,7 @@ void integrate(const HexMesh& mesh, const Selection& selection, const Action& ac
   for (const auto& face : selection.faces)
     for (double s : gauss)
       for (double t : gauss) {
-        const auto vertex = [&](std::size_t v) -> const Vector3d& { return mesh.nodes[index(face[v])]; };
+        const auto vertex = [&](std::size_t v) -> Vector3d { return mesh.nodes[index(face[v])]; };
         const std::array<double, 4> shape{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
         const Vector3d along_s = (1 - t) * (vertex(1) - vertex(0)) + t * (vertex(2) - vertex(3));
         const Vector3d along_t = (1 - s) * (vertex(3) - vertex(0)) + s * (vertex(2) - vertex(1));

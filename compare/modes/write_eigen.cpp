@@ -75,8 +75,8 @@ std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
 
 cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
   cases::HexMesh mesh;
-  mesh.nodes.assign(vertices.begin(), vertices.end());
-  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  mesh.nodes.stored().assign(vertices.begin(), vertices.end());
+  mesh.cells.stored() = {{0, 1, 2, 3, 4, 5, 6, 7}};
   return mesh;
 }
 

@@ -112,7 +112,7 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
                                   const std::string& path) {
   std::vector<Vector3d> positions, displacement;
   for (const GivenDisplacement& next : given) positions.push_back(next.position);
-  const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes, positions);
+  const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes.to_vector(), positions);
   std::vector<const GivenDisplacement*> of_node(mesh.nodes.size(), nullptr);
   for (std::size_t g = 0; g < given.size(); ++g) {
     const GivenDisplacement& next = given[g];

@@ -23,7 +23,7 @@ cases::Scene membrane(int n, double bulk_modulus, Element element) {
   scene.definition.fem.element = element;
   scene.mesh = cases::make_box_mesh(Vector3d::Ones(), {n, n, 1});
   scene.mesh.grid.reset();
-  for (Vector3d& x : scene.mesh.nodes) { // bilinear in the unit square
+  for (Vector3d& x : scene.mesh.nodes.stored()) { // bilinear in the unit square
     const double s = x.x(), t = x.y();
     x = {48 * s, 44 * s * (1 - t) + 44 * t * (1 - s) + 60 * s * t, x.z()};
   }

@@ -37,7 +37,7 @@ struct OneCell {
 
   static Formulation make(cases::Scene& scene) {
     for (std::size_t n = 0; n < 8; ++n) // a cell that is no parallelepiped
-      scene.mesh.nodes[n] +=
+      scene.mesh.nodes.stored()[n] +=
           0.1 * Eigen::Vector3d(std::sin(5. * double(n)), std::sin(9. * double(n)), std::cos(7. * double(n)));
     return make_formulation(scene.definition.fem, scene.definition.material);
   }

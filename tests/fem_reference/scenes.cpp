@@ -99,7 +99,7 @@ cases::Scene distorted_box(int cells, Surface surface, const cases::Material& ma
   scene.mesh.grid.reset();
   std::vector<bool> on_surface(scene.mesh.nodes.size());
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
-    Vector3d& x = scene.mesh.nodes[n];
+    Vector3d& x = scene.mesh.nodes.stored()[n];
     on_surface[n] = x.minCoeff() < 1e-12 || x.maxCoeff() > 1 - 1e-12;
     if (on_surface[n]) continue;
     const auto k = static_cast<double>(n); // as good as random, and the same on every machine

@@ -21,7 +21,7 @@ cases::HexMesh bar() {
 
 cases::HexMesh wedge() {
   cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
-  mesh.nodes[2].x() += 0.3;
+  mesh.nodes.stored()[2].x() += 0.3;
   return mesh;
 }
 

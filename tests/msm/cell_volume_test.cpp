@@ -13,7 +13,8 @@ using msm::CellPositions;
 namespace {
 
 CellPositions distorted_cell() {
-  const msm::Points points = bodies::disturbed(cases::make_box_mesh({1, 1.2, 0.8}, {1, 1, 1}).nodes, 0.2);
+  const msm::Points points =
+      bodies::disturbed(cases::make_box_mesh({1, 1.2, 0.8}, {1, 1, 1}).nodes.to_vector(), 0.2);
   CellPositions x;
   std::copy(points.begin(), points.end(), x.begin());
   return x;

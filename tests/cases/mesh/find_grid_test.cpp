@@ -18,18 +18,18 @@ HexMesh shuffled(const HexMesh& mesh) {
   for (std::size_t n = 0; n < place.size(); ++n) place[n] = static_cast<int>(n);
   std::shuffle(place.begin(), place.end(), random);
   HexMesh other;
-  other.nodes.resize(mesh.nodes.size());
+  other.nodes.stored().resize(mesh.nodes.size());
   for (std::size_t n = 0; n < place.size(); ++n)
-    other.nodes[static_cast<std::size_t>(place[n])] = mesh.nodes[n];
+    other.nodes.stored()[static_cast<std::size_t>(place[n])] = mesh.nodes[n];
   for (const auto& cell : mesh.cells) {
     std::array<int, 8> turned{};
     for (std::size_t v = 0; v < 8; ++v) {
       const std::size_t i = v & 1, j = (v >> 1) & 1, k = v >> 2;
       turned[j + 2 * (1 - i) + 4 * k] = place[static_cast<std::size_t>(cell[v])];
     }
-    other.cells.push_back(turned);
+    other.cells.stored().push_back(turned);
   }
-  std::shuffle(other.cells.begin(), other.cells.end(), random);
+  std::shuffle(other.cells.stored().begin(), other.cells.stored().end(), random);
   return other;
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("a grid is found again however its cells are numbered and turned") {
 TEST_CASE("groups follow their cells into the grid's order") {
   HexMesh mesh = make_box_mesh({3, 1, 1}, {3, 1, 1});
   mesh.grid.reset();
-  std::swap(mesh.cells[0], mesh.cells[2]);
+  std::swap(mesh.cells.stored()[0], mesh.cells.stored()[2]);
   mesh.group_of_cell = {"right", "middle", "left"};
   REQUIRE(find_grid(mesh));
   CHECK(mesh.group_of_cell == std::vector<std::string>{"left", "middle", "right"});
@@ -71,10 +71,10 @@ TEST_CASE("groups follow their cells into the grid's order") {
 TEST_CASE("cells that are unequal, distorted or off the axes are no grid") {
   const HexMesh box = make_box_mesh({2, 2, 2}, {2, 2, 2});
   HexMesh unequal = box, distorted = box, turned = box;
-  for (auto& node : unequal.nodes)
+  for (auto& node : unequal.nodes.stored())
     if (node.x() == 1) node.x() = 0.9;
-  distorted.nodes[13].z() += 1e-6;
-  for (auto& node : turned.nodes)
+  distorted.nodes.stored()[13].z() += 1e-6;
+  for (auto& node : turned.nodes.stored())
     node = {0.8 * node.x() - 0.6 * node.y(), 0.6 * node.x() + 0.8 * node.y(), node.z()};
   for (HexMesh mesh : {unequal, distorted, turned}) {
     mesh.grid.reset();
@@ -88,9 +88,9 @@ TEST_CASE("a chain of cells along a diagonal is no grid: its lattice would fill 
   constexpr int n = 1000; // steps in each direction: a lattice of 10⁹ places
   for (int i = 0; i < n; ++i) {
     const HexMesh cell = make_grid_mesh({{1, 1, 1}, {1, 1, 1}, Eigen::Vector3d::Constant(i), {}});
-    auto& vertices = mesh.cells.emplace_back(cell.cells[0]);
+    auto& vertices = mesh.cells.stored().emplace_back(cell.cells[0]);
     for (int& vertex : vertices) vertex += static_cast<int>(mesh.nodes.size());
-    mesh.nodes.insert(mesh.nodes.end(), cell.nodes.begin(), cell.nodes.end());
+    for (const Eigen::Vector3d& node : cell.nodes) mesh.nodes.stored().push_back(node);
   }
   CHECK_FALSE(find_grid(mesh));
 }

@@ -45,6 +45,22 @@ TEST_CASE("a box has its nodes with x running fastest, and its far faces exactly
   CHECK(total_volume(mesh) == Approx(0.3 * 0.7 * 1.1).epsilon(rounding));
 }
 
+TEST_CASE("nodes and cells of a whole grid follow from their numbers, and are those that a mask would store") {
+  Grid grid{{3, 2, 4}, {0.1, 0.7, 1.1}, {-1, 1e-3, 7}, {}};
+  HexMesh ruled = make_grid_mesh(grid);
+  grid.present.assign(3 * 2 * 4, true);
+  const HexMesh stored = make_grid_mesh(grid);
+  CHECK(ruled.nodes.values.empty());
+  CHECK(ruled.cells.values.empty());
+  CHECK(ruled.nodes.size() == stored.nodes.size());
+  CHECK(ruled.nodes.to_vector() == stored.nodes.values); // to the last bit
+  CHECK(ruled.cells.to_vector() == stored.cells.values);
+  ruled.nodes.stored()[5].x() = 3;
+  CHECK(ruled.nodes[5].x() == 3);
+  CHECK(ruled.nodes[6] == stored.nodes[6]);
+  CHECK(ruled.nodes.size() == stored.nodes.size());
+}
+
 TEST_CASE("a masked grid has the present cells, and nodes that they touch alone") {
   const HexMesh mesh = make_grid_mesh(l_shape());
   CHECK(mesh.cells.size() == 3);
@@ -101,7 +117,7 @@ TEST_CASE(
 
 TEST_CASE("refinement keeps the body, the numbers of its nodes and the parentage of its cells") {
   HexMesh mesh = make_grid_mesh(l_shape());
-  mesh.nodes[5] += Vector3d(0.1, -0.05, 0.08); // no longer a box of planes
+  mesh.nodes.stored()[5] += Vector3d(0.1, -0.05, 0.08); // no longer a box of planes
   const HexMesh fine = refine(mesh);
   CHECK(fine.cells.size() == 8 * mesh.cells.size());
   CHECK(total_volume(fine) == Approx(total_volume(mesh)).epsilon(rounding));

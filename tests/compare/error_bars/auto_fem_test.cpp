@@ -47,7 +47,7 @@ double shift(const cases::Scene& scene, const Answer& answer) {
 
 TEST_CASE("the largest gradient of a uniform deformation is its own norm, on cells of any shape") {
   cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
-  mesh.nodes[13] += Eigen::Vector3d(0.1, -0.05, 0.08);
+  mesh.nodes.stored()[13] += Eigen::Vector3d(0.1, -0.05, 0.08);
   std::vector<Eigen::Vector3d> displacement;
   for (const Eigen::Vector3d& x : mesh.nodes) displacement.emplace_back(0.3 * x.y(), 0, -0.1 * x.z());
   CHECK(largest_gradient(mesh, displacement) == Approx(0.3).epsilon(1e-12)); // rounding

@@ -76,7 +76,7 @@ TEST_CASE("the .vtu that this program writes is read back to the last bit") {
   std::vector<Eigen::Vector3d> moved;
   for (const Eigen::Vector3d& x : mesh.nodes) moved.emplace_back(0.1 * x.y(), x.z() / 3, -1e-300);
   std::ostringstream out;
-  compare::write_vtu(out, mesh, {{"msm_displacement", moved}, {"other", mesh.nodes}});
+  compare::write_vtu(out, mesh, {{"msm_displacement", moved}, {"other", mesh.nodes.to_vector()}});
   const auto nodes = read_displacement_vtu(out.str(), "a.vtu");
   REQUIRE(nodes.size() == mesh.nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -80,7 +80,7 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
   cases::Scene scene = cases::make_scene(definition);
   const msm::CellStiffness cube = compare::design_for(scene).stiffness;
   scene.mesh.grid.reset();
-  for (Eigen::Vector3d& x : scene.mesh.nodes)
+  for (Eigen::Vector3d& x : scene.mesh.nodes.stored())
     x += 0.03 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
   const msm::DesignResult design = compare::design_for(scene);
   REQUIRE(compare::stiffness_of_cells(design).size() == 8);

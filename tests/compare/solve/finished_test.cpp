@@ -172,7 +172,7 @@ TEST_CASE("answers are for one case, one request and one setting of PETSc") {
   other.scene.definition.msm.split = 0.5;
   CHECK_FALSE(is_found(other));
   other = question();
-  other.scene.mesh.nodes[7].x() += 1e-15; // from a file that gmsh read
+  other.scene.mesh.nodes.stored()[7].x() += 1e-15; // from a file that gmsh read
   CHECK_FALSE(is_found(other));
   setenv("PETSC_OPTIONS", "-ksp_rtol 1", 1);
   CHECK_FALSE(is_found(question()));

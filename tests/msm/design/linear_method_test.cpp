@@ -26,8 +26,8 @@ TEST_CASE("the cell's matrix is the tangent of its lattice at rest", "[verificat
   const msm::CellVertices cell = distorted();
   const msm::CellStiffness with_volume = {0.031, 0.047, 0.033, 0.2};
   cases::HexMesh mesh;
-  mesh.nodes.assign(cell.begin(), cell.end());
-  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  mesh.nodes.stored().assign(cell.begin(), cell.end());
+  mesh.cells.stored() = {{0, 1, 2, 3, 4, 5, 6, 7}};
   const msm::Lattice lattice = msm::make_lattice(mesh, {with_volume});
   msm::CellMatrix tangent = msm::CellMatrix::Zero();
   msm::visit_tangent_blocks(lattice, lattice.rest, msm::TransverseTerm::exact,
