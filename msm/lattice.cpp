@@ -85,14 +85,14 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
   lattice.rest = mesh.nodes.to_vector();
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
+    const std::array<int, 8> cell = mesh.cells[c]; // std::minmax refers to its arguments
     for_each_spring(k, [&](int v, int w, double of_spring, const std::optional<double>& exponent) {
-      const auto [i, j] = std::minmax(mesh.cells[c][index(v)], mesh.cells[c][index(w)]);
+      const auto [i, j] = std::minmax(cell[index(v)], cell[index(w)]);
       if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0, exponent}});
     });
     if (k.volume != 0)
-      lattice.volume_cells.push_back({mesh.cells[c], k.volume,
-                                      cases::cell_volume(cases::cell_vertices(mesh, c)),
-                                      k.exponents.has_value()});
+      lattice.volume_cells.push_back(
+          {cell, k.volume, cases::cell_volume(cases::cell_vertices(mesh, c)), k.exponents.has_value()});
   }
   lattice.links = merge(std::move(lattice.links));
   for (Link& link : lattice.links)

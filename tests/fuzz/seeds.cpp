@@ -38,7 +38,7 @@ cases::Surface boundary(const cases::HexMesh& mesh) {
 /// For the box that the fuzzers match displacements with.
 cases::PointCloud cloud() {
   cases::PointCloud cloud;
-  cloud.points = cases::make_box_mesh({2, 2, 2}, {2, 2, 2}).nodes;
+  cloud.points = cases::make_box_mesh({2, 2, 2}, {2, 2, 2}).nodes.to_vector();
   cloud.fields = {{"displacement", cloud.points}, {"velocity", cloud.points}};
   return cloud;
 }
