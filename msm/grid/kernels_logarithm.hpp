@@ -46,7 +46,11 @@ template<class P>
 SPRINGPROOF_INLINE P number(const Bits<P>& n, RealOf<P> offset) {
   using Real = RealOf<P>;
   const P above = bits_as<P>(n | bits_as<Bits<Real>>(whole<Real>));
+#if defined(__clang__) // with -ffast-math it would multiply both terms by a factor of the difference
+  return __arithmetic_fence(above - (whole<Real> + offset));
+#else
   return above - (whole<Real> + offset);
+#endif
 }
 
 // The nearest whole number. Adding and subtracting 2^mantissa is not safe: -ffast-math draws it to other
