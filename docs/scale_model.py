@@ -22,13 +22,13 @@ class Measured:
     iterations: int  # linear ones, on the finest grid
     exchanges: int  # of layers in single precision, per level and iteration
     solver_bytes: int  # per unknown, divided among the ranks
-    scene_bytes: int  # per unknown, on every rank: scene and answer
+    scene_bytes: int  # per unknown, on every rank: the answer
     axes: int  # along which the grid is dealt out: bricks or slabs
     least_in_all: int  # nodes of a level that is dealt out
 
 
-SPRINGS = Measured("springs, bricks", 5.9e-6, 23, 7, 200, 57, 3, 1000)
-FINITE_ELEMENTS = Measured("finite elements, slabs", 10.3e-6, 18, 8, 720, 40, 1, 500)
+SPRINGS = Measured("springs, bricks", 5.9e-6, 23, 7, 180, 25, 3, 1000)
+FINITE_ELEMENTS = Measured("finite elements, slabs", 10.3e-6, 18, 8, 690, 30, 1, 500)
 PROGRAM_BYTES = 168e6  # on every rank
 LEAST_NODES = 2  # of a brick or slab along an axis that is divided
 
