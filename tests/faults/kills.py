@@ -82,7 +82,9 @@ def undisturbed(words, folder):
         runs.append(files_in(out))
     assert all(run.keys() == runs[0].keys() for run in runs), [sorted(run) for run in runs]
     (status,) = statuses
-    return status, runs[0], {name for name in runs[0] if runs[0][name] == runs[1][name] == runs[2][name]}, seconds
+    # A busy machine may take longer than sweep's budget for a first solve, and then leaves the second one out of the picture.
+    constant = {name for name in runs[0] if runs[0][name] == runs[1][name] == runs[2][name] and not name.endswith("_again.gp")}
+    return status, runs[0], constant, seconds
 
 
 def faults_of_kill(words, out, moment, status, expected, constant):
