@@ -151,6 +151,10 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
   if (!std::holds_alternative<cases::LinearElastic>(definition.material))
     throw cases::InputError(
         definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  if (definition.msm.exponent)
+    throw cases::InputError(definition.file +
+                            ": msm.law: a sweep solves every design with the springs that are its own, so it "
+                            "must be left out");
   Plan plan;
   plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
   for (std::size_t level = plan.levels.size() - 3; level < plan.levels.size(); ++level)

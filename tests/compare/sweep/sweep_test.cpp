@@ -99,6 +99,10 @@ TEST_CASE("a body that is no box, or a material without small strain, is refused
   ogden.material = cases::Ogden{{0.1}, {2}, std::nullopt};
   CHECK_THROWS_AS(plan_sweep(mesh, Extent::full), cases::InputError);
   CHECK_THROWS_AS(plan_sweep(ogden, Extent::full), cases::InputError);
+  cases::Case power_log = tiny();
+  power_log.msm.law = cases::SpringLaw::power_log;
+  power_log.msm.exponent = {-1, -1, -1};
+  CHECK_THROWS_WITH(plan_sweep(power_log, Extent::full), Contains("msm.law") && Contains("must be left out"));
 }
 
 TEST_CASE("forces on points have no limit to be measured against, and are refused") {
