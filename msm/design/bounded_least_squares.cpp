@@ -1,9 +1,9 @@
 #include "msm/design/bounded_least_squares.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/minimise.hpp"
 
 #include <Eigen/QR>
-#include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 
 namespace springproof::msm {
@@ -26,14 +26,11 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
                            scaled.data());
   for (int c = 0; c < n; ++c) problem.SetParameterLowerBound(scaled.data(), c, 0);
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 500;
   options.function_tolerance = 1e-15;
   options.gradient_tolerance = 1e-13;
   options.parameter_tolerance = 1e-13;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = minimise(problem, options);
   if (!summary.IsSolutionUsable())
     throw cases::SolveError("bounded least squares: the minimisation failed: " + summary.message);
   return unit * scaled;

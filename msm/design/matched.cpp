@@ -2,12 +2,12 @@
 
 #include "cases/case/error.hpp"
 #include "msm/design/homogeneous.hpp"
+#include "msm/design/minimise.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 #include <cmath>
 #include <numeric>
@@ -105,12 +105,9 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   for (int kind = 0; is_ogden && kind < 3; ++kind)
     problem.SetParameterLowerBound(p.data(), kind, lowest_ogden_exponent);
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
   options.function_tolerance = 1e-14;
   options.parameter_tolerance = 1e-10;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = minimise(problem, options);
   if (!summary.IsSolutionUsable())
     throw cases::SolveError("matched design: the minimisation failed: " + summary.message);
   return {{p[0], p[1], p[2]}, 2 * summary.final_cost};

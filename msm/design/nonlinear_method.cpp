@@ -1,11 +1,10 @@
 #include "msm/design/nonlinear_method.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/minimise.hpp"
 
 #include <Eigen/SVD>
-#include <ceres/ceres.h>
 #include <cmath>
-#include <glog/logging.h>
 #include <limits>
 #include <numeric>
 
@@ -79,7 +78,7 @@ void check(const UniaxialCurve& reference) {
 }
 
 /// Moves three scaled stiffnesses to a minimum of the objective, which it returns if it gets there.
-std::optional<double> minimise(const UniaxialCurve& reference, double edge, double unit, double* scaled) {
+std::optional<double> fit_from(const UniaxialCurve& reference, double edge, double unit, double* scaled) {
   ceres::Problem problem;
   problem.AddParameterBlock(scaled, 3);
   for (std::size_t i = 0; i < reference.axial_strain.size(); ++i) {
@@ -90,16 +89,11 @@ std::optional<double> minimise(const UniaxialCurve& reference, double edge, doub
   }
   for (int c = 0; c < 3; ++c) problem.SetParameterLowerBound(scaled, c, 0);
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.num_threads = 1;
   options.max_num_iterations = 2000; // the valley is flat: hundreds of steps from a bad start
   options.function_tolerance = 1e-10;
   options.gradient_tolerance = 1e-11;
   options.parameter_tolerance = 1e-10;
-  options.logging_type = ceres::SILENT;
-  FLAGS_minloglevel = google::GLOG_FATAL; // of Ceres, whatever logging_type: a start that fails is no error
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = minimise(problem, options);
   return summary.IsSolutionUsable() ? std::optional(2 * summary.final_cost) : std::nullopt;
 }
 
@@ -141,7 +135,7 @@ NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge) {
   NonlinearFit fit{{}, std::numeric_limits<double>::infinity(), {}};
   for (const auto& start : starts) {
     double k[] = {start[0], start[1], start[2]};
-    const std::optional<double> objective = minimise(reference, edge, unit, k);
+    const std::optional<double> objective = fit_from(reference, edge, unit, k);
     if (!objective) continue;
     fit.minimisers.push_back({unit * k[0], unit * k[1], unit * k[2], 0});
     if (!(*objective < fit.objective)) continue;
