@@ -22,7 +22,7 @@ class Measured:
     iterations: int  # linear ones, on the finest grid
     exchanges: int  # of layers in single precision, per level and iteration
     solver_bytes: int  # per unknown, divided among the ranks
-    scene_bytes: int  # per unknown, on every rank: the answer
+    scene_bytes: int  # per unknown, on every rank: supports and loads, while they are made
     axes: int  # along which the grid is dealt out: bricks or slabs
     least_in_all: int  # nodes of a level that is dealt out
 

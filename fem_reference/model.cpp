@@ -3,6 +3,7 @@
 #include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
 #include "mechanics/equilibrium/turns.hpp"
+#include "mechanics/ranks/share_out.hpp"
 
 #include <cmath>
 #include <deal.II/base/mpi.h>
@@ -19,10 +20,6 @@ std::vector<Formulation> formulations_of(const cases::Scene& scene) {
   for (const cases::Material& material : cases::materials_of(scene.definition))
     formulations.push_back(make_formulation(scene.definition.fem, material));
   return formulations;
-}
-
-void sum_over_ranks(double* values, std::size_t n, MPI_Comm communicator) {
-  MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, communicator);
 }
 
 /// Nodes of the elements from which the grid's backend is used. Below, a compact body takes milliseconds
@@ -73,8 +70,8 @@ struct Model::Assembled : Model::Implementation {
                        element_type(scene.definition.fem, formulations.front()), {}, communicator),
         equations(discretisation, formulations), last(equations.rest()) {}
 
-  std::vector<Eigen::Vector3d> body_displacement() const;
-  std::vector<double> body_cell_volumes();
+  std::vector<cases::Numbered<Eigen::Vector3d>> body_displacement() const;
+  std::vector<cases::Numbered<double>> body_cell_volumes();
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
   void back_to_rest() override {
     last = equations.rest();
@@ -90,26 +87,24 @@ struct Model::Assembled : Model::Implementation {
   double last_load_factor = 0; ///< its load; 0: at rest
 };
 
-/// The nodes of the body's mesh are the first of the refined mesh.
-std::vector<Eigen::Vector3d> Model::Assembled::body_displacement() const {
-  std::vector<Eigen::Vector3d> displacement(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+/// Of this rank's nodes. Those of the body's mesh are the first of the refined mesh.
+std::vector<cases::Numbered<Eigen::Vector3d>> Model::Assembled::body_displacement() const {
+  std::vector<cases::Numbered<Eigen::Vector3d>> displacement;
   for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
     const int number = discretisation.nodes.mesh_node[index(node)];
-    if (number >= 0 && index(number) < displacement.size())
-      displacement[index(number)] = last.segment<3>(3 * node);
+    if (number >= 0 && index(number) < scene.mesh.nodes.size())
+      displacement.push_back({number, last.segment<3>(3 * node)});
   }
-  sum_over_ranks(displacement.front().data(), 3 * displacement.size(), discretisation.communicator);
   return displacement;
 }
 
-/// Each cell of the body is its 8^refine descendants.
-std::vector<double> Model::Assembled::body_cell_volumes() {
-  std::vector<double> volumes(scene.mesh.cells.size(), 0.);
+/// Of this rank's elements. Each cell of the body is its 8^refine descendants.
+std::vector<cases::Numbered<double>> Model::Assembled::body_cell_volumes() {
+  std::vector<cases::Numbered<double>> volumes;
   const std::vector<double> own = equations.cell_volumes(last);
   const int shift = 3 * scene.definition.fem.refine;
   for (std::size_t cell = 0; cell < own.size(); ++cell)
-    volumes[index(discretisation.nodes.mesh_cell[cell] >> shift)] += own[cell];
-  sum_over_ranks(volumes.data(), volumes.size(), discretisation.communicator);
+    volumes.push_back({discretisation.nodes.mesh_cell[cell] >> shift, own[cell]});
   return volumes;
 }
 
@@ -182,11 +177,14 @@ cases::Solution Model::Assembled::solve(double load_factor, mechanics::Equilibri
   last = equilibrium.state;
   last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.displacement = body_displacement();
-  solution.cell_volume = body_cell_volumes();
+  solution.sharing = mechanics::share_out(scene.mesh, discretisation.communicator);
+  const cases::Sharing* const sharing = solution.sharing.get();
+  solution.displacement =
+      cases::deal(sharing, body_displacement(), scene.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
+  solution.cell_volume = cases::deal(sharing, body_cell_volumes(), scene.mesh.cells.size(), 0.);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = equations.negative_eigenvalues();
-  solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement);
+  solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement, sharing);
   return solution;
 }
 

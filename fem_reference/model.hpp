@@ -31,7 +31,7 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes);
 bool takes_factorisation(double n_nodes);
 
 /// A finite-element model of a scene, distributed over the ranks of a communicator: mesh, degrees of freedom,
-/// sparsity. Every member function is collective; every rank gets the whole answer.
+/// sparsity. Every member function is collective; the ranks share a solution (Solution::sharing).
 class Model {
  public:
   /// @param scene  the body's scene; definition.fem.refine is applied here

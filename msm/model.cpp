@@ -39,7 +39,7 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
 Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
              const ModelOptions& options)
     : solver_(scene.definition.msm.solver), largest_turn_(cases::largest_turn(scene.definition)),
-      n_threads_(options.n_threads), problem_(make_problem(scene)) {
+      n_threads_(options.n_threads), sharing_(options.sharing), problem_(make_problem(scene)) {
   if (takes_multigrid(scene, stiffness, options.path)) {
     grid_ = grid::make_grid_problem(problem_, stiffness, options.deal_out);
     system_ = grid::make_grid_system(*grid_, n_threads_);
@@ -80,8 +80,9 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
       is_newton ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
                 : relax(*system_, from, solver_, settings);
   return solution_of(problem_, found,
-                     grid_ ? grid::to_points(problem_, grid_->body, found.state)
-                           : to_points(problem_, found.state));
+                     grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
+                           : to_points(problem_, found.state),
+                     sharing_);
 }
 
 } // namespace springproof::msm

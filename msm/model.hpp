@@ -19,8 +19,8 @@ constexpr std::size_t multigrid_from = 500;
 struct ModelOptions {
   Path path = Path::automatic;
   int n_threads = 1;           ///< of the multigrid path; results do not depend on it
-  grid::DealOut deal_out = {}; ///< to the ranks, on the multigrid path; then solve() is collective, and every
-                               ///< rank gets the whole answer
+  grid::DealOut deal_out = {}; ///< to the ranks, on the multigrid path; then solve() is collective
+  std::shared_ptr<const cases::Sharing> sharing = {}; ///< the ranks that get the answer together, then
 };
 
 /// Whether Path::automatic takes the multigrid path.
@@ -47,6 +47,7 @@ class Model {
   cases::Solver solver_;
   double largest_turn_; ///< of the supports, degrees
   int n_threads_;
+  std::shared_ptr<const cases::Sharing> sharing_;
   std::vector<CellStiffness>
       stiffness_; ///< of the direct path, should multigrid fail; empty: it is not taken
   Problem problem_;

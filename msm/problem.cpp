@@ -1,5 +1,7 @@
 #include "msm/problem.hpp"
 
+#include "cases/mesh/sharing.hpp"
+
 #include <algorithm>
 
 namespace springproof::msm {
@@ -33,14 +35,18 @@ Problem make_problem(const cases::Scene& scene) {
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement)));
-  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
+  const cases::Sharing* const sharing = solution.sharing.get();
+  const auto [own_nodes, cells, nodes] = cases::share_here(mesh, sharing);
+  for (std::size_t c = cells.begin; c < cells.end; ++c)
+    solution.cell_volume.push_back(
+        cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement, nodes.begin)));
+  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement, sharing);
 }
 
 cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
-                            Points displacement) {
+                            Points displacement, std::shared_ptr<const cases::Sharing> sharing) {
   cases::Solution solution = mechanics::to_solution(equilibrium);
+  solution.sharing = std::move(sharing);
   solution.displacement = std::move(displacement);
   measure_cells(problem.mesh, solution);
   return solution;

@@ -26,12 +26,13 @@ Problem make_problem(const cases::Scene& scene);
 std::size_t n_unknowns(const Problem& problem);
 
 /// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
-/// inverted.
+/// inverted. Collective over the ranks that share it.
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
 
-/// What an equilibrium and its displacement (mm, one per point) say of a problem.
+/// What an equilibrium and its displacement (mm, one per point that is here) say of a problem.
+/// @param sharing  the ranks that share the displacement; null: all of it is here
 cases::Solution solution_of(const Problem& problem, const mechanics::Equilibrium& equilibrium,
-                            Points displacement);
+                            Points displacement, std::shared_ptr<const cases::Sharing> sharing = {});
 
 /// The equations of a problem. Vectors are displacements (mm) or forces (N).
 class SpringSystem : public mechanics::NonlinearProblem {

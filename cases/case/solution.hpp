@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 namespace springproof::cases {
@@ -20,6 +21,8 @@ inline char between_words(Outcome) {
   return ' ';
 }
 
+class Sharing;
+
 SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
@@ -30,9 +33,11 @@ struct Solution {
   Outcome outcome = Outcome::unknown;
   std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³
-  std::size_t unknowns = 0;                  ///< free degrees of freedom
-  double residual = 0;                       ///< |imbalance on free degrees of freedom| / |applied load|
-  double load_reached = 0;                   ///< 0 to 1
+  /// Set where several ranks have these two together: then here are those of sharing->here() alone.
+  std::shared_ptr<const Sharing> sharing{};
+  std::size_t unknowns = 0; ///< free degrees of freedom
+  double residual = 0;      ///< |imbalance on free degrees of freedom| / |applied load|
+  double load_reached = 0;  ///< 0 to 1
   int newton_iterations = 0;
   long linear_iterations = 0;
   long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations

@@ -1,5 +1,6 @@
 #include "cases/mesh/hex_mesh.hpp"
 
+#include "cases/mesh/sharing.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/Geometry>
@@ -274,24 +275,29 @@ double smallest_corner_jacobian(const std::array<Vector3d, 8>& vertices) {
   return smallest;
 }
 
-std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Vector3d>& displacement) {
+std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Vector3d>& displacement,
+                                 const Sharing* sharing) {
+  const Share here = share_here(mesh, sharing);
   std::vector<bool> inverted;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    inverted.push_back(!(smallest_corner_jacobian(cell_vertices(mesh, c, displacement)) > 0));
+  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c)
+    inverted.push_back(
+        !(smallest_corner_jacobian(cell_vertices(mesh, c, displacement, here.nodes.begin)) > 0));
   return inverted;
 }
 
-int n_inverted(const HexMesh& mesh, const std::vector<Vector3d>& displacement) {
-  const std::vector<bool> inverted = inverted_cells(mesh, displacement);
-  return static_cast<int>(std::count(inverted.begin(), inverted.end(), true));
+int n_inverted(const HexMesh& mesh, const std::vector<Vector3d>& displacement, const Sharing* sharing) {
+  const std::vector<bool> inverted = inverted_cells(mesh, displacement, sharing);
+  const auto n = std::count(inverted.begin(), inverted.end(), true);
+  return static_cast<int>(sharing ? sharing->sum(static_cast<double>(n)) : static_cast<double>(n));
 }
 
 std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
-                                      const std::vector<Vector3d>& displacement) {
+                                      const std::vector<Vector3d>& displacement, std::size_t first_node) {
   std::array<Vector3d, 8> vertices;
   for (std::size_t v = 0; v < 8; ++v) {
     const std::size_t node = index(mesh.cells[cell][v]);
-    vertices[v] = displacement.empty() ? mesh.nodes[node] : Vector3d(mesh.nodes[node] + displacement[node]);
+    vertices[v] = displacement.empty() ? mesh.nodes[node]
+                                       : Vector3d(mesh.nodes[node] + displacement[node - first_node]);
   }
   return vertices;
 }

@@ -40,6 +40,8 @@ struct Grid {
   static constexpr double thin = 20;
 };
 
+class Sharing;
+
 /// The body's mesh, which both models are made from.
 struct HexMesh {
   RuledList<GridNodes> nodes;              ///< rest positions, mm
@@ -85,13 +87,19 @@ double cell_volume(const std::array<Eigen::Vector3d, 8>& vertices);
 /// an inverted or degenerate cell, not a number where a vertex is none.
 double smallest_corner_jacobian(const std::array<Eigen::Vector3d, 8>& vertices);
 
-/// The vertices of one cell, displaced.  @param displacement  one per node, or empty for the rest shape
+/// The vertices of one cell, displaced.
+/// @param displacement  one per node from the first on, or empty for the rest shape
 std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
-                                             const std::vector<Eigen::Vector3d>& displacement = {});
+                                             const std::vector<Eigen::Vector3d>& displacement = {},
+                                             std::size_t first_node = 0);
 
-/// Of every cell, whether it is inverted or degenerate.
-std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement);
-int n_inverted(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement);
+/// Of every cell that is here, whether it is inverted or degenerate.
+/// @param sharing  the ranks that share the displacement; null: all of it is here
+std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+                                 const Sharing* sharing = nullptr);
+/// Of all ranks.
+int n_inverted(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+               const Sharing* sharing = nullptr);
 
 /// Nodes of a cell's edge, face, ... that is given by its vertices.
 template<std::size_t N>

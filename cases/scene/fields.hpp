@@ -70,9 +70,15 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
 SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads)
 
-SPRINGPROOF_FIELDS(springproof::cases::Solution, status, message, outcome, displacement, cell_volume,
-                   unknowns, residual, load_reached, newton_iterations, linear_iterations,
-                   relaxation_iterations, force_evaluations, factorisations, lowest_eigenvalue,
-                   negative_eigenvalues, inverted_cells)
+/// Who shares it is for the reader to know.
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Solution& solution) {
+  auto& [status, message, outcome, displacement, cell_volume, sharing, unknowns, residual, load_reached,
+         newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
+         lowest_eigenvalue, negative_eigenvalues, inverted_cells] = solution;
+  archive(status, message, outcome, displacement, cell_volume, unknowns, residual, load_reached,
+          newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
+          lowest_eigenvalue, negative_eigenvalues, inverted_cells);
+}
 
 } // namespace cereal

@@ -8,6 +8,7 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"
@@ -65,12 +66,14 @@ void check_blessing(const GateOptions& options, const std::vector<Question>& que
 Comparison judge_or_bless(Comparison comparison, const GateOptions& options, std::ostream& differences) {
   const std::string& name = comparison.scene.definition.name;
   if (std::find(options.bless.begin(), options.bless.end(), name) == options.bless.end()) return comparison;
-  differences << bless(comparison);
+  const std::string difference = from_rank_0(mpi_rank() == 0 ? bless(comparison) : "");
+  if (mpi_rank() == 0) differences << difference;
   comparison.scene.definition.expectations = cases::read_case(comparison.scene.definition.file).expectations;
   return comparison_of(std::move(comparison.scene), std::move(comparison.answers));
 }
 
 void write(const GateOptions& options, const std::vector<Comparison>& judged) {
+  if (mpi_rank() != 0) return;
   if (options.json)
     std::cout << json_text(gates_to_json(judged));
   else
@@ -96,7 +99,6 @@ int gate(const GateOptions& options) {
   if (!options.shards->part.empty())
     return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});
   std::vector<Answers> answers = solved_or_merged(options, questions);
-  if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {
     cases::Scene& scene = questions[q].scene;

@@ -6,6 +6,7 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/estimate.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
@@ -28,6 +29,17 @@ struct RunOptions {
   bool json = false;
 };
 
+/// CalculiX wants all of the body in one place.
+void ask_peer(const cases::Scene& scene, Answers& answers) {
+  const cases::Solution fem = gathered(answers.fem.solution);
+  answers.peer.emplace();
+  const Answer answer = shared_from_rank_0(scene.mesh, [&] {
+    answers.peer = ask_calculix(with_fem(scene, answers.resolved), fem);
+    return answers.peer->answer;
+  });
+  answers.peer->answer = answer;
+}
+
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
 Answers answer(const Question& question, const FinishedCases& finished, ProgressLine& line) {
   const std::vector<Estimate> models = estimate(question);
@@ -39,9 +51,7 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
                                   long_solve_text(scene.definition.name, models));
   Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question));
-  if (mpi_rank() != 0) return answers;
-  if (!request.peer.empty())
-    answers.peer = ask_calculix(with_fem(scene, answers.resolved), answers.fem.solution);
+  if (!request.peer.empty()) ask_peer(scene, answers);
   finished.keep(question, answers);
   return answers;
 }
@@ -62,13 +72,9 @@ int run(const RunOptions& options) {
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
-    if (mpi_rank() != 0) { // the springs' side is on rank 0 alone
-      failed = failed || answers.failed();
-      continue;
-    }
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
     failed = failed || !done.back().is_sound();
-    if (!options.json) write_text(std::cout, done.back());
+    if (!options.json && mpi_rank() == 0) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);
   }
   if (mpi_rank() == 0 && options.json) std::cout << json_text(to_json(done));
@@ -95,9 +101,10 @@ void add_run_command(CLI::App& program, Action& chosen) {
           "--msm-displacements", options->displacements,
           "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
       ->excludes(only);
-  command->add_option("--out", options->out,
-                      "folder for results.json, comparison.csv and fields as .vtu; cases "
-                      "that it holds already are not solved again");
+  command->add_option(
+      "--out", options->out,
+      "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "
+      "that it holds already are not solved again");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -6,6 +6,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write_stress.hpp"
@@ -102,6 +103,7 @@ std::vector<Answer> answers_to(const cases::Case& hard_case, const FinishedCases
   const std::vector<Answers> solved = answer_all(jobs, finished, solve_fem, options);
   for (std::size_t j = 0; j < jobs.size(); ++j)
     answers[j] = jobs[j].request.only == cases::Side::fem ? solved[j].fem : solved[j].msm;
+  for (Answer& one : answers) one.solution = gathered(std::move(one.solution));
   return answers;
 }
 
@@ -134,7 +136,7 @@ int run(const StressOptions& options) {
     if (!options.json) write_stress_text(std::cout, results.back());
     if (!options.out.empty()) write_results(options.out, results, skipped);
   }
-  if (rank != 0) return 0; // the springs' rows are rank 0's
+  if (rank != 0) return 0;
   if (options.json)
     std::cout << json_text(stress_to_json(results, skipped));
   else

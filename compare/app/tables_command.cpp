@@ -4,6 +4,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
 #include "compare/write/json.hpp"
@@ -27,7 +28,9 @@ struct TablesOptions {
 ThesisResults solve_tables(const TablesOptions& options) {
   const int n_workers = options.workers > 0 ? options.workers : cores();
   const auto answer = [&](const std::vector<Question>& questions) {
-    return answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers});
+    std::vector<Answers> answers = answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers});
+    for (Answers& one : answers) one = gathered(std::move(one));
+    return answers;
   };
   return regenerate(options.tables, answer, std::to_string(n_workers));
 }
@@ -49,7 +52,7 @@ int tables(const TablesOptions& options) {
   claim_folder(options.out);
   claim_subfolder(options.out, "figures");
   ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
-  if (mpi_rank() != 0) return 0; // the springs' side is on rank 0 alone
+  if (mpi_rank() != 0) return 0;
   bool failed = false;
   for (const TableEntry& entry : results.entries)
     for (const ComputedFigure& computed : entry.computed) failed = failed || !computed.value;

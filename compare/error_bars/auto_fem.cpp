@@ -1,6 +1,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 
 #include "cases/case/names.hpp"
+#include "cases/mesh/sharing.hpp"
 #include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
@@ -56,8 +57,9 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
             scene.definition.fem,
             {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
                          tried.answer.solution.message)}};
-  const double gradient = 100 * largest_gradient(scene.mesh, tried.answer.solution.displacement);
-  const double tolerated = tolerated_by_all(scene, tried.answer.solution);
+  const cases::Solution& linearly = tried.answer.solution;
+  const double gradient = 100 * largest_gradient(scene.mesh, linearly.displacement, linearly.sharing.get());
+  const double tolerated = tolerated_by_all(scene, linearly);
   const bool is_small = gradient < tolerated;
   tried.choices.push_back(fmt::format(
       "formulation {}: the largest displacement gradient of a linear solve ({:.2f} s) is {:.3g} %, {} "
@@ -191,17 +193,19 @@ RefinedMeshes refine_until_known(const cases::Scene& scene, const FemAnswer& own
 
 } // namespace
 
-double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement) {
+double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+                        const cases::Sharing* sharing) {
+  const cases::Share here = cases::share_here(mesh, sharing);
   double largest = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
     const Eigen::Vector3d centre = Eigen::Vector3d::Constant(0.5);
     const Eigen::Matrix3d gradient =
-        mechanics::jacobian(cases::cell_vertices(mesh, c, displacement), centre) *
+        mechanics::jacobian(cases::cell_vertices(mesh, c, displacement, here.nodes.begin), centre) *
             mechanics::jacobian(cases::cell_vertices(mesh, c), centre).inverse() -
         Eigen::Matrix3d::Identity();
     largest = std::max(largest, Eigen::JacobiSVD<Eigen::Matrix3d>(gradient).singularValues()[0]);
   }
-  return largest;
+  return sharing ? sharing->largest(largest) : largest;
 }
 
 double tolerated_error_percent(const cases::Expectation& expectation, double fem) {

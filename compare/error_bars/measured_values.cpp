@@ -17,7 +17,8 @@ void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, con
     if (!of_side) return std::nullopt;
     if (!is_field_norm(measure.kind))
       return error_percent(limit.value, *of_side, zero_of(measure, scene, answers.fem.solution));
-    return field_error_percent(measure.kind, scene.mesh, study.field->value, answer.solution.displacement);
+    return field_error_percent(measure.kind, scene.mesh, study.field->value, answer.solution.displacement,
+                               answer.solution.sharing.get());
   };
   value.error_percent = error_of(answers.msm, value.msm);
   value.fem_error_percent = error_of(answers.fem, value.fem);

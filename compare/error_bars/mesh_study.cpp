@@ -135,7 +135,7 @@ void find_order(StudiedMeasure& studied, std::size_t own) {
 }
 
 /// Norms of the displacement have the limit of the field.
-void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const cases::HexMesh& mesh,
+void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const FieldNorm& norm,
                     const std::variant<FieldLimit, std::string>& field) {
   if (!is_field_norm(kind)) {
     auto limit = find_limit(studied.values);
@@ -144,8 +144,7 @@ void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const case
     else
       studied.no_reference = std::get<std::string>(limit);
   } else if (const auto* found = std::get_if<FieldLimit>(&field)) {
-    studied.reference =
-        Limit{field_norm(kind, mesh, found->value), field_norm(kind, mesh, found->uncertainty), found->note};
+    studied.reference = Limit{norm(found->value), norm(found->uncertainty), found->note};
   } else {
     studied.no_reference = std::get<std::string>(field);
   }
@@ -161,13 +160,16 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
     study.unknowns.push_back(solution.unknowns);
     fields.push_back(&solution.displacement);
   }
+  const cases::Sharing* const sharing =
+      meshes.solutions.empty() ? nullptr : meshes.solutions[0].sharing.get();
+  const auto norm_of = [&](cases::MeasureKind kind) -> FieldNorm {
+    return [&, kind](const VectorField& on_nodes) { return field_norm(kind, scene.mesh, on_nodes, sharing); };
+  };
   std::variant<FieldLimit, std::string> field = meshes.reason;
   const auto& measures = scene.definition.measures;
   if (!fields.empty() && std::any_of(measures.begin(), measures.end(),
                                      [](const cases::Measure& m) { return is_field_norm(m.kind); }))
-    field = find_limit(fields, [&](const VectorField& difference) {
-      return field_norm(cases::MeasureKind::displacement_field_l2, scene.mesh, difference);
-    });
+    field = find_limit(fields, norm_of(cases::MeasureKind::displacement_field_l2));
   for (const cases::Measure& measure : measures) {
     StudiedMeasure& studied = study.measures.emplace_back();
     studied.name = measure.name;
@@ -178,7 +180,7 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
       continue;
     }
     find_order(studied, cases::index(own_refine - meshes.refine.front()));
-    find_reference(studied, measure.kind, scene.mesh, field);
+    find_reference(studied, measure.kind, norm_of(measure.kind), field);
   }
   if (auto* found = std::get_if<FieldLimit>(&field)) study.field = std::move(*found);
   return study;

@@ -1,5 +1,7 @@
 #include "compare/measure/measure.hpp"
 
+#include "cases/mesh/sharing.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -18,7 +20,10 @@ struct Configuration {
   const cases::Scene& scene;
   const cases::Solution& solution;
   Vector3d rest(int node) const { return scene.mesh.nodes[static_cast<std::size_t>(node)]; }
-  Vector3d displacement(int node) const { return solution.displacement[static_cast<std::size_t>(node)]; }
+  Vector3d displacement(int node) const {
+    return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
+                            : solution.displacement[cases::index(node)];
+  }
   Vector3d deformed(int node) const { return rest(node) + displacement(node); }
   int node(const cases::Region& region) const { return cases::select_node(scene.mesh, region); }
 };
@@ -42,10 +47,12 @@ double twist(const cases::Measure& measure, const Configuration& at) {
   return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
 }
 
-/// Root of the mean of |u|² over the cells at rest, by 2x2x2 Gauss.  @param field  one vector per node
-double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
+/// Root of the mean of |u|² over the cells at rest, by 2x2x2 Gauss.  @param field  as of field_norm()
+double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
+                        const cases::Sharing* sharing) {
+  const cases::Share here = cases::share_here(mesh, sharing);
   double integral = 0, volume = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
     // A point of the 2x2x2 rule stands for an eighth of its cell here, which is exact for parallelepipeds.
     const double weight = cases::cell_volume(cases::cell_vertices(mesh, c)) / 8;
     for (int q = 0; q < 8; ++q) {
@@ -53,13 +60,22 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
       for (int v = 0; v < 8; ++v) {
         double shape = 1;
         for (int a = 0; a < 3; ++a) shape *= 0.5 + (((q ^ v) >> a) & 1 ? -0.5 : 0.5) / std::sqrt(3.0);
-        value += shape * field[static_cast<std::size_t>(mesh.cells[c][static_cast<std::size_t>(v)])];
+        value += shape * field[cases::index(mesh.cells[c][cases::index(v)]) - here.nodes.begin];
       }
       integral += weight * value.squaredNorm();
       volume += weight;
     }
   }
+  if (sharing) {
+    integral = sharing->sum(integral);
+    volume = sharing->sum(volume);
+  }
   return std::sqrt(integral / volume);
+}
+
+double volume(const cases::Solution& solution) {
+  const double here = std::accumulate(solution.cell_volume.begin(), solution.cell_volume.end(), 0.0);
+  return solution.sharing ? solution.sharing->sum(here) : here;
 }
 
 } // namespace
@@ -68,10 +84,15 @@ bool is_field_norm(MeasureKind kind) {
   return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
 }
 
-double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field) {
-  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field);
-  const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
-  return vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
+double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
+                  const cases::Sharing* sharing) {
+  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field, sharing);
+  double largest = 0; // of none
+  if (!field.empty()) {
+    const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
+    largest = vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
+  }
+  return sharing ? sharing->largest(largest) : largest;
 }
 
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
@@ -86,27 +107,29 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
   case MeasureKind::twist:
     return twist(measure, at);
   case MeasureKind::volume:
-    return std::accumulate(solution.cell_volume.begin(), solution.cell_volume.end(), 0.0);
+    return volume(solution);
   case MeasureKind::displacement_field_l2:
   case MeasureKind::displacement_field_max:
-    return field_norm(measure.kind, scene.mesh, solution.displacement);
+    return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
   }
   return std::nan(""); // not reached: every kind is above
 }
 
 std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh& mesh,
                                           const std::vector<Vector3d>& reference,
-                                          const std::vector<Vector3d>& other) {
+                                          const std::vector<Vector3d>& other, const cases::Sharing* sharing) {
   std::vector<Vector3d> difference;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) difference.push_back(other[n] - reference[n]);
-  const double size = field_norm(kind, mesh, reference), distance = field_norm(kind, mesh, difference);
+  for (std::size_t n = 0; n < reference.size(); ++n) difference.push_back(other[n] - reference[n]);
+  const double size = field_norm(kind, mesh, reference, sharing),
+               distance = field_norm(kind, mesh, difference, sharing);
   return error_percent(size, size + distance, 0); // distance/size, with its care for a zero field
 }
 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
   return is_field_norm(measure.kind)
-             ? field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement)
+             ? field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement,
+                                   fem.sharing.get())
              : error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm),
                              zero_of(measure, scene, fem));
 }
@@ -115,8 +138,8 @@ double zero_of(const cases::Measure& measure, const cases::Scene& scene, const c
   constexpr double rounding = 1e-8;
   Eigen::AlignedBox3d body;
   for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
-  const double size = body.sizes().norm(),
-               moved = field_norm(MeasureKind::displacement_field_max, scene.mesh, fem.displacement);
+  const double size = body.sizes().norm(), moved = field_norm(MeasureKind::displacement_field_max, scene.mesh,
+                                                              fem.displacement, fem.sharing.get());
   switch (measure.kind) {
   case MeasureKind::coordinate:
     return rounding * size;

@@ -2,6 +2,7 @@
 
 #include "compare/solve/answers.hpp"
 
+/// Where ranks share a solution (Solution::sharing), what takes it is collective, and gives the same on each.
 namespace springproof::compare {
 
 /// Value of a measure on a converged solution, in unit_of(measure).
@@ -13,14 +14,16 @@ namespace springproof::compare {
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
 
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
-/// @param kind  of which is_field_norm() holds   @param field  a vector per node
+/// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
+/// @param sharing  the ranks that share the field; null: all of it is here
 double field_norm(cases::MeasureKind kind, const cases::HexMesh& mesh,
-                  const std::vector<Eigen::Vector3d>& field);
+                  const std::vector<Eigen::Vector3d>& field, const cases::Sharing* sharing = nullptr);
 
 /// Error of a displacement in a field's norm, percent of the reference's; never negative.
 std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::HexMesh& mesh,
                                           const std::vector<Eigen::Vector3d>& reference,
-                                          const std::vector<Eigen::Vector3d>& other);
+                                          const std::vector<Eigen::Vector3d>& other,
+                                          const cases::Sharing* sharing = nullptr);
 
 /// Error of the springs in a measure, percent: field_error_percent() of a field norm, otherwise
 /// error_percent() of the two values.

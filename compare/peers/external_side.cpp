@@ -1,8 +1,10 @@
 #include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/sharing.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "mechanics/ranks/share_out.hpp"
 #include "msm/problem.hpp"
 
 #include <filesystem>
@@ -39,7 +41,10 @@ Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
   cases::Solution& solution = answers.msm.solution;
   solution.status = cases::Status::converged;
   solution.message = "displacements of " + external.path;
-  solution.displacement = external.displacement;
+  solution.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
+  const cases::Range here = cases::share_here(mesh, solution.sharing.get()).nodes;
+  const auto first = external.displacement.begin();
+  solution.displacement.assign(first + std::ptrdiff_t(here.begin), first + std::ptrdiff_t(here.end));
   solution.load_reached = 1;
   msm::measure_cells(mesh, solution);
   return answers;

@@ -23,7 +23,7 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
                                                    const std::string& path);
 
 /// The answers with another simulator's in place of our springs'. They have no stiffness and no counts of
-/// iterations, for none are known.
+/// iterations, for none are known. Collective.
 Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
                            const ExternalDisplacements& external);
 

@@ -9,8 +9,8 @@ namespace springproof::compare {
 
 namespace {
 
-/// @throws std::runtime_error if a solution has not as many values as the mesh has nodes and cells
-void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
+/// @throws std::runtime_error if a solution has not as many values as the share has nodes and cells
+void check(const cases::Solution& solution, const cases::Share& share) {
   const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
     return size == expected || (size == 0 && solution.status != cases::Status::converged);
   };
@@ -18,30 +18,30 @@ void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
                                      [](const Eigen::Vector3d& u) { return u.allFinite(); }) &&
                          std::all_of(solution.cell_volume.begin(), solution.cell_volume.end(),
                                      [](double volume) { return std::isfinite(volume); });
-  if (!is_empty_or(solution.displacement.size(), mesh.nodes.size()) ||
-      !is_empty_or(solution.cell_volume.size(), mesh.cells.size()) || !is_finite)
+  if (!is_empty_or(solution.displacement.size(), share.nodes.size()) ||
+      !is_empty_or(solution.cell_volume.size(), share.cells.size()) || !is_finite)
     throw std::runtime_error("has values that are no solution on the case's mesh");
 }
 
 } // namespace
 
-Answers answers_from(const std::string& bytes, const cases::HexMesh& mesh) {
+Answers answers_from(const std::string& bytes, const cases::Share& share) {
   Answers answers;
   cases::from_bytes(bytes, answers);
-  check(answers.fem.solution, mesh);
-  check(answers.msm.solution, mesh);
-  if (answers.peer) check(answers.peer->answer.solution, mesh);
+  check(answers.fem.solution, share);
+  check(answers.msm.solution, share);
+  if (answers.peer) check(answers.peer->answer.solution, share);
   if (!answers.refined) return answers;
   if (answers.refined->solutions.size() != answers.refined->refine.size())
     throw std::runtime_error("has not as many refined solutions as meshes");
-  for (const cases::Solution& solution : answers.refined->solutions) check(solution, mesh);
+  for (const cases::Solution& solution : answers.refined->solutions) check(solution, share);
   return answers;
 }
 
-Answer answer_from(const std::string& bytes, const cases::HexMesh& mesh) {
+Answer answer_from(const std::string& bytes, const cases::Share& share) {
   Answer answer;
   cases::from_bytes(bytes, answer);
-  check(answer.solution, mesh);
+  check(answer.solution, share);
   return answer;
 }
 

@@ -48,6 +48,15 @@ struct Answers {
   }
 };
 
+/// All solutions among the answers, in an order that depends on which there are alone.
+inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
+  std::vector<cases::Solution*> all{&answers.fem.solution, &answers.msm.solution};
+  if (answers.peer) all.push_back(&answers.peer->answer.solution);
+  if (answers.refined)
+    for (cases::Solution& solution : answers.refined->solutions) all.push_back(&solution);
+  return all;
+}
+
 /// What is asked of a case, besides what its file says.
 struct Request {
   std::optional<cases::Side> only; ///< absent: both sides

@@ -10,7 +10,8 @@ enum class FileNames {
   of_questions ///< digests, where many questions are of one case
 };
 
-/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question. One is
+/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question, or one
+/// for each rank that has solved it (kept_parts.hpp). One is
 /// taken up again only if all that its answers depend on is the same: this program, the case as it was parsed
 /// with the mesh that its files gave, the request and PETSC_OPTIONS. A file that is damaged or of another
 /// version counts as none, with a line on standard error. Failed solves are kept for `merge`, and tried again
@@ -23,8 +24,7 @@ class FinishedCases {
   FinishedCases(const std::string& folder, const std::vector<Question>& questions,
                 FileNames names = FileNames::of_cases);
 
-  /// The answers of an earlier command, with a line that says so. Collective over MPI_COMM_WORLD: rank 0
-  /// reads, all get them.
+  /// The answers of an earlier command, with a line that says so. Collective over MPI_COMM_WORLD, as keep().
   std::optional<Answers> find(const Question& question) const;
 
   /// Single meshes of the case's mesh study are no longer needed then.

@@ -1,5 +1,6 @@
 #include "compare/solve/solve.hpp"
 
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/springs.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/snes/snes.hpp"
@@ -15,7 +16,7 @@ namespace {
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
   if (scene.definition.msm.solver != cases::Solver::snes)
-    return mpi_rank() == 0 ? solve_springs(scene, n_threads, design) : Answer{};
+    return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
   const auto designed = [&] {
     design = design_for(scene);
     return stiffness_of_cells(*design);

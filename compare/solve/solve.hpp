@@ -71,7 +71,8 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
 cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem);
 
 /// Solves both sides of a case, or the one asked for, and the refined meshes if asked for. A solve that fails
-/// is a failed side. Collective over MPI_COMM_WORLD; the mass-spring side is solved on rank 0 alone.
+/// is a failed side. Collective over MPI_COMM_WORLD, whose ranks share the solutions; but for solver =
+/// "snes", the mass-spring side is solved on rank 0 alone.
 /// @throws InputError
 Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem,
               const KeptMeshes& kept = {});

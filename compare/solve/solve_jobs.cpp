@@ -27,7 +27,8 @@ Answers solve_in_this_process(const Question& question, const std::string& folde
   try {
     return solve(question.scene, question.request, solve_fem, FinishedCases::meshes_in(folder, question));
   } catch (const std::exception& error) {
-    if (n_mpi_ranks() > 1 && dynamic_cast<const std::bad_alloc*>(&error)) throw; // the others wait for this rank
+    if (n_mpi_ranks() > 1 && dynamic_cast<const std::bad_alloc*>(&error))
+      throw; // the others wait for this rank
     return failed_answers(question.request, error);
   }
 }
@@ -133,7 +134,7 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
   const auto take = [&](const Open& next, Answers fresh) {
     const Question& question = questions[next.question];
     line.finish(question.scene.definition.name);
-    if (mpi_rank() == 0) finished.keep(question, fresh);
+    finished.keep(question, fresh);
     answers[next.question] = std::move(fresh);
   };
   if (!is_alone) {

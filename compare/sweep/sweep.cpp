@@ -4,6 +4,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/sweep/costs.hpp"
@@ -106,6 +107,7 @@ void solve_finite_elements(VariantRun& run, const cases::Scene& scene, const Var
   settings.tolerance = variant.tolerance;
   settings.stability = mechanics::Stability::ignore;
   if (!solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); })) return;
+  run.first = gathered(std::move(run.first));
   if (field_cells(variant) != variant.cells)
     run.first.displacement = on_grid(model.node_displacements(),
                                      std::get<cases::Box>(scene.definition.body).size, field_cells(variant));

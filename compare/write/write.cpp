@@ -259,7 +259,8 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   if (const cases::Solution& msm = answers.msm.solution; answers.msm_source.empty())
     write_side(out, "msm", describe(answers.design, definition.msm.design), answers.msm);
   else
-    print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source, msm.displacement.size(),
+    print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source,
+          comparison.scene.mesh.nodes.size(),
           msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) print(out, "  warning: {}\n", warning);
@@ -332,37 +333,9 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
     }
 }
 
-void write_vtu(std::ostream& out, const Comparison& comparison) {
-  const cases::Solution &fem = comparison.answers.fem.solution, &msm = comparison.answers.msm.solution;
-  std::vector<cases::PointField> displacements;
-  std::vector<cases::CellField> volumes;
-  const auto add = [&](const std::string& side, const cases::Solution& solution) {
-    if (solution.displacement.empty()) return;
-    displacements.push_back({side + "_displacement", solution.displacement});
-    volumes.push_back({side + "_cell_volume", solution.cell_volume});
-    std::vector<double> inverted;
-    for (const bool is_inverted : cases::inverted_cells(comparison.scene.mesh, solution.displacement))
-      inverted.push_back(is_inverted ? 1 : 0);
-    volumes.push_back({side + "_inverted", inverted});
-  };
-  add("fem", fem);
-  add("msm", msm);
-  if (displacements.size() == 2) {
-    std::vector<Eigen::Vector3d> difference = msm.displacement;
-    for (std::size_t n = 0; n < difference.size(); ++n) difference[n] -= fem.displacement[n];
-    displacements.push_back({"difference", difference});
-  }
-  out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, displacements, volumes);
-}
-
-void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields) {
-  out << cases::vtk().write_unstructured_grid(mesh, fields, {});
-}
-
 void write_results(const std::string& folder, const std::vector<Comparison>& done) {
-  const Comparison& last = done.back();
-  write_file(folder + "/" + last.scene.definition.name + ".vtu",
-             [&](std::ostream& out) { write_vtu(out, last); });
+  write_fields(folder, done.back());
+  if (mpi_rank() != 0) return;
   write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
   write_file(folder + "/results.json", [&](std::ostream& out) { out << json_text(to_json(done)); });
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cases/mesh/vtk.hpp"
 #include "compare/gates/comparison.hpp"
+#include "compare/write/write_fields.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
@@ -26,16 +26,8 @@ nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
 /// error_same_mesh_percent; empty where there is no value.
 void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
 
-/// The body's mesh as a VTK unstructured grid (.vtu, raw binary) with the displacements and cell volumes of
-/// the sides that converged, and their difference: ParaView's "warp by vector" overlays both models. Doubles,
-/// mm and mm³.
-void write_vtu(std::ostream& out, const Comparison& comparison);
-
-/// Any vectors on a mesh's nodes as a .vtu.
-void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
-
-/// The files of `--out`: results.json and comparison.csv of all cases, and the fields of the last one as
-/// .vtu. Called after every case, so that what is finished is on disk before the next begins.
+/// The files of `--out`: results.json and comparison.csv of all cases, and the fields of the last one. Called
+/// after every case, so that what is finished is on disk before the next begins; by every rank.
 /// @param done  at least one
 void write_results(const std::string& folder, const std::vector<Comparison>& done);
 

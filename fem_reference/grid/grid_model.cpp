@@ -6,6 +6,7 @@
 #include "mechanics/elastic_moduli.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/laws/ogden.hpp"
+#include "mechanics/ranks/share_out.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +135,8 @@ struct GridModel::Implementation {
   }
   Body make_body(int cells_along_edge, const Slab& of_nodes, int first_layer) const;
   std::unique_ptr<QuadraticElements> make_quadratic() const;
-  std::vector<double> cell_volumes() const;
+  std::vector<cases::Numbered<double>> cell_volumes(const cases::Sharing* sharing) const;
+  std::vector<cases::Numbered<Eigen::Vector3d>> displacements(const cases::Sharing* sharing) const;
 };
 
 /// @param first_layer  of the grid's layers of cells, the first that the slab holds
@@ -196,8 +198,22 @@ void GridModel::back_to_rest() {
   implementation_->last_load_factor = 0;
 }
 
-/// Of the body's cells; of each as much as the rank computes.
-std::vector<double> GridModel::Implementation::cell_volumes() const {
+/// Of the body's nodes that the rank computes. Where every rank computes all, of those that are its own.
+std::vector<cases::Numbered<Eigen::Vector3d>>
+GridModel::Implementation::displacements(const cases::Sharing* sharing) const {
+  const bool is_dealt_out = body.slab.is_shared();
+  std::vector<cases::Numbered<Eigen::Vector3d>> own;
+  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
+    if (!is_dealt_out && sharing && !sharing->here().own_nodes.has(n)) continue;
+    const Place at = places.of(scene.mesh.nodes[n]);
+    if (places.owns(at)) own.push_back({static_cast<std::int64_t>(n), displacement_at(at)});
+  }
+  return own;
+}
+
+/// Of the body's cells, likewise; of each as much as the rank computes.
+std::vector<cases::Numbered<double>>
+GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
   const std::vector<double> of_entries = equations.cell_volumes(last);
   const Slab& slab = body.slab;
   const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
@@ -205,20 +221,25 @@ std::vector<double> GridModel::Implementation::cell_volumes() const {
   const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
   const int first = quadratic ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
   const cases::Grid& grid = *scene.mesh.grid;
-  std::vector<double> volumes;
+  std::vector<cases::Numbered<double>> volumes;
+  std::size_t next = 0;
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i) {
         if (!grid.has(i, j, k)) continue;
+        const std::size_t cell = next++;
+        if (!slab.is_shared() && sharing && !sharing->here().cells.has(cell)) continue;
         double volume = 0;
+        bool is_here = false;
         const int n = cell_factor;
         for (int c = 0; c < n; ++c) {
           const int layer = n * k + c - first;
           if (layer < layers.begin || layer >= layers.end) continue;
+          is_here = true;
           for (int b = 0; b < n; ++b)
             for (int a = 0; a < n; ++a) volume += of_entries[index(layout.cell(n * i + a, n * j + b, layer))];
         }
-        volumes.push_back(volume);
+        if (is_here) volumes.push_back({static_cast<std::int64_t>(cell), volume});
       }
   return volumes;
 }
@@ -251,22 +272,15 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   m.last = equilibrium.state;
   m.last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  // each entry is one rank's
-  const auto gather = [&](double* values, std::size_t n) {
-    if (m.body.slab.is_shared())
-      MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, m.communicator);
-  };
-  solution.displacement.assign(m.scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
-  for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
-    const Place at = m.places.of(m.scene.mesh.nodes[n]);
-    if (m.places.owns(at)) solution.displacement[n] = m.displacement_at(at);
-  }
-  gather(solution.displacement.front().data(), 3 * solution.displacement.size());
-  solution.cell_volume = m.cell_volumes();
-  gather(solution.cell_volume.data(), solution.cell_volume.size());
+  const cases::HexMesh& mesh = m.scene.mesh;
+  solution.sharing = mechanics::share_out(mesh, m.communicator);
+  const cases::Sharing* const sharing = solution.sharing.get();
+  solution.displacement =
+      cases::deal(sharing, m.displacements(sharing), mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
+  solution.cell_volume = cases::deal(sharing, m.cell_volumes(sharing), mesh.cells.size(), 0.);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = m.equations.negative_eigenvalues();
-  solution.inverted_cells = cases::n_inverted(m.scene.mesh, solution.displacement);
+  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement, sharing);
   return solution;
 }
 

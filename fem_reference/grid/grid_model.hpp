@@ -16,8 +16,8 @@ bool is_on_grid(const cases::Scene& scene);
 double bulk_over_shear(const cases::Scene& scene);
 
 /// Finite elements of a scene on a grid: matrix-vector products and multigrid in place of a factorisation.
-/// The grid is cut along z, a slab for each rank; every member function is collective, and every rank gets
-/// the whole answer.
+/// The grid is cut along z, a slab for each rank; every member function is collective, and the ranks share a
+/// solution.
 class GridModel {
  public:
   /// @param scene  as of Model, is_on_grid(); definition.fem.refine is applied here

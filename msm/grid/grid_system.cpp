@@ -1,6 +1,7 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/sharing.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "mechanics/grid/conjugate_gradients.hpp"
 
@@ -318,14 +319,17 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   return guess;
 }
 
-Points to_points(const Problem& problem, const Body& body, const Field<double>& field) {
-  Points points(problem.mesh.nodes.size(), Eigen::Vector3d::Zero());
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field,
+                 const cases::Sharing* sharing) {
+  std::vector<cases::Numbered<Eigen::Vector3d>> own;
   for_each_node(problem, body, [&](std::size_t n, const std::array<int, 3>& at) {
     if (body.part && !body.part->owns(at[0], at[1], at[2])) return;
-    for (int c = 0; c < 3; ++c) points[n][c] = field[body.layout.at(at[0], at[1], at[2], c)];
+    if (!body.part && sharing && !sharing->here().own_nodes.has(n)) return; // every rank has all of the body
+    Eigen::Vector3d point;
+    for (int c = 0; c < 3; ++c) point[c] = field[body.layout.at(at[0], at[1], at[2], c)];
+    own.push_back({static_cast<std::int64_t>(n), point});
   });
-  if (body.part) body.part->ranks->sum(points.front().data(), 3 * points.size());
-  return points;
+  return cases::deal(sharing, std::move(own), problem.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
 }
 
 Field<double> to_field(const Problem& problem, const Body& body, const Points& points) {

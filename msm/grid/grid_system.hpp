@@ -33,8 +33,10 @@ std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n
 /// from. Nothing when the coarse body does not carry the load, or there is none.
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
 
-/// Between fields and one vector (mm or N) per node of the problem's mesh, all of them on every rank.
-Points to_points(const Problem& problem, const Body& body, const Field<double>& field);
+/// Between fields and one vector (mm or N) per node of the problem's mesh.
+/// @param sharing  the ranks that get the points together; null: a body that is whole here, and all points
+Points to_points(const Problem& problem, const Body& body, const Field<double>& field,
+                 const cases::Sharing* sharing = nullptr);
 Field<double> to_field(const Problem& problem, const Body& body, const Points& points);
 
 } // namespace springproof::msm::grid

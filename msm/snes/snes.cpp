@@ -4,6 +4,7 @@
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "mechanics/petsc/handles.hpp"
+#include "mechanics/ranks/share_out.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/deal_out.hpp"
 #include "msm/tangent.hpp"
@@ -84,18 +85,11 @@ class Part {
     return Eigen::Map<const Vector>(values.front().data() + 3 * first_, 3 * n_own_);
   }
 
-  /// Values of all points, on every rank.
-  Points gather(Vec vector) const {
-    VecScatter scatter = nullptr;
-    Vec all = nullptr;
-    check(VecScatterCreateToAll(vector, &scatter, &all));
-    const petsc::Vector owned(all);
-    check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterDestroy(&scatter));
-    Points values(problem_.lattice.rest.size());
-    std::copy_n(ReadEntries(all).data(), 3 * values.size(), values.front().data());
-    return values;
+  /// Of the points that this rank owns to those that it shows of the answer.
+  Points deal(const Vector& own, const cases::Sharing* sharing) const {
+    std::vector<cases::Numbered<Eigen::Vector3d>> values;
+    for (PetscInt p = 0; p < n_own_; ++p) values.push_back({first_ + p, own.segment<3>(3 * p)});
+    return cases::deal(sharing, std::move(values), problem_.lattice.rest.size(), Eigen::Vector3d(0, 0, 0));
   }
 
   /// Between PETSc's vectors and the driver's: owned entries.
@@ -238,10 +232,8 @@ class SnesProblem : public petsc::DistributedProblem {
   Vector state(const Points& displacement) const {
     return displacement.empty() ? part_.own(petsc::like(at_).get()) : part_.own(displacement);
   }
-  Points displacement(const Vector& state) const {
-    const petsc::Vector all = petsc::like(at_);
-    part_.put(all.get(), state);
-    return part_.gather(all.get());
+  Points displacement(const Vector& state, const cases::Sharing* sharing) const {
+    return part_.deal(state, sharing);
   }
 
   std::optional<Solved> solve_at(Vector& at, double load_factor) override {
@@ -350,15 +342,17 @@ class SnesProblem : public petsc::DistributedProblem {
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                               MPI_Comm communicator, const mechanics::EquilibriumSettings& settings,
                               const Points& start) {
+  const auto sharing = mechanics::share_out(scene.mesh, communicator);
   if (takes_multigrid(scene, stiffness))
-    return Model(scene, stiffness, {Path::multigrid, 1, deal_out_to(communicator)}).solve(settings, start);
+    return Model(scene, stiffness, {Path::multigrid, 1, deal_out_to(communicator), sharing})
+        .solve(settings, start);
   Problem problem = make_problem(scene);
   problem.lattice = make_lattice(scene.mesh, stiffness);
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES",
                                   mechanics::in_small_turns(largest_turn(scene.definition), settings));
-  return solution_of(problem, equilibrium, system.displacement(equilibrium.state));
+  return solution_of(problem, equilibrium, system.displacement(equilibrium.state, sharing.get()), sharing);
 }
 
 } // namespace springproof::msm

@@ -12,7 +12,7 @@ namespace springproof::msm {
 /// an assembled matrix of 3x3 blocks, and MUMPS for small lattices; above 30,000 unknowns conjugate gradients
 /// with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved where SNES fails.
 /// PETSC_OPTIONS reach SNES with the prefix msm_. Collective: points are dealt out to the ranks, each of
-/// which knows the whole scene and gets the whole answer.
+/// which knows the whole scene; they share the answer (Solution::sharing).
 /// @param stiffness  one for every cell of the scene's mesh, or a single one for all
 /// @param start      displacement (mm) to start from, one per node; empty: rest
 /// @throws cases::SolveError with the load reached when the load cannot be carried

@@ -1,0 +1,92 @@
+#include "compare/solve/ranks.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/mesh/sharing.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/solve/fields.hpp"
+#include "mechanics/ranks/share_out.hpp"
+
+#include <mpi.h>
+#include <new>
+
+namespace springproof::compare {
+
+namespace {
+
+/// Text of a rank on every rank.
+std::string from_rank(int rank, std::string text) {
+  unsigned long size = text.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, rank, MPI_COMM_WORLD);
+  text.resize(size);
+  constexpr unsigned long most = 1ul << 30; // MPI counts in int
+  for (unsigned long at = 0; at < size; at += most)
+    MPI_Bcast(text.data() + at, static_cast<int>(std::min(most, size - at)), MPI_CHAR, rank, MPI_COMM_WORLD);
+  return text;
+}
+
+template<class Value>
+std::vector<cases::Numbered<Value>> numbered(const std::vector<Value>& values) {
+  std::vector<cases::Numbered<Value>> all;
+  for (std::size_t i = 0; i < values.size(); ++i) all.push_back({static_cast<std::int64_t>(i), values[i]});
+  return all;
+}
+
+} // namespace
+
+std::string from_rank_0(std::string text) {
+  return n_mpi_ranks() == 1 ? text : from_rank(0, std::move(text));
+}
+
+bool on_all_ranks(bool here) {
+  int all = here ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  return all == 1;
+}
+
+void run_on_all_ranks(const std::function<void()>& action) {
+  if (n_mpi_ranks() == 1) return action();
+  std::string reason;
+  int failed = n_mpi_ranks(); // the first rank that did
+  try {
+    action();
+  } catch (const std::exception& error) {
+    reason = dynamic_cast<const std::bad_alloc*>(&error) ? "springproof: not enough memory" : error.what();
+    failed = mpi_rank();
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (failed < n_mpi_ranks()) throw cases::InputError(from_rank(failed, reason));
+}
+
+Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find) {
+  if (n_mpi_ranks() == 1) return find();
+  Answer answer;
+  run_on_all_ranks([&] {
+    if (mpi_rank() == 0) answer = find();
+  });
+  cases::Solution& solution = answer.solution;
+  const std::vector<Eigen::Vector3d> displacement = std::move(solution.displacement);
+  const std::vector<double> volume = std::move(solution.cell_volume);
+  solution.displacement.clear();
+  solution.cell_volume.clear();
+  cases::from_bytes(from_rank_0(mpi_rank() == 0 ? cases::to_bytes(answer) : ""), answer);
+  if (!answer.converged()) return answer;
+  solution.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
+  solution.displacement = solution.sharing->deal(numbered(displacement));
+  solution.cell_volume = solution.sharing->deal(numbered(volume));
+  return answer;
+}
+
+cases::Solution gathered(cases::Solution solution) {
+  if (!solution.sharing) return solution;
+  solution.displacement = solution.sharing->gather(solution.displacement);
+  solution.cell_volume = solution.sharing->gather(solution.cell_volume);
+  solution.sharing.reset();
+  return solution;
+}
+
+Answers gathered(Answers answers) {
+  for (cases::Solution* solution : solutions_of(answers)) *solution = gathered(std::move(*solution));
+  return answers;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "compare/solve/answers.hpp"
+
+#include <functional>
+
+/// What the ranks of MPI's world do together. Every function is collective; on one rank it is what it says
+/// without the others.
+namespace springproof::compare {
+
+/// Rank 0's text on every rank.
+std::string from_rank_0(std::string text);
+
+/// Whether this holds on all ranks.
+bool on_all_ranks(bool here);
+
+/// Runs what may fail on one rank alone, such as writing a file.
+/// @throws InputError on every rank, with the reason of the first that it failed on
+void run_on_all_ranks(const std::function<void()>& action);
+
+/// An answer that rank 0 alone finds, shared by all ranks.
+/// @param find  called on rank 0   @throws InputError that it throws, on every rank
+Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find);
+
+/// The solution with all of its values on every rank, for what needs them: other programs, and the commands
+/// of many small cases.
+cases::Solution gathered(cases::Solution solution);
+Answers gathered(Answers answers);
+
+} // namespace springproof::compare

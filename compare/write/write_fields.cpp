@@ -1,0 +1,174 @@
+#include "compare/write/write_fields.hpp"
+
+#include "cases/mesh/sharing.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/solve/ranks.hpp"
+#include "compare/write/escape.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace springproof::compare {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is here of both sides' fields.
+struct Fields {
+  std::vector<cases::PointField> of_nodes;
+  std::vector<cases::CellField> of_cells;
+};
+
+Fields fields_of(const Comparison& comparison) {
+  const cases::Solution &fem = comparison.answers.fem.solution, &msm = comparison.answers.msm.solution;
+  Fields fields;
+  const auto add = [&](const std::string& side, const cases::Solution& solution) {
+    if (solution.status != cases::Status::converged) return;
+    fields.of_nodes.push_back({side + "_displacement", solution.displacement});
+    fields.of_cells.push_back({side + "_cell_volume", solution.cell_volume});
+    std::vector<double> inverted;
+    for (const bool is_inverted :
+         cases::inverted_cells(comparison.scene.mesh, solution.displacement, solution.sharing.get()))
+      inverted.push_back(is_inverted ? 1 : 0);
+    fields.of_cells.push_back({side + "_inverted", inverted});
+  };
+  add("fem", fem);
+  add("msm", msm);
+  if (fields.of_nodes.size() == 2) {
+    std::vector<Eigen::Vector3d> difference = msm.displacement;
+    for (std::size_t n = 0; n < difference.size(); ++n) difference[n] -= fem.displacement[n];
+    fields.of_nodes.push_back({"difference", difference});
+  }
+  return fields;
+}
+
+/// Null: all of the answers is here.
+const cases::Sharing* sharing_of(const Comparison& comparison) {
+  const Answers& answers = comparison.answers;
+  const cases::Sharing* const of_fem = answers.fem.solution.sharing.get();
+  return of_fem ? of_fem : answers.msm.solution.sharing.get();
+}
+
+/// A share's cells as a mesh by itself; the fields' values of its nodes take the place of those of all that
+/// are here.
+cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, Fields& fields) {
+  std::vector<int> number(share.nodes.size(), -1); ///< in the piece, of each node that is here
+  for (std::size_t c = share.cells.begin; c < share.cells.end; ++c)
+    for (const int node : mesh.cells[c]) number[cases::index(node) - share.nodes.begin] = 0;
+  cases::HexMesh piece;
+  std::vector<Eigen::Vector3d>& nodes = piece.nodes.stored();
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    if (number[n] < 0) continue;
+    number[n] = static_cast<int>(nodes.size());
+    nodes.push_back(mesh.nodes[share.nodes.begin + n]);
+    for (cases::PointField& field : fields.of_nodes) field.values[nodes.size() - 1] = field.values[n];
+  }
+  for (cases::PointField& field : fields.of_nodes) field.values.resize(nodes.size());
+  std::vector<std::array<int, 8>>& cells = piece.cells.stored();
+  for (std::size_t c = share.cells.begin; c < share.cells.end; ++c) {
+    cells.push_back(mesh.cells[c]);
+    for (int& node : cells.back()) node = number[cases::index(node) - share.nodes.begin];
+  }
+  return piece;
+}
+
+/// Names of a case's files in a folder.
+struct Files {
+  std::string folder, name;
+  std::string whole() const { return folder + "/" + name + ".vtu"; }
+  std::string list() const { return folder + "/" + name + ".pvtu"; }
+  std::string pieces() const { return name + "_pieces"; }
+  std::string piece(int rank) const { return fmt::format("{}/{}_{}.vtu", pieces(), name, rank); }
+};
+
+/// Those of ranks that are no longer there.
+void remove_pieces(const Files& files, int first_rank) {
+  std::error_code ignored;
+  const fs::path pieces = files.folder + "/" + files.pieces();
+  if (fs::is_symlink(pieces, ignored)) return;
+  const std::string begin = files.name + "_";
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(pieces, ignored)) {
+    const std::string stem = entry.path().stem().string(),
+                      rank = stem.substr(std::min(stem.size(), begin.size()));
+    if (entry.path().extension() == ".vtu" && stem.compare(0, begin.size(), begin) == 0 && !rank.empty() &&
+        rank.size() < 9 && rank.find_first_not_of("0123456789") == std::string::npos &&
+        std::stoi(rank) >= first_rank)
+      old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path, ignored);
+  if (first_rank == 0) fs::remove(pieces, ignored); // if nothing else is in it
+}
+
+/// What ParaView opens: the names of the fields and of the pieces.
+void write_list(std::ostream& out, const Files& files, const Fields& fields, std::size_t n_cells) {
+  const auto array = [&](const std::string& name, int n_components) {
+    out << fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", name,
+                       n_components);
+  };
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"
+         "    <PPointData>\n";
+  for (const cases::PointField& field : fields.of_nodes) array(field.name, 3);
+  out << "    </PPointData>\n    <PCellData>\n";
+  for (const cases::CellField& field : fields.of_cells) array(field.name, 1);
+  out << "    </PCellData>\n    <PPoints>\n";
+  array("rest position", 3);
+  out << "    </PPoints>\n";
+  for (int rank = 0; rank < n_mpi_ranks(); ++rank)
+    if (cases::part_of(n_cells, rank, n_mpi_ranks()).size() > 0)
+      out << fmt::format("    <Piece Source=\"{}\"/>\n", escape(files.piece(rank)));
+  out << "  </PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+void write_pieces(const Files& files, const Comparison& comparison, const cases::Share& share) {
+  run_on_all_ranks([&] { // a list of what is about to change would lead to a mixture
+    if (mpi_rank() != 0) return;
+    std::error_code not_there;
+    fs::remove(files.list(), not_there);
+    fs::remove(files.whole(), not_there);
+    claim_subfolder(files.folder, files.pieces());
+  });
+  Fields fields;
+  run_on_all_ranks([&] {
+    fields = fields_of(comparison);
+    if (share.cells.size() == 0) return;
+    const cases::HexMesh piece = piece_of(comparison.scene.mesh, share, fields);
+    write_file(files.folder + "/" + files.piece(mpi_rank()), [&](std::ostream& out) {
+      out << cases::vtk().write_unstructured_grid(piece, fields.of_nodes, fields.of_cells);
+    });
+  });
+  run_on_all_ranks([&] {
+    if (mpi_rank() != 0) return;
+    remove_pieces(files, n_mpi_ranks());
+    write_file(files.list(), [&](std::ostream& out) {
+      write_list(out, files, fields, comparison.scene.mesh.cells.size());
+    });
+  });
+}
+
+} // namespace
+
+void write_vtu(std::ostream& out, const Comparison& comparison) {
+  const Fields fields = fields_of(comparison);
+  out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, fields.of_nodes, fields.of_cells);
+}
+
+void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields) {
+  out << cases::vtk().write_unstructured_grid(mesh, fields, {});
+}
+
+void write_fields(const std::string& folder, const Comparison& comparison) {
+  const Files files{folder, comparison.scene.definition.name};
+  if (const cases::Sharing* sharing = sharing_of(comparison))
+    return write_pieces(files, comparison, sharing->here());
+  if (mpi_rank() != 0) return;
+  std::error_code not_there;
+  fs::remove(files.list(), not_there);
+  remove_pieces(files, 0);
+  write_file(files.whole(), [&](std::ostream& out) { write_vtu(out, comparison); });
+}
+
+} // namespace springproof::compare

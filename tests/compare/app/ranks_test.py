@@ -1,0 +1,248 @@
+"""A case solved by several ranks, as its user finds it: measures, files of fields, kept results.
+
+usage: ranks_test.py SPRINGPROOF SAME_FIELDS
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM, SAME_FIELDS = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
+
+CASE = """schema = 1
+name = "block"
+description = "Every measure there is."
+[body]
+%s
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.01
+poissons_ratio = 0.3
+[[fixed]]
+region = "z-"
+[[load]]
+region = "z+"
+kind = "traction"
+value = [0.0002, 0.0001, 0.0004]
+[fem]
+formulation = "%s"
+element = "q1_bbar"
+accuracy = "none"
+[msm]
+design = "hybrid"
+solver = "%s"
+[[measure]]
+name = "where"
+kind = "coordinate"
+node = "near 10 10 10"
+axis = "z"
+[[measure]]
+name = "moved"
+kind = "displacement"
+node = "near 0 10 10"
+component = "norm"
+[[measure]]
+name = "tilted"
+kind = "tilt"
+bottom = "near 10 0 0"
+top = "near 10 0 10"
+toward = "x"
+[[measure]]
+name = "volume"
+kind = "volume"
+[[measure]]
+name = "mean"
+kind = "displacement_field_l2"
+[[measure]]
+name = "most"
+kind = "displacement_field_max"
+"""
+BOX = 'shape = "box"\nsize = [10, 10, 10]\ncells = [%d, %d, %d]'
+
+
+def springproof(*words, ranks=1):
+    """Runs the program."""
+    launcher = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    return subprocess.run([*launcher, PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=900, env=ENVIRONMENT)
+
+
+def solve(folder, case, ranks, *words):
+    """A run of a case with fields in folder/RANKS, and its document."""
+    file = folder / "block.toml"
+    file.write_text(case)
+    out = folder / str(ranks)
+    done = springproof("run", file, "--out", out, "--json", *words, ranks=ranks)
+    assert done.returncode == 0, (ranks, done)
+    return json.loads(done.stdout)["cases"][0], out, done.stderr
+
+
+def assert_near(one, other, what, tolerance=1e-9):
+    assert abs(one - other) <= tolerance * max(abs(one), 1e-3), (what, one, other)
+
+
+def assert_same(alone, together):
+    """Measures, errors and limits of two documents."""
+    assert len(alone["measures"]) == 6, alone
+    for a, b in zip(alone["measures"], together["measures"]):
+        assert a.keys() == b.keys() and a["name"] == b["name"], (a, b)
+        for key, value in a.items():
+            if isinstance(value, float):
+                # an error of p percent is a difference of values: it has the values' rounding, in percent
+                assert_near(value, b[key], (a["name"], key), 1e-7 if "percent" in key or "uncertainty" in key else 1e-9)
+            else:
+                assert value == b[key], (key, a, b)
+    for side in ("fem", "msm"):
+        assert alone[side]["unknowns"] == together[side]["unknowns"]
+        assert alone[side]["inverted_cells"] == together[side]["inverted_cells"]
+
+
+def same_fields(whole, pieces, tolerance="1e-9"):
+    compared = subprocess.run([SAME_FIELDS, whole, pieces, tolerance], capture_output=True, text=True, timeout=300)
+    assert compared.returncode == 0, compared
+    return compared.stdout
+
+
+def files_in(out):
+    return sorted(str(file.relative_to(out)) for file in out.rglob("*") if file.is_file())
+
+
+def test_both_models(folder):
+    """measures on 1, 2 and 4 ranks agree to 1e-9, and so do the pieces with the one file"""
+    for number, (body, formulation, solver) in enumerate([
+            (BOX % (12, 11, 13), "log_strain", "snes"),   # both dealt out as grids
+            (BOX % (12, 11, 2), "log_strain", "newton"),  # too few planes: the finite elements are whole on every rank
+            (BOX % (5, 4, 3), "small_strain", "snes"),    # assembled; the springs' SNES too small to be dealt out
+    ]):
+        place = folder / str(number)
+        place.mkdir()
+        case = CASE % (body, formulation, solver)
+        alone, out_alone, _ = solve(place, case, 1)
+        for ranks in (2, 4):
+            together, out, _ = solve(place, case, ranks)
+            assert_same(alone, together)
+            said = same_fields(out_alone / "block.vtu", out / "block.pvtu")
+            assert "difference" in said and "msm_inverted" in said, said
+            names = files_in(out)
+            assert [n for n in names if n.endswith("vtu")] == ["block.pvtu"] + [f"block_pieces/block_{r}.vtu" for r in range(ranks)]
+            sizes = [(out / f"block_pieces/block_{r}.vtu").stat().st_size for r in range(ranks)]
+            whole = (out_alone / "block.vtu").stat().st_size
+            assert max(sizes) < whole * (1 / ranks + 0.3), (sizes, whole)  # a slab, with a plane of its neighbour's
+
+
+def test_a_mesh_study(folder):
+    """the limit of a mesh study, and the error of a field against it"""
+    case = (CASE % (BOX % (4, 4, 4), "log_strain", "newton")).replace('accuracy = "none"\n', "")
+    alone, out_alone, _ = solve(folder, case, 1, "--converge=3")
+    together, out, _ = solve(folder, case, 2, "--converge=3")
+    assert alone["measures"][4]["reference"] == "limit", alone["measures"]
+    assert_same(alone, together)
+    same_fields(out_alone / "block.vtu", out / "block.pvtu")
+
+
+def test_kept_results(folder):
+    """what ranks have kept, any number of ranks takes up; parts of two solves are no result"""
+    case = CASE % (BOX % (6, 6, 9), "log_strain", "snes")
+    first, out, said = solve(folder, case, 3)
+    assert "solved already" not in said
+    fields = (out / "block_pieces/block_0.vtu").read_bytes()
+    parts = [f"solved/block.{r}-of-3" for r in (1, 2, 3)]
+    assert [n for n in files_in(out) if n.startswith("solved")] == parts
+    old = [(out / part).read_bytes() for part in parts]
+    os.rename(out, folder / "kept")
+    for ranks in (3, 1, 2, 4):  # numbers of 1 and more than 3 put the parts together in another way
+        os.rename(folder / "kept", folder / str(ranks))
+        again, place, said = solve(folder, case, ranks)
+        assert said.count("solved already") == 1, (ranks, said)
+        assert again["measures"] == first["measures"] or ranks != 3
+        assert_same(first, again)
+        assert [n for n in files_in(place) if n.startswith("solved")] == parts
+        if ranks == 3:
+            assert (place / "block_pieces/block_0.vtu").read_bytes() == fields
+        if ranks == 1:  # nothing is left of the three pieces
+            assert [n for n in files_in(place) if "vtu" in n] == ["block.vtu"]
+        if ranks == 2:
+            assert [n for n in files_in(place) if "vtu" in n] == ["block.pvtu", "block_pieces/block_0.vtu", "block_pieces/block_1.vtu"]
+        os.rename(place, folder / "kept")
+    os.rename(folder / "kept", out)
+    # One part of another solve: the same case, solved once more.
+    for part in parts:
+        (out / part).unlink()
+    _, _, said = solve(folder, case, 3)
+    assert "solved already" not in said
+    (out / parts[1]).write_bytes(old[1])
+    _, _, said = solve(folder, case, 3)
+    assert "solved already" not in said, said
+    # A part that is damaged or gone.
+    whole = (out / parts[2]).read_bytes()
+    (out / parts[2]).write_bytes(whole[:-8] + bytes(8))
+    _, _, said = solve(folder, case, 3)
+    assert "solved already" not in said and "is damaged" in said, said
+    (out / parts[2]).unlink()
+    _, _, said = solve(folder, case, 3)
+    assert "solved already" not in said
+    # What one rank has kept, several take up.
+    _, alone, _ = solve(folder, case, 1)
+    os.rename(alone, folder / "2")
+    _, _, said = solve(folder, case, 2)
+    assert "solved already" in said, said
+
+
+def test_another_number_of_ranks(folder):
+    """a solve on fewer ranks, or on one, leaves nothing of the earlier one's files"""
+    case = CASE % (BOX % (6, 6, 9), "log_strain", "newton")
+    _, out, _ = solve(folder, case, 4)
+    for ranks, modulus in ((2, 0.02), (1, 0.03), (2, 0.04)):
+        os.rename(out, folder / str(ranks))
+        _, out, said = solve(folder, case, ranks, "--set", f"material.youngs_modulus={modulus}")
+        assert "solved already" not in said
+        pieces = ["block.vtu"] if ranks == 1 else ["block.pvtu", "block_pieces/block_0.vtu", "block_pieces/block_1.vtu"]
+        assert [n for n in files_in(out) if "vtu" in n] == pieces, files_in(out)
+        kept = ["solved/block"] if ranks == 1 else ["solved/block.1-of-2", "solved/block.2-of-2"]
+        assert [n for n in files_in(out) if n.startswith("solved")] == kept, files_in(out)
+
+
+def test_no_list_without_its_pieces(folder):
+    """a piece that cannot be written: every rank ends with its reason, and no .pvtu is left"""
+    case = CASE % (BOX % (6, 6, 9), "log_strain", "newton")
+    _, out, _ = solve(folder, case, 2)
+    assert (out / "block.pvtu").exists()
+    piece = out / "block_pieces/block_1.vtu"
+    piece.unlink()
+    piece.mkdir()
+    (piece / "in the way").write_text("")
+    failed = springproof("run", folder / "block.toml", "--out", out, ranks=2)
+    assert failed.returncode == 2 and failed.stderr.count("block_1.vtu") == 1, failed
+    assert not (out / "block.pvtu").exists()
+
+
+def test_shards_on_ranks(folder):
+    """a shard's results kept by two ranks are merged by one process"""
+    case = CASE % (BOX % (6, 6, 9), "log_strain", "snes") + '[[expect]]\nmeasure = "moved"\nmsm = [0, 10]\nreference = "published"\nreason = "a test"\n'
+    files = [folder / f"{name}.toml" for name in ("one", "two")]
+    for file in files:
+        file.write_text(case.replace('"block"', f'"{file.stem}"'))
+    alone = springproof("gate", *files)
+    assert alone.returncode == 0, alone
+    for shard, ranks in ((1, 2), (2, 1)):
+        done = springproof("gate", *files, "--shard", f"{shard}/2", "--out", folder / f"shard{shard}", ranks=ranks)
+        assert done.returncode == 0, done
+    merged = springproof("merge", folder / "shard1", folder / "shard2", "--out", folder / "merged")
+    assert merged.returncode == 0, merged
+    assert [line.split(",")[0] for line in merged.stdout.splitlines()] == [line.split(",")[0] for line in alone.stdout.splitlines()]
+
+
+def main():
+    for name, test in list(globals().items()):
+        if not name.startswith("test_") or (len(sys.argv) > 3 and name not in sys.argv[3:]):
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            test(Path(folder))
+        print("passed:", test.__doc__, flush=True)
+
+
+if __name__ == "__main__":
+    main()
