@@ -46,7 +46,7 @@ Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffn
     if (options.path == Path::automatic && !options.deal_out && scene.mesh.nodes.size() <= most_factorised)
       stiffness_ = stiffness;
     else
-      problem_.force = Points(); // the grid has its own
+      problem_.force.clear(); // the grid has its own
   } else {
     problem_.lattice = make_lattice(scene.mesh, stiffness);
     system_ = make_direct_system(problem_);

@@ -8,16 +8,21 @@ namespace springproof::msm {
 
 namespace {
 
-std::function<Points(double)> moving_supports(const cases::Scene& scene) {
+std::function<std::vector<cases::NodeVector>(double)> moving_supports(const cases::Scene& scene) {
   if (scene.moved.empty()) return {};
-  return [moved = scene.moved, rest = scene.mesh.nodes](double load_factor) {
-    Points displacement(rest.size(), Eigen::Vector3d::Zero());
+  std::vector<int> nodes;
+  for (const auto& [selection, motion] : scene.moved)
+    nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
+  cases::make_set(nodes);
+  return [moved = scene.moved, rest = scene.mesh.nodes, nodes](double load_factor) {
+    std::vector<cases::NodeVector> displacement;
+    for (const int node : nodes) displacement.push_back({node, Eigen::Vector3d::Zero()});
     for (const auto& [selection, motion] : moved)
-      for (const int n : selection.nodes) {
-        const auto node = static_cast<std::size_t>(n);
-        const Eigen::Vector3d by = cases::moved_by(motion, rest[node], load_factor);
+      for (const int node : selection.nodes) {
+        const Eigen::Vector3d by = cases::moved_by(motion, rest[cases::index(node)], load_factor);
+        const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
         for (int a = 0; a < 3; ++a)
-          if (motion.components[static_cast<std::size_t>(a)]) displacement[node][a] = by[a];
+          if (motion.components[cases::index(a)]) displacement[cases::index(place)].value[a] = by[a];
       }
     return displacement;
   };
@@ -31,7 +36,7 @@ std::size_t n_unknowns(const Problem& problem) {
 }
 
 Problem make_problem(const cases::Scene& scene) {
-  return {scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene), moving_supports(scene)};
+  return {scene.mesh, {}, cases::loaded_nodes(scene), cases::constrained_dofs(scene), moving_supports(scene)};
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {

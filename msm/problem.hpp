@@ -13,10 +13,15 @@ using mechanics::Vector;
 struct Problem {
   cases::HexMesh mesh;
   Lattice lattice;
-  Points force;                     ///< applied at full load, N, one per point
-  std::vector<bool> is_constrained; ///< constrained degrees of freedom: 3*point + component
-  /// Displacement (mm) of constrained points at a load factor, one per point; empty: they stay at rest.
-  std::function<Points(double load_factor)> supports{};
+  std::vector<cases::NodeVector> force; ///< applied at full load, N
+  std::vector<bool> is_constrained;     ///< constrained degrees of freedom: 3*point + component
+  /// Displacement (mm) of constrained points that move, at a load factor; empty: none does.
+  std::function<std::vector<cases::NodeVector>(double load_factor)> supports{};
+
+  /// One vector per point.
+  Points on_all_points(const std::vector<cases::NodeVector>& some) const {
+    return cases::on_all_nodes(some, mesh.nodes.size());
+  }
 };
 
 /// A scene as springs see it, but for its lattice.

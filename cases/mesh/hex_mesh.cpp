@@ -302,7 +302,29 @@ std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
   return vertices;
 }
 
+namespace {
+
+/// Of a grid: no memory but for the faces.
+std::vector<std::array<int, 4>> boundary_faces_of_grid(const HexMesh& mesh) {
+  std::vector<std::array<int, 4>> faces;
+  std::size_t cell = 0;
+  for_each_place(mesh.grid->cells, [&](int i, int j, int k) {
+    if (!mesh.grid->has(i, j, k)) return;
+    for (std::size_t f = 0; f < cell_faces.size(); ++f) {
+      std::array<int, 3> neighbour{i, j, k};
+      neighbour[f / 2] += f % 2 == 0 ? -1 : 1;
+      if (!mesh.grid->has(neighbour[0], neighbour[1], neighbour[2]))
+        faces.push_back(pick(mesh.cells[cell], cell_faces[f]));
+    }
+    ++cell;
+  });
+  return faces;
+}
+
+} // namespace
+
 std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh) {
+  if (mesh.grid) return boundary_faces_of_grid(mesh);
   std::map<std::array<int, 4>, int> uses;
   const auto for_each_face = [&](const auto& action) {
     for (const auto& cell : mesh.cells)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace springproof::cases {
 
@@ -31,8 +32,7 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
   if (!(distance <= near_tolerance))
     throw InputError(region.where,
                      fmt::format("no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
-                                 near_tolerance, fmt::join(point, ", "), distance,
-                                 fmt::join(found, ", ")));
+                                 near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", ")));
   return {{static_cast<int>(nearest.number())}, {}, {}};
 }
 
@@ -62,6 +62,7 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
     return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return is_selected[index(n)]; });
   };
   for (const auto& cell : mesh.cells) {
+    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return is_selected[index(n)]; })) continue;
     for (const auto& local : cell_edges)
       if (const auto edge = sorted(pick(cell, local)); are_selected(edge)) selection.edges.push_back(edge);
     for (const auto& local : cell_faces)
@@ -145,11 +146,46 @@ void integrate(const HexMesh& mesh, const Selection& selection, const Action& ac
 
 /// Part of a node's load that the modelled part of a symmetric scene carries: halved by each symmetry plane
 /// through it.
-std::vector<double> modelled_share(const Scene& scene) {
-  std::vector<double> share(scene.mesh.nodes.size(), 1.0);
+std::function<double(int node)> modelled_share(const Scene& scene) {
+  std::vector<std::vector<int>> planes;
   for (const Fixed& plane : scene.definition.symmetry)
-    for (int n : select(scene.mesh, plane.region).nodes) share[index(n)] /= 2;
-  return share;
+    planes.push_back(sorted(select(scene.mesh, plane.region).nodes));
+  return [planes](int node) {
+    double share = 1;
+    for (const std::vector<int>& nodes : planes)
+      if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
+    return share;
+  };
+}
+
+/// Forces on the nodes of the loads' regions, which add up.
+class Forces {
+ public:
+  explicit Forces(const Scene& scene) {
+    std::vector<int> nodes;
+    for (const auto& [selection, load] : scene.loads) {
+      nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
+      for (const auto& face : selection.faces) nodes.insert(nodes.end(), face.begin(), face.end());
+    }
+    make_set(nodes);
+    for (const int node : nodes) forces.push_back({node, Vector3d::Zero()});
+  }
+  void add(int node, const Vector3d& force) {
+    const auto is_before = [](const NodeVector& at, int number) { return at.node < number; };
+    std::lower_bound(forces.begin(), forces.end(), node, is_before)->value += force;
+  }
+  std::vector<NodeVector> forces;
+};
+
+void add_point_forces(const Scene& scene, Forces& forces) {
+  const auto share = modelled_share(scene);
+  for (const auto& [selection, load] : scene.loads) {
+    if (acts_on_area(load.kind)) continue;
+    double divisor = load.kind == LoadKind::total_force ? 0 : 1;
+    if (divisor == 0)
+      for (int node : selection.nodes) divisor += share(node);
+    for (int node : selection.nodes) forces.add(node, load.value * (share(node) / divisor));
+  }
 }
 
 /// Constrained and moved nodes of the definition on the scene's mesh.
@@ -184,7 +220,8 @@ void check_sizes(const Scene& scene) {
   constexpr double least_force = 1e-140; // N: solvers square it
   constexpr double least_motion = 1e-9;  // mm: supports are where they have to be within 1e-12
   double force = 0;
-  for (const Vector3d& on_node : nodal_forces(scene)) force = std::max(force, on_node.cwiseAbs().maxCoeff());
+  for (const NodeVector& loaded : loaded_nodes(scene))
+    force = std::max(force, loaded.value.cwiseAbs().maxCoeff());
   if (force > 0 && force < least_force)
     throw InputError(
         scene.definition.loads.front().region.where,
@@ -311,17 +348,10 @@ std::vector<bool> constrained_dofs(const Scene& scene) {
   return is_constrained;
 }
 
-std::vector<Vector3d> point_forces(const Scene& scene) {
-  std::vector<Vector3d> forces(scene.mesh.nodes.size(), Vector3d::Zero());
-  const std::vector<double> share = modelled_share(scene);
-  for (const auto& [selection, load] : scene.loads) {
-    if (acts_on_area(load.kind)) continue;
-    double divisor = load.kind == LoadKind::total_force ? 0 : 1;
-    if (divisor == 0)
-      for (int node : selection.nodes) divisor += share[index(node)];
-    for (int node : selection.nodes) forces[index(node)] += load.value * (share[index(node)] / divisor);
-  }
-  return forces;
+std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
+  Forces all(scene);
+  add_point_forces(scene, all);
+  return all.forces;
 }
 
 Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& point, double polar_moment) {
@@ -337,18 +367,33 @@ double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {
   return moment;
 }
 
-std::vector<Vector3d> nodal_forces(const Scene& scene) {
-  std::vector<Vector3d> forces = point_forces(scene);
+std::vector<NodeVector> loaded_nodes(const Scene& scene) {
+  Forces all(scene);
+  add_point_forces(scene, all);
   for (const Scene::AppliedLoad& applied : scene.loads) {
     if (!acts_on_area(applied.load.kind)) continue;
     const double moment = applied.load.kind == LoadKind::torque ? polar_moment(scene.mesh, applied) : 0;
     integrate(scene.mesh, applied.selection,
               [&](const auto& face, const Vector3d& point, const auto& shape, double weight) {
                 const Vector3d force = weight * surface_traction(applied, point, moment);
-                for (std::size_t v = 0; v < 4; ++v) forces[index(face[v])] += shape[v] * force;
+                for (std::size_t v = 0; v < 4; ++v) all.add(face[v], shape[v] * force);
               });
   }
-  return forces;
+  return all.forces;
+}
+
+std::vector<Vector3d> on_all_nodes(const std::vector<NodeVector>& some, std::size_t n) {
+  std::vector<Vector3d> all(n, Vector3d::Zero());
+  for (const auto& [node, value] : some) all[index(node)] = value;
+  return all;
+}
+
+std::vector<Vector3d> nodal_forces(const Scene& scene) {
+  return on_all_nodes(loaded_nodes(scene), scene.mesh.nodes.size());
+}
+
+std::vector<Vector3d> point_forces(const Scene& scene) {
+  return on_all_nodes(nodes_with_point_forces(scene), scene.mesh.nodes.size());
 }
 
 } // namespace springproof::cases

@@ -55,12 +55,25 @@ std::vector<bool> constrained_dofs(const Scene& scene);
 /// on components that the motion leaves free.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
-/// All loads as forces on the mesh's nodes, N: point forces as they are (a node on symmetry planes carries
-/// the modelled part alone: half, a quarter, an eighth), tractions and torques integrated with bilinear shape
-/// functions on the rest faces.
-std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
+/// A force (N) or a displacement (mm) of one node.
+struct NodeVector {
+  int node;
+  Eigen::Vector3d value;
+};
 
-/// The point forces (nodal_force, total_force) alone, N per node.
+/// All loads as forces on the nodes that loads act on, N, in ascending order: point forces as they are (a
+/// node on symmetry planes carries the modelled part alone: half, a quarter, an eighth), tractions and
+/// torques integrated with bilinear shape functions on the rest faces.
+std::vector<NodeVector> loaded_nodes(const Scene& scene);
+
+/// The point forces (nodal_force, total_force) alone.
+std::vector<NodeVector> nodes_with_point_forces(const Scene& scene);
+
+/// One vector for each of n nodes, zero where there is none.
+std::vector<Eigen::Vector3d> on_all_nodes(const std::vector<NodeVector>& some, std::size_t n);
+
+/// The same for all nodes of the mesh.
+std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
 /// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest.

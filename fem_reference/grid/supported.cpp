@@ -38,10 +38,10 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
     if (!places.owns(at)) return;
     for (int c = 0; c < 3; ++c) load[c * layout.size + places.entry(at)] += force[c];
   };
-  const std::vector<Eigen::Vector3d> forces =
-      is_quadratic ? cases::point_forces(scene) : cases::nodal_forces(scene);
-  for (std::size_t n = 0; n < forces.size(); ++n)
-    if (!forces[n].isZero(0)) add_force(places.of(scene.mesh.nodes[n]), forces[n]);
+  const std::vector<cases::NodeVector> forces =
+      is_quadratic ? cases::nodes_with_point_forces(scene) : cases::loaded_nodes(scene);
+  for (const auto& [node, force] : forces)
+    if (!force.isZero(0)) add_force(places.of(scene.mesh.nodes[index(node)]), force);
   if (!is_quadratic) return load;
   for (const auto& applied : scene.loads) {
     const bool is_torque = applied.load.kind == cases::LoadKind::torque;

@@ -135,7 +135,7 @@ class DirectSystem : public SpringSystem {
  public:
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
-        load_(on_free(to_vector(problem, problem.force))) {
+        load_(on_free(to_vector(problem, problem.on_all_points(problem.force)))) {
     const OneThread one;
     factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
@@ -207,7 +207,8 @@ class DirectSystem : public SpringSystem {
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
     const Eigen::Index n = displacement.size() - tangent_.n_free();
-    displacement.tail(n) = to_vector(problem_, problem_.supports(load_factor)).tail(n);
+    displacement.tail(n) =
+        to_vector(problem_, problem_.on_all_points(problem_.supports(load_factor))).tail(n);
   }
 
  private:

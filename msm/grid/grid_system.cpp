@@ -24,21 +24,33 @@ CellSprings cell_springs(const CellStiffness& k) {
           k.volume};
 }
 
+/// Where a node of the mesh is here, if it is.
+std::optional<std::array<int, 3>> place_of(const Problem& problem, const Body& body, std::size_t node) {
+  const cases::Grid& grid = *problem.mesh.grid;
+  const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
+  const Eigen::Vector3d at = (problem.mesh.nodes[node] - grid.origin).cwiseQuotient(grid.spacing);
+  std::array<int, 3> place;
+  for (std::size_t a = 0; a < 3; ++a) {
+    place[a] = static_cast<int>(std::lround(at[static_cast<int>(a)])) - first[a];
+    if (place[a] < 0 || place[a] >= body.layout.nodes[a]) return std::nullopt;
+  }
+  return place;
+}
+
 /// Calls action(number of the mesh's node, its place here) for the nodes that are here.
 template<class Action>
 void for_each_node(const Problem& problem, const Body& body, const Action& action) {
-  const cases::Grid& grid = *problem.mesh.grid;
-  const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
-  for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n) {
-    const Eigen::Vector3d at = (problem.mesh.nodes[n] - grid.origin).cwiseQuotient(grid.spacing);
-    std::array<int, 3> place;
-    bool is_here = true;
-    for (std::size_t a = 0; a < 3; ++a) {
-      place[a] = static_cast<int>(std::lround(at[static_cast<int>(a)])) - first[a];
-      is_here = is_here && place[a] >= 0 && place[a] < body.layout.nodes[a];
-    }
-    if (is_here) action(n, place);
-  }
+  for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n)
+    if (const auto place = place_of(problem, body, n)) action(n, *place);
+}
+
+/// Zero where nothing is given.
+Field<double> to_field(const Problem& problem, const Body& body, const std::vector<cases::NodeVector>& some) {
+  Field<double> field = Field<double>::Zero(3 * body.layout.size);
+  for (const auto& [node, value] : some)
+    if (const auto at = place_of(problem, body, index(node)))
+      for (int c = 0; c < 3; ++c) field[body.layout.at((*at)[0], (*at)[1], (*at)[2], c)] = value[c];
+  return field;
 }
 
 class GridSystem : public SpringSystem {

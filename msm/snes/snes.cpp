@@ -46,7 +46,7 @@ class Part {
     moved_ = make_vector();
     force_ = make_vector();
     applied_ = make_vector();
-    put(applied_.get(), own(problem.force));
+    put(applied_.get(), own(problem.on_all_points(problem.force)));
     const WriteEntries applied(applied_.get());
     for (const PetscInt d : constrained_) applied[d - 3 * first_] = 0;
   }
@@ -200,7 +200,8 @@ class Part {
   /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.
   template<class Action>
   void for_each_constrained(double load_factor, const Action& action) const {
-    const Points supports = problem_.supports ? problem_.supports(load_factor) : Points{};
+    const Points supports =
+        problem_.supports ? problem_.on_all_points(problem_.supports(load_factor)) : Points{};
     for (const PetscInt d : constrained_)
       action(d - 3 * first_, supports.empty() ? 0 : supports[index(d / 3)][static_cast<int>(d % 3)]);
   }

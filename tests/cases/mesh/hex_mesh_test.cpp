@@ -45,7 +45,8 @@ TEST_CASE("a box has its nodes with x running fastest, and its far faces exactly
   CHECK(total_volume(mesh) == Approx(0.3 * 0.7 * 1.1).epsilon(rounding));
 }
 
-TEST_CASE("nodes and cells of a whole grid follow from their numbers, and are those that a mask would store") {
+TEST_CASE(
+    "nodes and cells of a whole grid follow from their numbers, and are those that a mask would store") {
   Grid grid{{3, 2, 4}, {0.1, 0.7, 1.1}, {-1, 1e-3, 7}, {}};
   HexMesh ruled = make_grid_mesh(grid);
   grid.present.assign(3 * 2 * 4, true);
@@ -67,6 +68,17 @@ TEST_CASE("a masked grid has the present cells, and nodes that they touch alone"
   CHECK(mesh.nodes.size() == 18 - 2); // the edge at x = 2, z = 2 belongs to the missing cell alone
   CHECK(total_volume(mesh) == Approx(3).epsilon(rounding));
   CHECK(boundary_faces(mesh).size() == 14); // an L of three cubes
+}
+
+TEST_CASE("the surface of a grid, found from its cells' neighbours, is the one found by counting faces") {
+  Grid holes{{5, 4, 6}, {1, 2, 3}, {0, 0, 0}, {}};
+  for (std::size_t c = 0; c < holes.n_lattice_cells(); ++c)
+    holes.present.push_back(c % 7 != 3 && c % 11 != 5);
+  for (HexMesh mesh : {make_grid_mesh(holes), make_box_mesh({5, 8, 18}, {5, 4, 6})}) {
+    const auto by_neighbours = boundary_faces(mesh);
+    mesh.grid.reset();
+    CHECK(by_neighbours == boundary_faces(mesh));
+  }
 }
 
 TEST_CASE("the springs of a cell are 12 edges, 12 face diagonals and 4 internal diagonals of lengths 1, sqrt "

@@ -20,7 +20,7 @@ namespace {
 
 Problem make_problem(const cases::Case& definition, const CellStiffness& stiffness) {
   const cases::Scene scene = cases::make_scene(definition);
-  return {scene.mesh, msm::make_lattice(scene.mesh, {stiffness}), cases::nodal_forces(scene),
+  return {scene.mesh, msm::make_lattice(scene.mesh, {stiffness}), cases::loaded_nodes(scene),
           cases::constrained_dofs(scene)};
 }
 

@@ -124,7 +124,7 @@ TEST_CASE("the multigrid path refuses negative springs, two laws and a body that
 TEST_CASE("a displacement that is no body's spoils nothing that comes after it") {
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({10, 10, 10}, bodies::tensile(0.01)));
   const std::vector<msm::CellStiffness> springs = {bodies::cell(31, 47, 33)};
-  const msm::Problem problem{scene.mesh, {}, cases::nodal_forces(scene), cases::constrained_dofs(scene)};
+  const msm::Problem problem{scene.mesh, {}, cases::loaded_nodes(scene), cases::constrained_dofs(scene)};
   const msm::grid::GridProblem grid = msm::grid::make_grid_problem(problem, springs);
   const auto system = msm::grid::make_grid_system(grid, 1);
   const msm::Vector rest = msm::Vector::Zero(grid.load.size());

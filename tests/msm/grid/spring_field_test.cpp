@@ -24,8 +24,8 @@ struct Both {
   msm::grid::GridProblem grid;
   Points displacement, direction;
   Both(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness)
-      : problem{mesh, msm::make_lattice(mesh, stiffness), Points(mesh.nodes.size(), Eigen::Vector3d::Zero()),
-                std::vector<bool>(3 * mesh.nodes.size(), false)} {
+      : problem{
+            mesh, msm::make_lattice(mesh, stiffness), {}, std::vector<bool>(3 * mesh.nodes.size(), false)} {
     for (std::size_t d : {0, 1, 2, 5, 10}) problem.is_constrained[d] = true;
     grid = msm::grid::make_grid_problem(problem, stiffness);
     const Points zero(mesh.nodes.size(), Eigen::Vector3d::Zero());
