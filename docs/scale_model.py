@@ -29,7 +29,7 @@ class Measured:
 SPRINGS = Measured("springs, bricks", 5.9e-6, 23, 7, 200, 3, 1000)
 FINITE_ELEMENTS = Measured("finite elements, slabs", 10.3e-6, 18, 8, 720, 1, 500)
 PROGRAM_BYTES = 190e6  # on every rank, with buffers of messages
-SCENE_BYTES = 1 / 3  # per unknown, on every rank
+SCENE_BYTES = 0.5  # per unknown, on every rank
 ANSWER_BYTES = 32 / 3  # per unknown, divided among the ranks
 LEAST_NODES = 2  # of a brick or slab along an axis that is divided
 

@@ -154,7 +154,9 @@ std::string why_not_finer(const cases::Scene& finer, const cases::Solution& last
   const double by_iterations =
                    8 * static_cast<double>(last.unknowns) * static_cast<double>(last.linear_iterations),
                seconds = std::max(next.seconds, by_iterations * seconds_an_iteration);
-  if (next.unknowns <= most_unknowns && seconds <= most_seconds && next.megabytes <= memory_limit().megabytes)
+  const MemoryLimit limit = memory_limit();
+  if (next.unknowns <= most_unknowns && seconds <= most_seconds &&
+      megabytes_within(limit, next) <= limit.megabytes)
     return "";
   return fmt::format(
       "the next mesh would have about {:.2g} unknowns, and take {:.0f} s and {:.0f} MB (--converge "

@@ -70,6 +70,13 @@ int n_mpi_ranks() {
   return n;
 }
 
+int n_mpi_ranks_here() {
+  for (const char* name : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}) // of Open MPI, of MPICH
+    if (const char* n = std::getenv(name); n && std::atoi(n) > 0)
+      return std::min(std::atoi(n), n_mpi_ranks());
+  return n_mpi_ranks();
+}
+
 /// Not getrusage(): its figure is inherited from the process that started this one.
 std::optional<double> peak_resident_megabytes() {
   return megabytes_in("/proc/self/status", "VmHWM:");

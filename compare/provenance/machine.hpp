@@ -18,6 +18,8 @@ std::string cases_folder();
 /// This process's number in MPI's world; 0 for a process alone. MPI must have been started.
 int mpi_rank();
 int n_mpi_ranks(); ///< of MPI's world
+/// Of MPI's world those on this machine, as the launcher tells; all, if it does not.
+int n_mpi_ranks_here();
 
 /// The machine and build that a timing depends on.
 struct Machine {

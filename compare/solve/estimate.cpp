@@ -139,9 +139,15 @@ Estimate estimate_fem(const BodySize& body) {
 
 Estimate estimate_springs(const BodySize& body) {
   const double unknowns = 3 * body.n_nodes;
+  const bool is_alone = body.outline.definition.msm.solver != cases::Solver::snes;
+  const HeldBy held_by = is_alone ? HeldBy::first_rank : HeldBy::all_ranks_together;
+  Estimate estimate;
   if (!body.outline.mesh.grid || body.n_nodes < msm::multigrid_from)
-    return factorised("springs (factorised)", unknowns, springs_lattice);
-  return linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
+    estimate = factorised("springs (factorised)", unknowns, springs_lattice);
+  else
+    estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
+  estimate.held_by = held_by;
+  return estimate;
 }
 
 std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
@@ -182,22 +188,44 @@ std::string long_solve_text(const std::string& name, const std::vector<Estimate>
   return text;
 }
 
+RanksOfMachine ranks_of_machine() {
+  return {n_mpi_ranks(), n_mpi_ranks_here()};
+}
+
+double megabytes_within(const MemoryLimit& limit, const Estimate& model, const RanksOfMachine& ranks) {
+  const int n_within = limit.is_of_a_process ? 1 : ranks.here;
+  switch (model.held_by) {
+  case HeldBy::all_ranks_together:
+    return model.megabytes * n_within / ranks.all;
+  case HeldBy::every_rank:
+    return model.megabytes * n_within;
+  case HeldBy::first_rank:
+    break;
+  }
+  return model.megabytes;
+}
+
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit) {
-  for (const Estimate& model : models)
-    if (!(model.megabytes <= limit.megabytes))
+  for (const Estimate& model : models) {
+    const double megabytes = megabytes_within(limit, model);
+    if (!(megabytes <= limit.megabytes))
       throw cases::InputError(fmt::format(
           "{}: {} with about {:.3g} unknowns need about {} of memory, and {} leaves {}: give the body "
           "fewer cells, or refine it less",
-          file, model.model, model.unknowns, memory_text(model.megabytes), limit.of,
+          file, model.model, model.unknowns, memory_text(megabytes), limit.of,
           memory_text(std::max(0., limit.megabytes))));
+  }
 }
 
 cases::Scene make_scene_within_memory(const cases::Case& definition) {
-  constexpr double bytes_a_node = 150; // nodes, cells, and what selecting regions takes for a while
+  // Nodes, cells, and what selecting regions takes for a while; of a box, whose nodes are not stored, the
+  // last.
+  const double bytes_a_node = std::holds_alternative<cases::Box>(definition.body) ? 10 : 150;
   if (const auto body = size_of(definition))
-    check_memory(definition.file,
-                 {{"the mesh's nodes", 3 * body->n_nodes, 1e-6 * bytes_a_node * body->n_nodes, 0}},
-                 memory_limit());
+    check_memory(
+        definition.file,
+        {{"the mesh's nodes", 3 * body->n_nodes, 1e-6 * bytes_a_node * body->n_nodes, 0, HeldBy::every_rank}},
+        memory_limit());
   return cases::make_scene(definition);
 }
 

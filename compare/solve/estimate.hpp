@@ -6,11 +6,15 @@
 /// What solving takes, before it is begun: from the numbers of nodes, element, formulation and backend alone.
 namespace springproof::compare {
 
+/// Which ranks have the memory of a model.
+enum class HeldBy { all_ranks_together, first_rank, every_rank };
+
 struct Estimate {
   std::string model;    ///< "finite elements (matrix-free)"
   double unknowns = 0;  ///< constrained ones included
   double megabytes = 0; ///< of 10^6 bytes, above what the program takes by itself
   double seconds = 0;   ///< of one thread, from the model to the equilibrium
+  HeldBy held_by = HeldBy::all_ranks_together;
 };
 
 /// The body of a case, as far as estimates depend on it.
@@ -38,6 +42,15 @@ double most_megabytes(const std::vector<Estimate>& models);
 /// What a user should know before a solve of more than ten seconds: a line with the unknowns, memory and time
 /// of each model; empty for shorter ones.
 std::string long_solve_text(const std::string& name, const std::vector<Estimate>& models);
+
+struct RanksOfMachine {
+  int all = 1, here = 1;
+};
+RanksOfMachine ranks_of_machine();
+
+/// The part of a model's memory that a limit is for: of one machine's ranks, or of one rank.
+double megabytes_within(const MemoryLimit& limit, const Estimate& model,
+                        const RanksOfMachine& ranks = ranks_of_machine());
 
 /// @param file  of the case
 /// @throws InputError if a model needs more memory than there is, with unknowns, estimate, limit and what to

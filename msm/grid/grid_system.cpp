@@ -40,6 +40,14 @@ std::optional<std::array<int, 3>> place_of(const Problem& problem, const Body& b
 /// Calls action(number of the mesh's node, its place here) for the nodes that are here.
 template<class Action>
 void for_each_node(const Problem& problem, const Body& body, const Action& action) {
+  if (const auto& whole = problem.mesh.nodes.rule) { // whose nodes are numbered by their places
+    const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
+    for_each_place(body.layout.nodes, [&](int i, int j, int k) {
+      const std::size_t row = index(first[1] + j) + index(whole->cells[1] + 1) * index(first[2] + k);
+      action(index(first[0] + i) + index(whole->cells[0] + 1) * row, std::array<int, 3>{i, j, k});
+    });
+    return;
+  }
   for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n)
     if (const auto place = place_of(problem, body, n)) action(n, *place);
 }

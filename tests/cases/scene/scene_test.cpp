@@ -48,6 +48,41 @@ Vector3d moment(const Scene& scene, const std::vector<Vector3d>& forces, const V
 
 } // namespace
 
+TEST_CASE("regions of a box, found from numbers, are those that a search of its nodes and cells finds") {
+  for (const std::array<int, 3>& cells :
+       {std::array<int, 3>{3, 4, 5}, std::array<int, 3>{1, 1, 2}, std::array<int, 3>{2, 1, 1}}) {
+    const HexMesh ruled = make_box_mesh({3, 4, 0.5}, cells);
+    HexMesh stored = ruled;
+    stored.nodes.stored();
+    stored.cells.stored();
+    for (const char* name : {"x-", "y+", "z+", "z- x+", "x+ y- z-", "y- y-"}) {
+      const Selection found = select(ruled, region(name)), searched = select(stored, region(name));
+      INFO(name);
+      CHECK(found.nodes == searched.nodes);
+      CHECK(found.edges == searched.edges);
+      CHECK(found.faces == searched.faces);
+    }
+    CHECK_THROWS_AS(select(ruled, region("x- x+")), InputError);
+    CHECK_THROWS_AS(select(stored, region("x- x+")), InputError);
+    for (const Vector3d& node : ruled.nodes) {
+      Region near;
+      near.near = node + Vector3d(4e-7, -4e-7, 4e-7);
+      CHECK(select_node(ruled, near) == select_node(stored, near));
+      near.near = node + Vector3d(0.1, 0, -100); // refused, with the same distance
+      const auto refusal = [&](const HexMesh& mesh) -> std::string {
+        try {
+          select_node(mesh, near);
+        } catch (const InputError& error) {
+          return error.what();
+        }
+        return "";
+      };
+      CHECK(refusal(ruled).find("the nearest is") != std::string::npos);
+      CHECK(refusal(ruled) == refusal(stored));
+    }
+  }
+}
+
 TEST_CASE("faces, edges and vertices of a box are selected with their nodes, edges and faces") {
   const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
   const Selection face = select(mesh, region("z+"));

@@ -114,6 +114,25 @@ TEST_CASE("more memory than there is is refused with unknowns, estimate, limit a
                   cases::InputError);
 }
 
+TEST_CASE("a machine has to hold its ranks' part of a model, and a process its own") {
+  cases::Case definition = cube(100);
+  const compare::RanksOfMachine ranks{8, 2};
+  const compare::MemoryLimit machine = limit(1), process{1, "ulimit -v", true};
+  const Estimate fem = compare::estimate_fem(body(definition)),
+                 alone = compare::estimate_springs(body(definition));
+  definition.msm.solver = cases::Solver::snes;
+  const Estimate shared = compare::estimate_springs(body(definition));
+  for (const Estimate& model : {fem, shared}) {
+    CHECK(compare::megabytes_within(machine, model, ranks) == Approx(model.megabytes / 4));
+    CHECK(compare::megabytes_within(process, model, ranks) == Approx(model.megabytes / 8));
+  }
+  CHECK(compare::megabytes_within(machine, alone, ranks) == alone.megabytes);
+  CHECK(compare::megabytes_within(process, alone, ranks) == alone.megabytes);
+  const Estimate scene{"scene", 1, 100, 0, compare::HeldBy::every_rank};
+  CHECK(compare::megabytes_within(machine, scene, ranks) == 200);
+  CHECK(compare::megabytes_within(process, scene, ranks) == 100);
+}
+
 TEST_CASE("the machine's limit is at most its memory, and there is some left for a test") {
   const compare::MemoryLimit machine = compare::memory_limit();
   CHECK(machine.megabytes > 100);
