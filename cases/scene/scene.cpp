@@ -2,6 +2,7 @@
 
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
+#include "cases/scene/regions.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,139 +20,11 @@ double radians(double degrees) {
   return degrees * std::acos(-1.0) / 180;
 }
 
-constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node and does not search for one
-
-std::size_t nearest_node(const HexMesh& mesh, const Vector3d& point) {
-  if (const auto& grid = mesh.nodes.rule) { // without a look at the others
-    std::size_t node = 0;
-    for (int a = 2; a >= 0; --a) {
-      const int n_cells = grid->cells[index(a)];
-      const double place = std::round((point[a] - grid->origin[a]) / grid->step[a]);
-      node = node * (index(n_cells) + 1) +
-             static_cast<std::size_t>(place > 0 ? std::min<double>(place, n_cells) : 0);
-    }
-    return node;
-  }
-  return std::min_element(mesh.nodes.begin(), mesh.nodes.end(),
-                          [&](const auto& a, const auto& b) {
-                            return (a - point).squaredNorm() < (b - point).squaredNorm();
-                          })
-      .number();
-}
-
-Selection select_near(const HexMesh& mesh, const Region& region) {
-  const Vector3d& point = *region.near;
-  const std::size_t nearest = nearest_node(mesh, point);
-  const Vector3d found = mesh.nodes[nearest];
-  const double distance = (found - point).norm();
-  if (!(distance <= near_tolerance))
-    throw InputError(region.where,
-                     fmt::format("no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
-                                 near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", ")));
-  return {{static_cast<int>(nearest)}, {}, {}};
-}
-
 /// Whether these are names of a box's faces.
 bool are_faces(const std::vector<std::string>& words) {
   return !words.empty() && std::all_of(words.begin(), words.end(), [](const std::string& word) {
     return std::count(face_names.begin(), face_names.end(), word) > 0;
   });
-}
-
-/// Adds a cell's edges and faces between selected vertices.
-void add_sides(const std::array<int, 8>& cell, const std::array<bool, 8>& is_selected, Selection& selection) {
-  const auto are_selected = [&](const auto& vertices) {
-    return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return is_selected[index(v)]; });
-  };
-  for (const auto& edge : cell_edges)
-    if (are_selected(edge)) selection.edges.push_back(sorted(pick(cell, edge)));
-  for (const auto& face : cell_faces)
-    if (are_selected(face)) selection.faces.push_back(pick(cell, face));
-}
-
-/// As select_on_planes() on a grid whose cells are all present, without a look at the inner ones.
-Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
-                              const std::vector<std::string>& faces) {
-  std::array<int, 3> first{0, 0, 0}, last = grid.cells; // places of selected nodes along each axis
-  for (const std::string& face : faces) {
-    const auto axis = index(face[0] - 'x');
-    if (face[1] == '+')
-      first[axis] = grid.cells[axis];
-    else
-      last[axis] = std::min(last[axis], 0);
-  }
-  const auto in_planes = [](std::array<int, 3> from, std::array<int, 3> to, const auto& action) {
-    for (int k = from[2]; k <= to[2]; ++k)
-      for (int j = from[1]; j <= to[1]; ++j)
-        for (int i = from[0]; i <= to[0]; ++i) action(i, j, k);
-  };
-  const auto number = [](int i, int j, int k, int n_x, int n_y) {
-    return index(i) + index(n_x) * (index(j) + index(n_y) * index(k));
-  };
-  Selection selection;
-  in_planes(first, last, [&](int i, int j, int k) {
-    selection.nodes.push_back(static_cast<int>(number(i, j, k, grid.cells[0] + 1, grid.cells[1] + 1)));
-  });
-  std::array<int, 3> first_cell, last_cell; // that have selected vertices
-  for (std::size_t a = 0; a < 3; ++a) {
-    first_cell[a] = std::max(first[a] - 1, 0);
-    last_cell[a] = std::min(last[a], grid.cells[a] - 1);
-  }
-  in_planes(first_cell, last_cell, [&](int i, int j, int k) {
-    std::array<bool, 8> is_selected;
-    for (int v = 0; v < 8; ++v) {
-      const std::array<int, 3> at{i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2)};
-      is_selected[index(v)] = true;
-      for (std::size_t a = 0; a < 3; ++a)
-        is_selected[index(v)] = is_selected[index(v)] && at[a] >= first[a] && at[a] <= last[a];
-    }
-    add_sides(mesh.cells[number(i, j, k, grid.cells[0], grid.cells[1])], is_selected, selection);
-  });
-  make_set(selection.edges);
-  return selection;
-}
-
-/// Nodes, edges and faces on all of these planes of the mesh's bounding box.
-/// @param faces  of the box, such as "z+" and "x-"
-Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
-  if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
-  Eigen::AlignedBox3d body;
-  for (const Vector3d& node : mesh.nodes) body.extend(node);
-  const double rounding = 1e-9 * body.sizes().norm(); // far above that of i * spacing, far below a cell
-  Selection selection;
-  std::vector<bool> is_selected;
-  for (const Vector3d& node : mesh.nodes) {
-    is_selected.push_back(std::all_of(faces.begin(), faces.end(), [&](const std::string& face) {
-      const int axis = face[0] - 'x';
-      return std::abs(node[axis] - (face[1] == '+' ? body.max() : body.min())[axis]) <= rounding;
-    }));
-    if (is_selected.back()) selection.nodes.push_back(static_cast<int>(is_selected.size()) - 1);
-  }
-  for (const auto& cell : mesh.cells) {
-    std::array<bool, 8> vertices;
-    for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(cell[v])];
-    add_sides(cell, vertices, selection);
-  }
-  make_set(selection.edges);
-  return selection;
-}
-
-/// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
-Selection select_patch(const HexMesh& mesh, const Region& region) {
-  Selection patch;
-  for (const auto& face : boundary_faces(mesh)) {
-    if (!((centre_of(mesh, face) - *region.near).norm() <= *region.radius)) continue;
-    patch.faces.push_back(face);
-    for (std::size_t v = 0; v < 4; ++v) {
-      patch.nodes.push_back(face[v]);
-      patch.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
-    }
-  }
-  if (patch.faces.empty())
-    throw InputError(region.where, fmt::format("'{}' has no face of the body's surface", region.name));
-  make_set(patch.nodes);
-  make_set(patch.edges);
-  return patch;
 }
 
 /// Patches become groups of the mesh, so that refined meshes keep the same patches.

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/mesh/hex_mesh.hpp"
+
+/// What the kinds of regions select on a mesh; select() in scene.hpp knows which kind one is.
+namespace springproof::cases {
+
+/// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
+Selection select_near(const HexMesh& mesh, const Region& region);
+
+/// Nodes, edges and faces on all of these planes of the mesh's bounding box. On a grid whose cells are all
+/// present they follow from numbers, without a look at the inner ones.
+/// @param faces  of the box, such as "z+" and "x-"
+Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces);
+
+/// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
+Selection select_patch(const HexMesh& mesh, const Region& region);
+
+} // namespace springproof::cases
