@@ -94,10 +94,45 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
       lattice.volume_cells.push_back(
           {cell, k.volume, cases::cell_volume(cases::cell_vertices(mesh, c)), k.exponents.has_value()});
   }
+  finish_links(lattice);
+  return lattice;
+}
+
+Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::NetworkSpring>& springs) {
+  Lattice lattice;
+  lattice.rest = mesh.nodes.to_vector();
+  for (const cases::NetworkSpring& spring : springs) {
+    const auto [i, j] = std::minmax(spring.a, spring.b);
+    const double distance = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
+    lattice.links.push_back(
+        {i, j, {spring.stiffness, spring.rest_length.value_or(distance), spring.exponent}});
+  }
+  std::sort(lattice.links.begin(), lattice.links.end(),
+            [](const Link& a, const Link& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
+  return lattice;
+}
+
+void finish_links(Lattice& lattice) {
   lattice.links = merge(std::move(lattice.links));
   for (Link& link : lattice.links)
     link.spring.rest_length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
-  return lattice;
+}
+
+Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu) {
+  Tetrahedron made{nodes, {}, {}};
+  const TetrahedronPositions x = tetrahedron_positions(made, rest);
+  made.stiffness = biquadratic_stiffness(x, lambda, mu);
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [a, b] = tetrahedron_edges[e];
+    made.rest_lengths[static_cast<Eigen::Index>(e)] = (x[index(b)] - x[index(a)]).norm();
+  }
+  return made;
+}
+
+TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const Points& positions) {
+  TetrahedronPositions x;
+  for (std::size_t v = 0; v < 4; ++v) x[v] = positions[index(tetrahedron.nodes[v])];
+  return x;
 }
 
 namespace {
@@ -121,11 +156,20 @@ CellPositions cell_shape(const VolumeCell& cell, const Between& from_to) {
 }
 
 template<class Between>
+TetrahedronPositions tetrahedron_shape(const Tetrahedron& tetrahedron, const Between& from_to) {
+  TetrahedronPositions x;
+  for (std::size_t v = 0; v < 4; ++v) x[v] = from_to(tetrahedron.nodes[0], tetrahedron.nodes[v]);
+  return x;
+}
+
+template<class Between>
 double energy_of(const Lattice& lattice, const Between& from_to) {
   double sum = 0;
   for (const Link& link : lattice.links) sum += spring_energy(from_to(link.i, link.j), link.spring);
   for (const VolumeCell& cell : lattice.volume_cells)
     sum += cell.stiffness * cell.rest_volume * cell.law(cell_shape(cell, from_to)).integral;
+  for (const Tetrahedron& t : lattice.tetrahedra)
+    sum += biquadratic_energy(tetrahedron_shape(t, from_to), t.rest_lengths, t.stiffness);
   return sum;
 }
 
@@ -143,6 +187,10 @@ Points force_of(const Lattice& lattice, const Between& from_to) {
     const auto gradient = trilinear_volume_gradient(x);
     for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
   }
+  for (const Tetrahedron& t : lattice.tetrahedra) {
+    const auto forces = biquadratic_forces(tetrahedron_shape(t, from_to), t.rest_lengths, t.stiffness);
+    for (std::size_t v = 0; v < 4; ++v) force[index(t.nodes[v])] += forces[v];
+  }
   return force;
 }
 
@@ -159,7 +207,7 @@ double energy_at(const Lattice& lattice, const Points& displacement) {
 double small_motion_energy(const Lattice& lattice, const Points& motion) {
   double sum = 0;
   for (const auto& [i, j, spring] : lattice.links) {
-    const Vector3d along = (lattice.rest[index(j)] - lattice.rest[index(i)]) / spring.rest_length;
+    const Vector3d along = (lattice.rest[index(j)] - lattice.rest[index(i)]).normalized();
     const double elongation = along.dot(motion[index(j)] - motion[index(i)]);
     sum += 0.5 * spring.stiffness * elongation * elongation;
   }
@@ -168,6 +216,15 @@ double small_motion_energy(const Lattice& lattice, const Points& motion) {
     double change = 0;
     for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[index(cell.nodes[v])]);
     sum += 0.5 * cell.stiffness / cell.rest_volume * change * change;
+  }
+  for (const Tetrahedron& t : lattice.tetrahedra) {
+    EdgeValues changes; // of squared lengths, to first order
+    for (std::size_t e = 0; e < 6; ++e) {
+      const int a = t.nodes[index(tetrahedron_edges[e][0])], b = t.nodes[index(tetrahedron_edges[e][1])];
+      changes[static_cast<Eigen::Index>(e)] =
+          2 * (lattice.rest[index(b)] - lattice.rest[index(a)]).dot(motion[index(b)] - motion[index(a)]);
+    }
+    sum += 0.5 * changes.dot(t.stiffness * changes);
   }
   return sum;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "cases/scene/network.hpp"
 #include "msm/spring.hpp"
+#include "msm/tetrahedron.hpp"
 
 namespace springproof::msm {
 
@@ -58,12 +60,23 @@ struct VolumeCell {
   VolumeLaw law(const CellPositions& x) const;
 };
 
-/// A mass-spring body at rest: its points, links and volume terms. Links are sorted by (i, j) and unique but
-/// for their law.
+/// Four points joined by biquadratic springs (tetrahedron.hpp).
+struct Tetrahedron {
+  std::array<int, 4> nodes;
+  EdgeMatrix stiffness;    ///< N/mm³
+  EdgeValues rest_lengths; ///< mm
+};
+
+/// Of an isotropic material with Lame's constants, MPa.
+Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu);
+
+/// A mass-spring body at rest: its points, links, tetrahedra and volume terms. Links are sorted by (i, j) and
+/// unique but for their law.
 struct Lattice {
   Points rest; ///< mm
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
+  std::vector<Tetrahedron> tetrahedra{};
 };
 
 /// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
@@ -79,6 +92,9 @@ std::array<Eigen::Vector3d, 8> trilinear_volume_gradient(const CellPositions& x)
 /// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
 std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x);
 
+/// Positions of the tetrahedron's vertices, mm.
+TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const Points& positions);
+
 /// Positions of the cell's vertices, mm.
 CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
 
@@ -88,7 +104,16 @@ CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
 /// @param stiffness  one for every cell, or a single one for all
 Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness);
 
-/// Sum of all spring energies and volume energies at these positions, N mm.
+/// A lattice of a network's springs, each a link of its own. Where a spring's rest length is not the distance
+/// of its nodes, the lattice is under tension at rest.
+/// @param springs  between nodes of the mesh
+Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::NetworkSpring>& springs);
+
+/// Makes one of the links of one law between the same two points, with the sum of their stiffnesses; sorts
+/// them, and gives them the rest lengths that the rest positions have.
+void finish_links(Lattice& lattice);
+
+/// Sum of all energies of springs, tetrahedra and volume terms at these positions, N mm.
 double energy(const Lattice& lattice, const Points& positions);
 
 /// What a small motion from rest stores to second order, N mm: half the quadratic form of the tangent at

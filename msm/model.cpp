@@ -14,16 +14,19 @@ namespace {
 /// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
 constexpr std::size_t most_factorised = 40000;
 
+[[noreturn]] void refuse_multigrid() {
+  throw cases::InputError(
+      "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
+      "internal diagonals and a volume term, springs of one law, and no negative stiffness");
+}
+
 bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
   const auto is_another = [&](const CellStiffness& k) {
     return !(k.exponents == stiffness.front().exponents) || k.edge < 0 || k.face_diagonal < 0 ||
            k.internal_diagonal < 0 || k.volume < 0;
   };
   const bool can = scene.mesh.grid && std::none_of(stiffness.begin(), stiffness.end(), is_another);
-  if (wanted == Path::multigrid && !can)
-    throw cases::InputError(
-        "the multigrid path needs a body that is a grid of cells, springs of one law, and "
-        "no negative stiffness");
+  if (wanted == Path::multigrid && !can) refuse_multigrid();
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   const std::size_t n_nodes = scene.mesh.nodes.size();
   if (can && scene.mesh.grid->slenderness() > cases::Grid::thin && n_nodes <= most_factorised) return false;
@@ -51,6 +54,14 @@ Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffn
     problem_.lattice = make_lattice(scene.mesh, stiffness);
     system_ = make_direct_system(problem_);
   }
+}
+
+Model::Model(const cases::Scene& scene, Lattice lattice, const ModelOptions& options)
+    : solver_(scene.definition.msm.solver), largest_turn_(cases::largest_turn(scene.definition)),
+      n_threads_(options.n_threads), problem_(make_problem(scene)) {
+  if (options.path == Path::multigrid) refuse_multigrid();
+  problem_.lattice = std::move(lattice);
+  system_ = make_direct_system(problem_);
 }
 
 cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, const Points& start) {

@@ -33,6 +33,9 @@ class Model {
   /// @throws cases::InputError when the multigrid path is asked for and cannot be taken
   Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
         const ModelOptions& options = {});
+  /// A lattice of any links, tetrahedra and volume terms on the scene's nodes, on the direct path.
+  /// @throws cases::InputError when the multigrid path is asked for
+  Model(const cases::Scene& scene, Lattice lattice, const ModelOptions& options = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 

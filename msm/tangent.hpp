@@ -8,8 +8,8 @@ namespace springproof::msm {
 
 /// Second derivative of energy() as 3x3 blocks: calls sink(row point, column point, block in N/mm) for every
 /// contribution with row point >= column point (the matrix is symmetric). Clamped, no spring has a negative
-/// transverse term and no cell the second derivative of its volume under pressure, so that the sum is
-/// positive semidefinite.
+/// transverse term, no edge of a tetrahedron a negative geometric one, and no cell the second derivative of
+/// its volume under pressure, so that the sum is positive semidefinite.
 template<class Sink>
 void visit_tangent_blocks(const Lattice& lattice, const Points& positions, TransverseTerm term,
                           const Sink& sink) {
@@ -33,6 +33,15 @@ void visit_tangent_blocks(const Lattice& lattice, const Points& positions, Trans
         Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
         if (term == TransverseTerm::exact) block += pressure * second[a][b];
         sink(cell.nodes[a], cell.nodes[b], block);
+      }
+  }
+  for (const Tetrahedron& t : lattice.tetrahedra) {
+    const TetrahedronMatrix tangent =
+        biquadratic_tangent(tetrahedron_positions(t, positions), t.rest_lengths, t.stiffness, term);
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < 4; ++b) {
+        const int row = t.nodes[cases::index(a)], column = t.nodes[cases::index(b)];
+        if (row >= column) sink(row, column, Eigen::Matrix3d(tangent.block<3, 3>(3 * a, 3 * b)));
       }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/designs.hpp"
 #include "cases/case/error.hpp"
 
 #include <Eigen/Core>
@@ -120,13 +121,6 @@ struct Fem {
   Where where;
 };
 
-SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, multi_load, given)
-
-/// Whether a method fits Hooke's springs to curves, so that its stiffnesses are of no other law.
-constexpr bool fits_hooke(Design design) {
-  return design == Design::nonlinear_method || design == Design::multi_load;
-}
-
 /// Homogeneous deformations that the multi-load design is fitted to.
 SPRINGPROOF_ENUMERATION(LoadPath,
                         uniaxial,    ///< along a lattice axis, free sides
@@ -151,13 +145,23 @@ SPRINGPROOF_ENUMERATION(SpringLaw,
                         power_log ///< k l0 q^p ln q, and k_v ln J
 )
 
+/// The springs of design = "network", CSV: cases/scene/network.hpp.
+struct NetworkFile {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  Where where;
+};
+
 struct Msm {
   Design design = Design::linear_method;
   Solver solver = Solver::newton;
   std::optional<double> poissons_ratio; ///< design from another nu than the material's
   std::optional<double> split;          ///< t of the moduli, hybrid, matched and multi_load designs, 0 to 1
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
-  double volume_stiffness = 0;                    ///< MPa: k_v; design = "given"
+  /// N/m: k_e along x, y, z; k_f in the faces across x, y, z; k_d; design = "given", in place of stiffness
+  std::optional<std::array<double, 7>> axis_stiffness;
+  std::optional<double> uniform_stiffness; ///< N/m, of every spring; design = "uniform"
+  double volume_stiffness = 0;             ///< MPa: k_v; design = "given"
+  std::optional<NetworkFile> network;      ///< design = "network"
   SpringLaw law = SpringLaw::hooke;
   std::optional<std::array<double, 3>> exponent; ///< p of edges, face and internal diagonals; power_log. The
                                                  ///< matched design finds its own where there is none

@@ -41,20 +41,6 @@ Box read_box(Table& table) {
   return box;
 }
 
-/// A file of the body: relative to the case file.
-/// @param endings  that are allowed    @param allowed  completes "must be ..."
-std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
-                           const std::string& allowed, const std::string& case_path) {
-  const std::filesystem::path file = read_text(entry);
-  if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
-  const std::filesystem::path path =
-      (std::filesystem::path(case_path).parent_path() / file).lexically_normal();
-  std::error_code unreadable; // a name that is too long, for one
-  if (!std::filesystem::is_regular_file(path, unreadable))
-    entry.refuse(fmt::format("a file that exists: there is no {}", path.string()));
-  return path.string();
-}
-
 Body read_body(Table& table, const std::string& case_path) {
   const std::string shape = table.entry("shape").word({"box", "mesh", "voxels"});
   if (shape == "box") return read_box(table);
@@ -269,6 +255,7 @@ Stress read_stress(Table& table, Msm& msm) {
   if (stiffness) {
     msm.design = Design::given;
     msm.stiffness = {(*stiffness)[0], (*stiffness)[1], (*stiffness)[2]};
+    msm.axis_stiffness.reset();
     msm.volume_stiffness = 0;
   }
   result.stiffer = read_if_there(table, "stiffer", read_stiffer);

@@ -185,13 +185,15 @@ std::string design_needed(const Msm& msm, const Material& material) {
   const LinearElastic* linear = std::get_if<LinearElastic>(&material);
   const Ogden* ogden = std::get_if<Ogden>(&material);
   const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
-  if (msm.design == Design::linear_method && is_incompressible)
-    return "another design than \"linear_method\", which needs a Poisson's ratio below 0.5: this ogden "
-           "material has none without bulk_modulus; or give msm.poissons_ratio";
+  const DesignFacts& facts = facts_of(msm.design);
+  if (facts.is_refused_at_half && is_incompressible)
+    return fmt::format("another design than \"{}\", which needs a Poisson's ratio below 0.5: this ogden "
+                       "material has none without bulk_modulus; or give msm.poissons_ratio",
+                       name_of(msm.design));
   const double ratio = msm.poissons_ratio.value_or(linear ? linear->poissons_ratio : 0.5);
-  if ((msm.design == Design::hybrid || msm.design == Design::matched) && ratio < 0)
-    return fmt::format("another design than \"{}\", which needs a Poisson's ratio of 0 and more, not {}",
-                       name_of(msm.design), ratio);
+  if (const auto least = facts.least_poissons_ratio; least && ratio < *least)
+    return fmt::format("another design than \"{}\", which needs a Poisson's ratio of {} and more, not {}",
+                       name_of(msm.design), *least, ratio);
   return "";
 }
 
@@ -231,54 +233,73 @@ std::array<double, 3> read_exponent(const Entry& entry) {
 }
 
 void read_law(Table& table, Msm& msm) {
-  if (msm.design == Design::matched) {
-    table.refuse_unless(false, {"law", "exponent"}, "left out: design = \"matched\" finds power-log springs");
-    msm.law = SpringLaw::power_log;
+  const DesignLaw law = facts_of(msm.design).law;
+  if (law != DesignLaw::any && law != DesignLaw::hooke) {
+    table.refuse_unless(
+        false, {"law", "exponent"},
+        fmt::format("left out: design = \"{}\" has springs of a law of its own", name_of(msm.design)));
+    table.know({"law", "exponent"});
+    if (law == DesignLaw::power_log) msm.law = SpringLaw::power_log;
     return;
   }
   msm.law = table.optional("law", read_name<SpringLaw>).value_or(SpringLaw::hooke);
   const bool is_power_log = msm.law == SpringLaw::power_log;
   table.refuse_unless(is_power_log, {"exponent"}, "left out: it belongs to law = \"power_log\"");
   if (!is_power_log) return;
-  if (fits_hooke(msm.design))
+  if (law == DesignLaw::hooke)
     table.entry("law").refuse(
         fmt::format("\"hooke\" with design = \"{}\", which fits springs of that law", name_of(msm.design)));
   msm.exponent = read_exponent(table.entry("exponent"));
 }
 
-Msm read_msm(Table& table, const Material& material) {
+/// The stiffnesses that a file gives: of the kinds of springs, of the kinds along every axis, or of all
+/// springs.
+void read_stiffness(Table& table, Msm& msm) {
+  table.know({"stiffness", "axis_stiffness"});
+  if (msm.design == Design::uniform) {
+    msm.uniform_stiffness =
+        table.optional("stiffness", Number{"a number above 0 (N/m), of every spring", is_positive});
+    return;
+  }
+  if (msm.design != Design::given) return;
+  const bool is_by_axis = table.has("axis_stiffness");
+  table.refuse_unless(!is_by_axis, {"stiffness"}, "left out beside axis_stiffness");
+  const Entry entry = table.entry(is_by_axis ? "axis_stiffness" : "stiffness");
+  const std::vector<double> k =
+      is_by_axis
+          ? Numbers{"seven numbers (N/m), none below 0: k_e along x, y, z, k_f in the faces across x, y, z, "
+                    "and k_d",
+                    7, is_not_negative}(entry)
+          : Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
+  if (std::none_of(k.begin(), k.end(), is_positive)) entry.refuse("stiffnesses of which one is above 0");
+  if (is_by_axis)
+    std::copy(k.begin(), k.end(), msm.axis_stiffness.emplace().begin());
+  else
+    msm.stiffness = {k[0], k[1], k[2]};
+}
+
+Msm read_msm(Table& table, const Material& material, const std::string& case_path) {
   Msm msm;
   msm.where = table.where();
   msm.design = table.optional("design", read_name<Design>)
                    .value_or(std::holds_alternative<Ogden>(material) ? Design::nonlinear_method
                                                                      : Design::linear_method);
-  const bool is_given = msm.design == Design::given;
-  const bool is_multi_load = msm.design == Design::multi_load;
-  const bool is_matched = msm.design == Design::matched;
-  const bool has_split =
-      msm.design == Design::moduli || msm.design == Design::hybrid || is_matched || is_multi_load;
-  const std::string belongs = "left out: it belongs to design = ";
-  table.refuse_unless(!is_given, {"poissons_ratio"},
-                      "left out: a given stiffness is not designed from a Poisson's ratio");
-  table.refuse_unless(has_split, {"split"},
-                      belongs + "\"moduli\" | \"hybrid\" | \"matched\" | \"multi_load\"");
-  table.refuse_unless(is_multi_load, {"paths", "weights", "volume_term"}, belongs + "\"multi_load\"");
-  table.refuse_unless(is_matched || is_multi_load || msm.design == Design::nonlinear_method, {"strain_range"},
-                      belongs + "\"matched\" | \"multi_load\" | \"nonlinear_method\"");
-  table.refuse_unless(is_given, {"stiffness", "volume_stiffness"}, belongs + "\"given\"");
+  for (const std::string& key : keys_of_designs())
+    table.refuse_unless(takes(msm.design, key), {key.c_str()},
+                        "left out: it belongs to design = " + designs_with(key));
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   msm.split =
       table.optional("split", Number{"a number from 0 to 1", [](double t) { return t >= 0 && t <= 1; }});
-  if (is_given) {
-    const Entry entry = table.entry("stiffness");
-    const auto k = Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
-    msm.stiffness = {k[0], k[1], k[2]};
-    if (std::none_of(k.begin(), k.end(), is_positive)) entry.refuse("stiffnesses of which one is above 0");
+  read_stiffness(table, msm);
+  table.know({"file"});
+  if (msm.design == Design::network) {
+    const Entry file = table.entry("file");
+    msm.network =
+        NetworkFile{read_file_name(file, {".csv"}, "a file of springs, .csv", case_path), file.where};
   }
-  table.know({"stiffness"});
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   read_law(table, msm);
@@ -292,9 +313,10 @@ Msm read_msm(Table& table, const Material& material) {
 /// What the element and the design require of the materials of regions.
 void check_region_materials(const Case& definition) {
   for (const RegionMaterial& region : definition.region_materials) {
-    if (definition.msm.design == Design::given)
-      throw InputError(region.where, "must be left out beside msm.design = \"given\", which gives one set of "
-                                     "springs for all cells");
+    if (facts_of(definition.msm.design).source == DesignSource::file)
+      throw InputError(region.where, fmt::format("must be left out beside msm.design = \"{}\", which gives "
+                                                 "one set of springs for all cells",
+                                                 name_of(definition.msm.design)));
     const std::string element = element_needed(definition.fem.element, region.material),
                       design = design_needed(definition.msm, region.material);
     if (!element.empty()) throw InputError(region.where, "the element must be " + element);
@@ -314,7 +336,8 @@ void read_materials(Table& root, Case& result) {
 void read_models(Table& root, Case& result) {
   result.fem = root.optional_section(
       "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
-  result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result.material); });
+  result.msm = root.optional_section(
+      "msm", [&](Table& table) { return read_msm(table, result.material, result.file); });
   check_region_materials(result);
 }
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <regex>
@@ -266,6 +267,18 @@ toml::table parse_file(const std::string& path, const std::vector<std::string>& 
   toml::table document = parse_document(text_of(path), path);
   for (const std::string& setting : settings) apply_override(document, setting);
   return document;
+}
+
+std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                           const std::string& allowed, const std::string& case_path) {
+  const std::filesystem::path file = read_text(entry);
+  if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
+  const std::filesystem::path path =
+      (std::filesystem::path(case_path).parent_path() / file).lexically_normal();
+  std::error_code unreadable; // a name that is too long, for one
+  if (!std::filesystem::is_regular_file(path, unreadable))
+    entry.refuse(fmt::format("a file that exists: there is no {}", path.string()));
+  return path.string();
 }
 
 } // namespace springproof::cases

@@ -50,6 +50,13 @@ inline constexpr auto is_not_negative = [](double value) { return value >= 0; };
 /// A text that is not empty.
 std::string read_text(const Entry& entry);
 
+/// The name of a file that exists, relative to the case file.
+/// @param endings  that are allowed    @param allowed  completes "must be ..."    @param case_path  of the
+/// case
+/// @return the name as it is to be opened
+std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                           const std::string& allowed, const std::string& case_path);
+
 /// One finite number, whole or not. `allowed` completes "must be ...".
 struct Number {
   std::string allowed;

@@ -28,6 +28,12 @@ void serialize(Archive& archive, springproof::cases::MeshFile& mesh) {
 }
 
 template<class Archive>
+void serialize(Archive& archive, springproof::cases::NetworkFile& network) {
+  auto& [path, where] = network;
+  if constexpr (has_places<Archive>) archive(path, where);
+}
+
+template<class Archive>
 void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
   auto& [path, edge, where] = voxels;
   archive(edge);
@@ -45,7 +51,8 @@ SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, 
 SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_auto_formulation,
                    has_auto_accuracy, accepted, where)
 SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poissons_ratio, split, stiffness,
-                   volume_stiffness, paths, weights, strain_range, has_volume_term, accepted, where)
+                   axis_stiffness, uniform_stiffness, volume_stiffness, network, paths, weights, strain_range,
+                   has_volume_term, accepted, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
                    centre, where)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
@@ -68,7 +75,9 @@ void serialize(Archive& archive, springproof::cases::Case& definition) {
 SPRINGPROOF_FIELDS(springproof::cases::Scene::ConstrainedNodes, selection, components)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
-SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads)
+SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
+SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,
+                   network)
 
 /// Who shares it is for the reader to know.
 template<class Archive>

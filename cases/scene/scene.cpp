@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <functional>
+#include <sstream>
 
 namespace springproof::cases {
 
@@ -237,6 +239,26 @@ int material_of(const Scene& scene, std::size_t cell) {
   return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
 }
 
+namespace {
+
+/// @throws InputError also when a spring of no rest length of its own joins nodes in one place
+void resolve_network(Scene& scene) {
+  const auto& file = scene.definition.msm.network;
+  if (!file) return;
+  std::ifstream stream(file->path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(file->where, "cannot be read: " + file->path);
+  scene.network = read_network(text.str(), file->path, scene.mesh.nodes.size());
+  for (const NetworkSpring& spring : scene.network)
+    if (!spring.rest_length && scene.mesh.nodes[index(spring.a)] == scene.mesh.nodes[index(spring.b)])
+      throw InputError(file->where, fmt::format("the spring between nodes {} and {}, which lie in one place, "
+                                                "needs a rest length",
+                                                spring.a, spring.b));
+}
+
+} // namespace
+
 Scene make_scene(const Case& definition) {
   Scene scene;
   scene.definition = definition;
@@ -247,6 +269,7 @@ Scene make_scene(const Case& definition) {
   check_motions(scene);
   resolve_loads(scene);
   check_sizes(scene);
+  resolve_network(scene);
   for (const Measure& measure : definition.measures) // every region that one names is one node
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
       if (region->near || !region->name.empty()) select_node(scene.mesh, *region);

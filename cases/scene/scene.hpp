@@ -2,6 +2,7 @@
 
 #include "cases/case/case.hpp"
 #include "cases/mesh/hex_mesh.hpp"
+#include "cases/scene/network.hpp"
 
 namespace springproof::cases {
 
@@ -26,6 +27,7 @@ struct Scene {
       constrained; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
+  std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
 };
 
 /// Nodes, edges and faces of a region. Faces of a box are planes of the mesh's bounding box.

@@ -111,7 +111,9 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--edge", o.edge, "edge of the cell, mm")->capture_default_str();
   command.add_option("--method", o.method, "design method")
       ->check(CLI::IsMember(cases::all_names<cases::Design>()));
-  command.add_option("--split", o.split, "t of the moduli, hybrid, matched and multi_load designs, 0 to 1");
+  command.add_option("--split", o.split,
+                     "0 to 1: t of the shear stiffness in internal diagonals; with " +
+                         cases::designs_with("split"));
   command.add_option("--element", o.element, "element of the linear method's K_FEM")
       ->check(CLI::IsMember({"q1", "q1_bbar"}))
       ->capture_default_str();

@@ -1,3 +1,4 @@
+#include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
@@ -7,6 +8,7 @@
 #include "compare/solve/estimate.hpp"
 #include "compare/write/json.hpp"
 
+#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 
@@ -43,7 +45,13 @@ int run(EigenOptions options) {
   if (!(material.poissons_ratio < 0.5))
     throw cases::InputError("eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5");
   const msm::CellMatrix fem = request.element_stiffness(material);
-  const msm::CellMatrix msm = msm::cell_stiffness_matrix(request.cell, msm::design(request).stiffness);
+  const msm::DesignResult design = msm::design(request);
+  if (design.terms)
+    throw cases::InputError(
+        fmt::format("eigenspaces: design = \"{}\" has no single cell that the body repeats; "
+                    "take one of four stiffnesses",
+                    cases::name_of(request.options.design)));
+  const msm::CellMatrix msm = msm::cell_stiffness_matrix(request.cell, design.stiffness);
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));

@@ -5,12 +5,14 @@
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/ranking/ranking.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -23,9 +25,10 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;            ///< of the finite elements' limit; 0: as the case's accuracy asks
-  std::string peer;          ///< a program that is asked too; empty: none
-  std::string displacements; ///< file of another simulator's, in place of our springs
+  int meshes = 0;                   ///< of the finite elements' limit; 0: as the case's accuracy asks
+  std::string peer;                 ///< a program that is asked too; empty: none
+  std::string displacements;        ///< file of another simulator's, in place of our springs
+  std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
   bool json = false;
 };
 
@@ -38,6 +41,42 @@ void ask_peer(const cases::Scene& scene, Answers& answers) {
     return answers.peer->answer;
   });
   answers.peer->answer = answer;
+}
+
+/// The designs that are asked for; "all": every one that is made from a material, and the case's own.
+std::vector<cases::Design> designs_of(const RunOptions& options, const cases::Case& definition) {
+  const bool are_all = std::count(options.designs.begin(), options.designs.end(), "all") > 0;
+  std::vector<cases::Design> designs;
+  if (are_all) designs = msm::methods();
+  if (are_all && std::count(designs.begin(), designs.end(), definition.msm.design) == 0)
+    designs.push_back(definition.msm.design);
+  if (!are_all)
+    for (const std::string& name : options.designs) designs.push_back(*cases::value_of<cases::Design>(name));
+  return designs;
+}
+
+/// The springs of every design against the same finite elements.
+int run_designs(const RunOptions& options) {
+  const std::vector<Question> questions =
+      read_questions(options.files, options.settings, {cases::Side::fem, options.meshes});
+  check_memory(questions);
+  nlohmann::ordered_json document{{"schema", 1}, {"cases", nlohmann::ordered_json::array()}};
+  bool failed = false;
+  for (const Question& question : questions) {
+    const Ranking ranking =
+        rank_designs(question.scene, designs_of(options, question.scene.definition), options.meshes);
+    if (mpi_rank() != 0) {
+      failed = failed || !ranking.fem.converged();
+      continue;
+    }
+    failed = failed || !ranking.recommended();
+    if (options.json)
+      document["cases"].push_back(ranking_to_json(ranking));
+    else
+      write_ranking_text(std::cout, ranking);
+  }
+  if (mpi_rank() == 0 && options.json) std::cout << json_text(document);
+  return failed ? 1 : 0;
 }
 
 /// Solves a case, or takes up what an earlier run has left in the same folder. Collective.
@@ -106,7 +145,23 @@ void add_run_command(CLI::App& program, Action& chosen) {
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "
       "that it holds already are not solved again");
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  std::vector<std::string> names = cases::all_names<cases::Design>();
+  names.insert(names.begin(), "all");
+  command
+      ->add_option(
+          "--designs", options->designs,
+          "the springs of these designs (a,b,c or all) against the same finite elements, by their worst "
+          "errors")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names))
+      ->excludes("--only")
+      ->excludes("--peer")
+      ->excludes("--msm-displacements")
+      ->excludes("--out");
+  command->callback([options, &chosen] {
+    chosen = [options] { return options->designs.empty() ? run(*options) : run_designs(*options); };
+  });
 }
 
 } // namespace springproof::compare

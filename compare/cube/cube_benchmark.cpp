@@ -59,9 +59,24 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Cub
 
 DesignAttempt designed(const std::string& name, const msm::DesignRequest& request) {
   DesignAttempt result{name, msm::design(request)};
+  result.options = request.options;
   const double edge = msm::cube_edge(request.cell);
-  if (edge > 0) result.stability = msm::stability_range(result.design->stiffness, edge);
+  if (edge > 0 && result.design->is_of_four_stiffnesses())
+    result.stability = msm::stability_range(result.design->stiffness, edge);
   return result;
+}
+
+/// [msm] of these stiffnesses.
+cases::Msm given(const msm::CellStiffness& k) {
+  cases::Msm options;
+  options.design = cases::Design::given;
+  options.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+  options.volume_stiffness = k.volume;
+  if (k.exponents) {
+    options.law = cases::SpringLaw::power_log;
+    options.exponent = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+  }
+  return options;
 }
 
 DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
@@ -151,15 +166,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     std::vector<CubeSolve> solves;
     for (const Comparison& test : fem) {
       cases::Case definition = test.scene.definition;
-      definition.msm = cases::Msm{};
-      definition.msm.design = cases::Design::given;
-      definition.msm.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
-      definition.msm.volume_stiffness = k.volume;
-      if (k.exponents) {
-        definition.msm.law = cases::SpringLaw::power_log;
-        definition.msm.exponent = {k.exponents->edge, k.exponents->face_diagonal,
-                                   k.exponents->internal_diagonal};
-      }
+      definition.msm = a.design->terms ? a.options : given(k);
       springs.push_back(compare_case(definition, {cases::Side::msm}));
       solves.push_back({test, springs.back()});
     }

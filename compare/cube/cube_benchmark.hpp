@@ -106,6 +106,7 @@ struct DesignAttempt {
   std::string refusal{};                          ///< why there is no design
   std::optional<msm::StabilityRange> stability{}; ///< of a cubical cell's lattice
   std::optional<CubeErrors> cube{};               ///< when measured
+  cases::Msm options{};                           ///< what was asked for
 };
 
 /// The request's own method.  @throws InputError, SolveError

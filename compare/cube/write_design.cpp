@@ -3,6 +3,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
+#include "compare/write/springs_text.hpp"
 
 #include <array>
 #include <fmt/ostream.h>
@@ -79,7 +80,12 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   const msm::DesignResult& design = *attempt.design;
   const msm::CellStiffness& k = design.stiffness;
   const msm::LatticeModuli& m = design.moduli;
-  fmt::print(out, "{}\n  k_e, k_f, k_d    {:.6g} N/m\n", attempt.name, fmt::join(newton_per_metre(k), ", "));
+  const cases::DesignFacts& facts = cases::facts_of(attempt.options.design);
+  fmt::print(out, "{}: {} ({})\n", attempt.name, facts.what, facts.published_in);
+  if (design.terms)
+    fmt::print(out, "  springs          {}\n", springs_text(design));
+  else
+    fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(newton_per_metre(k), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
   if (k.exponents)
     fmt::print(out, "  exponents        {:.6g}\n", fmt::join(exponents_of(*k.exponents), ", "));
@@ -109,12 +115,18 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
     const msm::LatticeModuli& m = a.design->moduli;
     const auto [edge, face, internal] = newton_per_metre(k);
     const auto [stretch, compression, shear] = limits(a.stability);
-    fmt::print(
-        out, "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
-        a.name, edge, face, internal, k.volume, m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener,
-        a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-", stretch, compression);
+    if (a.design->terms)
+      fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n", a.name, "",
+                 m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, "-", stretch, compression);
+    else
+      fmt::print(out,
+                 "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
+                 a.name, edge, face, internal, k.volume, m.youngs_modulus, m.poissons_ratio, m.shear_modulus,
+                 m.zener, a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-", stretch,
+                 compression);
     if (k.exponents)
       fmt::print(out, "{:<17}exponents {:.4g}\n", "", fmt::join(exponents_of(*k.exponents), ", "));
+    if (a.design->terms) fmt::print(out, "{:<17}{}\n", "", springs_text(*a.design));
     for (const std::string& warning : a.design->warnings) fmt::print(out, "  WARNING: {}\n", warning);
   }
   write_cube_errors(out, attempts);
@@ -131,9 +143,10 @@ Json attempt_to_json(const DesignAttempt& attempt) {
   if (!attempt.design) return {{"method", attempt.name}, {"refused", attempt.refusal}};
   const msm::DesignResult& design = *attempt.design;
   const msm::LatticeModuli& m = design.moduli;
+  const cases::DesignFacts& facts = cases::facts_of(attempt.options.design);
   Json document{{"method", attempt.name},
-                {"stiffness_N_per_m", newton_per_metre(design.stiffness)},
-                {"volume_stiffness_MPa", design.stiffness.volume},
+                {"what", facts.what},
+                {"published_in", facts.published_in},
                 {"residual", design.residual},
                 {"moduli",
                  {{"C11", m.c11},
@@ -145,7 +158,7 @@ Json attempt_to_json(const DesignAttempt& attempt) {
                   {"shear_modulus", m.shear_modulus}}},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
-  if (design.stiffness.exponents) document["exponents"] = exponents_of(*design.stiffness.exponents);
+  document.update(springs_to_json(design));
   if (attempt.stability) {
     document["stability"] = range_to_json(*attempt.stability);
     document["stability"]["searched"] = range_to_json(msm::search_ends);

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "compare/solve/progress.hpp"
+#include "compare/solve/springs.hpp"
 #include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
@@ -141,8 +142,9 @@ Estimate estimate_springs(const BodySize& body) {
   const double unknowns = 3 * body.n_nodes;
   const bool is_alone = body.outline.definition.msm.solver != cases::Solver::snes;
   const HeldBy held_by = is_alone ? HeldBy::first_rank : HeldBy::all_ranks_together;
+  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline.definition.msm);
   Estimate estimate;
-  if (!body.outline.mesh.grid || body.n_nodes < msm::multigrid_from)
+  if (!is_on_grid || body.n_nodes < msm::multigrid_from)
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
   else
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);

@@ -10,7 +10,11 @@ SPRINGPROOF_FIELDS(springproof::msm::Exponents, edge, face_diagonal, internal_di
 SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, exponents)
 SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs_modulus, poissons_ratio,
                    shear_modulus)
-SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, warnings, cells)
+SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, exponent)
+SPRINGPROOF_FIELDS(springproof::msm::CellTetrahedron, vertices, lambda, mu)
+SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, volume, is_logarithmic)
+SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary)
+SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, warnings, cells, terms)
 SPRINGPROOF_FIELDS(springproof::compare::Answer, solution, setup_seconds, solve_seconds)
 SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reason)
 SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)

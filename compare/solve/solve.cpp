@@ -19,10 +19,12 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
     return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
   const auto designed = [&] {
     design = design_for(scene);
-    return stiffness_of_cells(*design);
+    return *design;
   };
-  return solve_side(designed, [&](const std::vector<msm::CellStiffness>& stiffness) {
-    return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
+  return solve_side(designed, [&](const msm::DesignResult& found) {
+    if (found.terms)
+      return msm::solve_lattice_by_snes(scene, assembled_lattice(scene, found), MPI_COMM_WORLD);
+    return msm::solve_by_snes(scene, stiffness_of_cells(found), MPI_COMM_WORLD);
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
-#include "msm/model.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -47,16 +46,89 @@ msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
   return all;
 }
 
+/// The parity i + j + k of every cell (i, j, k) of a grid.
+std::vector<int> parities(const cases::Grid& grid) {
+  std::vector<int> all;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i)
+        if (grid.has(i, j, k)) all.push_back((i + j + k) % 2);
+  return all;
+}
+
+/// Cells of terms: one design for every material, whose mirror images take turns in the grid.
+/// @throws InputError on a mesh that is no grid when the design has mirror images or stiffnesses by axis
+msm::DesignResult design_terms(const cases::Scene& scene) {
+  if (scene.definition.msm.design == cases::Design::network) {
+    msm::DesignResult network;
+    network.terms = msm::BodyTerms{};
+    return network;
+  }
+  msm::DesignResult all = design_cell(scene, 0);
+  msm::BodyTerms& terms = *all.terms;
+  const bool needs_grid = terms.kinds.size() > 1 || scene.definition.msm.design == cases::Design::given;
+  if (needs_grid && !scene.mesh.grid)
+    throw cases::InputError(scene.definition.msm.where,
+                            fmt::format("design = \"{}\" is for bodies that are grids of equal cells",
+                                        cases::name_of(scene.definition.msm.design)));
+  const std::size_t n_images = terms.kinds.size();
+  const std::vector<int> parity = n_images > 1 ? parities(*scene.mesh.grid) : std::vector<int>();
+  std::map<int, int> first_of_material{{cases::material_of(scene, 0), 0}};
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
+    const int material = cases::material_of(scene, c);
+    if (first_of_material.count(material) == 0) {
+      first_of_material[material] = static_cast<int>(terms.kinds.size());
+      const msm::DesignResult other = design_cell(scene, c);
+      terms.kinds.insert(terms.kinds.end(), other.terms->kinds.begin(), other.terms->kinds.end());
+    }
+    terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
+  }
+  return all;
+}
+
+bool is_beyond(const cases::Stiffer& stiffer, const cases::HexMesh& mesh, std::size_t cell) {
+  return cases::centre_of(mesh, mesh.cells[cell])[static_cast<int>(stiffer.axis)] > stiffer.beyond;
+}
+
+/// The terms of every cell, stiffer beyond the plane: further kinds.
+msm::BodyTerms stiffened(msm::BodyTerms terms, const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
+  const std::size_t n_kinds = terms.kinds.size();
+  for (std::size_t kind = 0; kind < n_kinds; ++kind) {
+    msm::CellTerms stiff = terms.kinds[kind];
+    for (msm::CellSpring& spring : stiff.springs) spring.stiffness *= stiffer.factor;
+    for (msm::CellTetrahedron& tetrahedron : stiff.tetrahedra)
+      for (double* of : {&tetrahedron.lambda, &tetrahedron.mu}) *of *= stiffer.factor;
+    stiff.volume *= stiffer.factor;
+    terms.kinds.push_back(stiff);
+  }
+  for (std::size_t c = 0; c < terms.kind_of_cell.size(); ++c)
+    if (is_beyond(stiffer, mesh, c)) terms.kind_of_cell[c] += static_cast<int>(n_kinds);
+  return terms;
+}
+
 /// The springs of every cell, stiffer beyond the plane.
 std::vector<msm::CellStiffness> stiffened(std::vector<msm::CellStiffness> springs,
                                           const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
   if (springs.size() == 1) springs.resize(mesh.cells.size(), springs.front());
   for (std::size_t c = 0; c < springs.size(); ++c) {
-    if (!(cases::centre_of(mesh, mesh.cells[c])[static_cast<int>(stiffer.axis)] > stiffer.beyond)) continue;
+    if (!is_beyond(stiffer, mesh, c)) continue;
     msm::CellStiffness& k = springs[c];
     for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= stiffer.factor;
   }
   return springs;
+}
+
+/// A design whose springs are stiffer beyond the plane.
+msm::DesignResult stiffened(const cases::Scene& scene, msm::DesignResult design,
+                            const cases::Stiffer& stiffer) {
+  if (scene.definition.msm.design == cases::Design::network)
+    throw cases::InputError(scene.definition.msm.where, "design = \"network\": its springs have their own "
+                                                        "stiffnesses; leave stress.stiffer out");
+  if (design.terms)
+    design.terms = stiffened(std::move(*design.terms), stiffer, scene.mesh);
+  else
+    design.cells = stiffened(stiffness_of_cells(design), stiffer, scene.mesh);
+  return design;
 }
 
 /// Displacements to start from, mm; empty: rest.
@@ -90,14 +162,33 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
           std::nullopt};
 }
 
+bool is_assembled(const cases::Msm& options) {
+  const bool is_by_axis = options.design == cases::Design::given && options.axis_stiffness;
+  return is_by_axis || cases::facts_of(options.design).cells != cases::DesignCells::four_stiffnesses;
+}
+
 msm::DesignResult design_for(const cases::Scene& scene) {
+  if (is_assembled(scene.definition.msm)) return design_terms(scene);
   const bool are_alike = scene.mesh.grid && scene.material_of_cell.empty();
-  if (are_alike || scene.definition.msm.design == cases::Design::given) return design_cell(scene, 0);
+  const bool is_given = cases::facts_of(scene.definition.msm.design).source == cases::DesignSource::file;
+  if (are_alike || is_given) return design_cell(scene, 0);
   return design_cell_by_cell(scene);
 }
 
 std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design) {
   return design.cells.empty() ? std::vector<msm::CellStiffness>{design.stiffness} : design.cells;
+}
+
+msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design) {
+  if (scene.definition.msm.design == cases::Design::network)
+    return msm::network_lattice(scene.mesh, scene.network);
+  return msm::make_lattice(scene.mesh, *design.terms);
+}
+
+msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
+                      const msm::ModelOptions& options) {
+  if (design.terms) return msm::Model(scene, assembled_lattice(scene, design), options);
+  return msm::Model(scene, stiffness_of_cells(design), options);
 }
 
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
@@ -119,9 +210,9 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
   return solve_side(
       [&] {
         design = design_for(scene);
-        std::vector<msm::CellStiffness> springs = stiffness_of_cells(*design);
-        if (stress && stress->stiffer) springs = stiffened(std::move(springs), *stress->stiffer, scene.mesh);
-        return msm::Model(scene, springs, {msm::Path::automatic, n_threads});
+        return make_model(scene,
+                          stress && stress->stiffer ? stiffened(scene, *design, *stress->stiffer) : *design,
+                          {msm::Path::automatic, n_threads});
       },
       [&](msm::Model& model) {
         return model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{});

@@ -2,6 +2,7 @@
 
 #include "compare/solve/answers.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
+#include "msm/model.hpp"
 
 namespace springproof::compare {
 
@@ -16,8 +17,19 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
 /// @throws InputError when the method cannot serve the material or the mesh's cells
 msm::DesignResult design_for(const cases::Scene& scene);
 
+/// Whether the cells of a design are other than four stiffnesses, so that its lattice is assembled and
+/// factorised on every mesh.
+bool is_assembled(const cases::Msm& options);
+
 /// What make_lattice() takes: one stiffness for all cells, or one each.
 std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design);
+
+/// The lattice of a design that is_assembled(): of cells of terms, or the scene's network.
+msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design);
+
+/// A scene's springs, ready to be solved.  @param design  design_for() of the scene
+msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
+                      const msm::ModelOptions& options = {});
 
 /// A solver's settings with the limits of a hard case: load steps, iterations, seconds from now on. For
 /// another case they stay as they are.

@@ -29,11 +29,12 @@ long n_unknowns(const std::array<int, 3>& cells, Element element) {
 /// Unknowns above which a solve takes so long that the four cases of cases/sweep would not be swept in ten
 /// minutes.
 struct Limits {
-  long loose;    ///< finite elements of other tolerances than the tight one
+  long loose; ///< finite elements of other tolerances than the tight one
   long tight;
   long calculix; ///< which factorises with SPOOLES
+  long lattice;  ///< springs of cells that are assembled and factorised
 };
-constexpr Limits size_limits{60000, 400000, 10000};
+constexpr Limits size_limits{60000, 400000, 10000, 30000};
 
 std::vector<std::array<int, 3>> levels_of(const cases::Box& box, int n_levels) {
   std::array<int, 3> cells = box.cells;
@@ -53,10 +54,18 @@ void leave_out(Plan& plan, const std::string& what, long size, long limit) {
 
 void add_springs(Plan& plan, Extent extent) {
   for (const cases::Design design : msm::methods())
-    for (const auto& cells : plan.levels)
+    for (const auto& cells : plan.levels) {
+      const bool is_on_grid = cases::facts_of(design).cells == cases::DesignCells::four_stiffnesses;
+      const long size = n_unknowns(cells, Element::q1);
+      if (!is_on_grid && size > size_limits.lattice) {
+        leave_out(plan, "springs " + cases::name_of(design) + " " + cells_name(cells), size,
+                  size_limits.lattice);
+        continue;
+      }
       for (const double tolerance : tolerances)
         if (extent == Extent::full || tolerance == tight)
           plan.variants.push_back({Program::springs, design, {}, {}, cells, tolerance});
+    }
 }
 
 void add_finite_elements(Plan& plan, Formulation formulation, Element element, Extent extent) {

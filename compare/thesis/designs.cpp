@@ -60,7 +60,9 @@ Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   for (const JobPair& test : jobs) solves.push_back({solutions.at(test.fem), solutions.at(test.msm)});
   Advice advice{asked.poissons_ratio, asked.design};
   const Comparison& msm = solves.front().msm;
-  if (msm.answers.design) advice.stiffness = over_modulus_and_edge(msm.answers.design->stiffness, msm.scene);
+  const auto& design = msm.answers.design;
+  advice.is_designed = design.has_value();
+  if (design && !design->terms) advice.stiffness = over_modulus_and_edge(design->stiffness, msm.scene);
   advice.cube = cube_errors(solves);
   const auto trace_of_worst = [&](const LoadSetErrors& errors) {
     return errors.worst ? trace_of(jobs[errors.worst_test]) : Trace{};

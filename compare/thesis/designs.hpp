@@ -41,7 +41,9 @@ std::vector<JobPair> advice_jobs(const AdviceQuestion& asked);
 struct Advice {
   double poissons_ratio;
   std::string design;
-  std::optional<msm::CellStiffness> stiffness{}; ///< over E L0 (volume: over E), no unit; absent when refused
+  std::optional<msm::CellStiffness> stiffness{}; ///< over E L0 (volume: over E), no unit; absent when
+                                                 ///< refused, and where the cells are not of four stiffnesses
+  bool is_designed = false; ///< not refused
   CubeErrors cube{};
   Trace small_trace{}, large_trace{}; ///< give the worst error under either load set
   bool is_recommended = false;        ///< one at most for each Poisson's ratio

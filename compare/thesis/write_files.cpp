@@ -194,15 +194,11 @@ Json change_to_json(const CellVolumeChange& change) {
 }
 
 Json advice_to_json(const Advice& a) {
-  Json row{{"poissons_ratio", a.poissons_ratio},
-           {"design", a.design},
-           {"recommended", a.is_recommended},
-           {"stiffness_per_E_L0", nullptr},
-           {"volume_stiffness_per_E", nullptr},
-           {"small", errors_to_json(a.cube.small)},
-           {"large", errors_to_json(a.cube.large)},
-           {"reason", text_or_null(a.refusal())},
-           {"command", a.trace.command}};
+  Json row{{"poissons_ratio", a.poissons_ratio},    {"design", a.design},
+           {"recommended", a.is_recommended},       {"designed", a.is_designed},
+           {"stiffness_per_E_L0", nullptr},         {"volume_stiffness_per_E", nullptr},
+           {"small", errors_to_json(a.cube.small)}, {"large", errors_to_json(a.cube.large)},
+           {"reason", text_or_null(a.refusal())},   {"command", a.trace.command}};
   if (a.stiffness) {
     row["stiffness_per_E_L0"] = {a.stiffness->edge, a.stiffness->face_diagonal,
                                  a.stiffness->internal_diagonal};

@@ -6,6 +6,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
+#include "compare/write/springs_text.hpp"
 
 #include <algorithm>
 
@@ -41,14 +42,7 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
 
 std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {
   if (!design) return cases::name_of(method);
-  const msm::CellStiffness& k = design->stiffness;
-  std::string text = fmt::format("{} k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m{}", cases::name_of(method),
-                                 1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal,
-                                 k.volume == 0 ? "" : fmt::format(", k_v = {:.4g} MPa", k.volume));
-  if (k.exponents)
-    text += fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge, k.exponents->face_diagonal,
-                        k.exponents->internal_diagonal);
-  return text;
+  return cases::name_of(method) + " " + springs_text(*design);
 }
 
 /// One line: what became of the peer, and how far it is from the finite elements.
@@ -181,11 +175,7 @@ Json msm_to_json(const Answers& answers) {
     side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
   }
   if (answers.design) {
-    const msm::CellStiffness& k = answers.design->stiffness;
-    side["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
-    side["volume_stiffness_MPa"] = k.volume;
-    if (k.exponents)
-      side["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+    side.update(springs_to_json(*answers.design));
     side["warnings"] = answers.design->warnings;
   }
   return side;

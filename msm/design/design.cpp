@@ -1,12 +1,13 @@
 #include "msm/design/design.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/names.hpp"
 #include "mechanics/elastic_moduli.hpp"
+#include "msm/design/cut_cells.hpp"
 #include "msm/design/matched.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
+#include "msm/design/published.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -78,7 +79,7 @@ double required_cube_edge(const DesignRequest& request) {
 }
 
 double split(const DesignRequest& request) {
-  const bool keeps_its_curve = request.options.design == cases::Design::matched;
+  const bool keeps_its_curve = cases::facts_of(request.options.design).law == cases::DesignLaw::power_log;
   const double t = request.options.split.value_or(
       keeps_its_curve ? small_strain_split : by_material(request, large_strain_split, small_strain_split));
   if (t >= 0 && t <= 1) return t;
@@ -96,8 +97,13 @@ mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
   return {incompressible_lambda_over_mu * mu, mu, (incompressible_lambda_over_mu + 2. / 3) * mu};
 }
 
-/// A method's stiffnesses, and its objective at its minimum.
-using Designed = std::pair<CellStiffness, std::optional<double>>;
+/// What a method answers.
+struct Designed {
+  CellStiffness stiffness{};
+  std::optional<double> residual{}; ///< its objective at its minimum
+  std::optional<BodyTerms> terms{}; ///< in place of the stiffnesses
+  std::vector<std::string> warnings{};
+};
 
 Designed from_linear_method(const DesignRequest& request) {
   const cases::LinearElastic material = designed_material(request, 0);
@@ -119,8 +125,7 @@ struct Signs {
   Eigen::Index n_negative, n_zero;
 };
 
-Signs signs_at_rest(const CellStiffness& stiffness, const CellVertices& vertices) {
-  const CellMatrix matrix = cell_stiffness_matrix(vertices, stiffness);
+Signs signs_at_rest(const CellMatrix& matrix) {
   const auto eigenvalues =
       Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
   // Far above round-off, far below any spring's share.
@@ -134,7 +139,7 @@ Designed from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0);
   const auto [lambda, mu, kappa] = elastic_moduli(request);
   const CellStiffness stiffness = hybrid_method(lambda, mu, split(request), request.cell);
-  if (stiffness.volume < 0 && signs_at_rest(stiffness, request.cell).n_negative > 0)
+  if (stiffness.volume < 0 && signs_at_rest(cell_stiffness_matrix(request.cell, stiffness)).n_negative > 0)
     refuse(request,
            fmt::format("design = \"{}\": below nu = 0.25 the volume term is negative, and the springs "
                        "of this cell do not outweigh it",
@@ -150,8 +155,8 @@ Designed from_matched_method(const DesignRequest& request) {
       is_ogden ? request.material : cases::Material(designed_material(request, 0));
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
-  result.first.exponents = fit.exponents;
-  result.second = fit.objective;
+  result.stiffness.exponents = fit.exponents;
+  result.residual = fit.objective;
   return result;
 }
 
@@ -184,13 +189,77 @@ Designed from_multi_load(const DesignRequest& request) {
   return {fit.stiffness, fit.objective};
 }
 
+/// E of the design, where nothing else of the material enters.
+double required_youngs_modulus(const DesignRequest& request) {
+  const double youngs_modulus = small_strain_material(request.material).youngs_modulus;
+  if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
+    refuse(request, "Young's modulus: must be positive and finite");
+  return youngs_modulus;
+}
+
+Designed from_ladd_kinney(const DesignRequest& request) {
+  return {ladd_kinney(required_youngs_modulus(request), required_cube_edge(request))};
+}
+
+Designed from_baudet(const DesignRequest& request) {
+  const cases::LinearElastic material = is_incompressible(request) ? small_strain_material(request.material)
+                                                                   : designed_material(request, -0.25);
+  Designed result{baudet(material.youngs_modulus, material.poissons_ratio, required_cube_edge(request))};
+  if (std::abs(material.poissons_ratio - 0.25) > 1e-9)
+    result.warnings.push_back(
+        "the published design corrects its Poisson's ratio by lateral forces without an energy; they are "
+        "left out, and these are its springs alone");
+  return result;
+}
+
+Designed from_uniform(const DesignRequest& request) {
+  const auto& given = request.options.uniform_stiffness;
+  const double k = given ? newton_per_metre * *given
+                         : uniform_stiffness(required_youngs_modulus(request), required_cube_edge(request));
+  return {uniform_springs(k), {}, BodyTerms{{terms_of(uniform_springs(k))}, {}, Boundary::whole}};
+}
+
+Designed from_van_gelder(const DesignRequest& request) {
+  return {{}, {}, BodyTerms{van_gelder(request.cell, required_youngs_modulus(request))}};
+}
+
+Designed from_lloyd(const DesignRequest& request) {
+  return {{}, {}, BodyTerms{lloyd(request.cell, required_youngs_modulus(request))}};
+}
+
+Designed from_biquadratic(const DesignRequest& request) {
+  const mechanics::ElasticModuli moduli = elastic_moduli(request);
+  return {{}, {}, BodyTerms{biquadratic(moduli.lambda, moduli.mu)}};
+}
+
+/// Springs of other stiffnesses along every axis.
+CellTerms terms_by_axis(const std::array<double, 7>& stiffness) {
+  const CellStiffness one{1, 1, 1};
+  CellTerms terms = terms_of(one);
+  for (CellSpring& spring : terms.springs) {
+    const int crossed = spring.vertices[0] ^ spring.vertices[1]; // bit a: the axis a
+    const std::array<std::size_t, 8> place{0, 0, 1, 5, 2, 4, 3, 6};
+    spring.stiffness = newton_per_metre * stiffness[place[static_cast<std::size_t>(crossed)]];
+  }
+  return terms;
+}
+
 Designed from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
+  if (options.axis_stiffness) {
+    CellTerms terms = terms_by_axis(*options.axis_stiffness);
+    terms.volume = options.volume_stiffness;
+    return {{}, {}, BodyTerms{{terms}}};
+  }
   if (!options.stiffness) refuse(request, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
   const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
   return {{newton_per_metre * edge, newton_per_metre * face_diagonal, newton_per_metre * internal_diagonal,
            options.volume_stiffness},
           {}};
+}
+
+Designed from_network(const DesignRequest& request) {
+  refuse(request, "design = \"network\" has springs of a whole body, and no cell");
 }
 
 const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods = {
@@ -200,8 +269,25 @@ const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods 
     {cases::Design::hybrid, from_hybrid_method},
     {cases::Design::matched, from_matched_method},
     {cases::Design::multi_load, from_multi_load},
+    {cases::Design::ladd_kinney, from_ladd_kinney},
+    {cases::Design::baudet, from_baudet},
+    {cases::Design::uniform, from_uniform},
+    {cases::Design::van_gelder, from_van_gelder},
+    {cases::Design::lloyd, from_lloyd},
+    {cases::Design::biquadratic, from_biquadratic},
     {cases::Design::given, from_given},
+    {cases::Design::network, from_network},
 };
+
+void examine_signs(const CellMatrix& matrix, std::vector<std::string>& warnings) {
+  const auto [n_negative, n_zero] = signs_at_rest(matrix);
+  if (n_negative > 0)
+    warnings.push_back(
+        fmt::format("the cell's tangent at rest is indefinite: {} negative eigenvalues", n_negative));
+  if (n_zero > 6)
+    warnings.push_back(
+        fmt::format("the cell is a mechanism: {} zero-energy modes besides the rigid motions", n_zero - 6));
+}
 
 /// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
 /// indefinite tangent at rest.
@@ -214,13 +300,16 @@ std::vector<std::string> examine(const CellStiffness& stiffness, const CellVerti
     if (!std::isfinite(value)) return {fmt::format("{}: the stiffness is not a finite number", name)};
     if (value < 0) warnings.push_back(fmt::format("{}: the stiffness is negative", name));
   }
-  const auto [n_negative, n_zero] = signs_at_rest(stiffness, vertices);
-  if (n_negative > 0)
-    warnings.push_back(
-        fmt::format("the cell's tangent at rest is indefinite: {} negative eigenvalues", n_negative));
-  if (n_zero > 6)
-    warnings.push_back(
-        fmt::format("the cell is a mechanism: {} zero-energy modes besides the rigid motions", n_zero - 6));
+  examine_signs(cell_stiffness_matrix(vertices, stiffness), warnings);
+  return warnings;
+}
+
+/// The same of cells of terms, whose kinds are mirror images.
+std::vector<std::string> examine(const CellTerms& terms, const CellVertices& vertices) {
+  std::vector<std::string> warnings;
+  for (const CellSpring& spring : terms.springs)
+    if (!std::isfinite(spring.stiffness)) return {"springs: a stiffness is not a finite number"};
+  examine_signs(cell_stiffness_matrix(vertices, terms), warnings);
   return warnings;
 }
 
@@ -228,8 +317,8 @@ std::vector<std::string> examine(const CellStiffness& stiffness, const CellVerti
 
 std::vector<cases::Design> methods() {
   std::vector<cases::Design> all;
-  for (const auto& [method, run] : known_methods)
-    if (method != cases::Design::given) all.push_back(method);
+  for (const cases::DesignFacts& facts : cases::all_designs())
+    if (facts.source == cases::DesignSource::material) all.push_back(facts.design);
   return all;
 }
 
@@ -261,16 +350,28 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
 
 DesignResult design(const DesignRequest& request) {
   const cases::Msm& options = request.options;
-  if (options.exponent && fits_hooke(options.design))
+  if (options.exponent && cases::facts_of(options.design).law == cases::DesignLaw::hooke)
     refuse(request, fmt::format("design = \"{}\" fits Hooke's springs: law must be \"hooke\"",
                                 name_of(options.design)));
-  auto [stiffness, residual] = known_methods.at(options.design)(request);
-  if (const auto& p = options.exponent) stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
-  DesignResult result{stiffness, residual, lattice_moduli(stiffness, request.cell),
-                      examine(stiffness, request.cell)};
+  Designed found = known_methods.at(options.design)(request);
+  if (const auto& p = options.exponent) {
+    found.stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
+    if (found.terms)
+      for (CellTerms& kind : found.terms->kinds) set_exponents(kind, *found.stiffness.exponents);
+  }
+  DesignResult result;
+  result.stiffness = found.stiffness;
+  result.residual = found.residual;
+  result.terms = std::move(found.terms);
+  result.moduli = result.terms ? lattice_moduli(result.terms->kinds, request.cell)
+                               : lattice_moduli(result.stiffness, request.cell);
+  result.warnings = result.terms ? examine(result.terms->kinds.front(), request.cell)
+                                 : examine(result.stiffness, request.cell);
+  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
   const auto range = options.strain_range.value_or(matched_range);
   const double edge = cube_edge(request.cell);
-  if (options.design == cases::Design::matched && edge > 0 && !is_stable_over(range, stiffness, edge))
+  if (cases::facts_of(options.design).law == cases::DesignLaw::power_log && edge > 0 &&
+      !is_stable_over(range, result.stiffness, edge))
     result.warnings.push_back(fmt::format(
         "a large lattice of these cells is not stable over the logarithmic strains from {:g} to {:g} of "
         "its exponents: waves of two cells may grow in it",

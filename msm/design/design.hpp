@@ -1,12 +1,13 @@
 #pragma once
 
+#include "msm/cell_terms.hpp"
 #include "msm/design/linear_method.hpp"
 #include "msm/design/uniaxial.hpp"
 
 #include <optional>
 
-/// Design: from a material to the stiffnesses of one cell. A method is one function and one line in the table
-/// of design.cpp.
+/// Design: from a material to the stiffnesses of one cell. A method is a function and its line in the table
+/// of design.cpp, and a row of cases/case/designs.cpp, which says what it is and what it takes.
 namespace springproof::msm {
 
 /// Input of a design method.
@@ -20,18 +21,25 @@ struct DesignRequest {
 };
 
 struct DesignResult {
-  CellStiffness stiffness;        ///< of the request's cell
-  std::optional<double> residual; ///< the method's objective at its minimum; absent for a closed form
-  LatticeModuli moduli;
-  std::vector<std::string> warnings;  ///< why the design should not be trusted; empty for a sound one
-  std::vector<CellStiffness> cells{}; ///< of every cell of a mesh of unequal cells; empty when all are alike
+  CellStiffness stiffness{};        ///< of the request's cell
+  std::optional<double> residual{}; ///< the method's objective at its minimum; absent for a closed form
+  LatticeModuli moduli{};
+  std::vector<std::string> warnings{}; ///< why the design should not be trusted; empty for a sound one
+  std::vector<CellStiffness> cells{};  ///< of every cell of a mesh of unequal cells; empty when all are alike
+  /// What the cells consist of in place of four stiffnesses each. One kind for every cell, or two mirror
+  /// images, until kind_of_cell says more; design_for() of compare/solve fills it in. No kind: the scene's
+  /// network.
+  std::optional<BodyTerms> terms{};
+
+  /// Whether `stiffness` says what the springs are far from the boundary.
+  bool is_of_four_stiffnesses() const { return !terms || terms->boundary == Boundary::whole; }
 };
 
 /// Runs the method that request.options names, then examines its result.
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 
-/// The methods that design from a material: all but "given".
+/// The designs that are made from a material, in the order of cases::all_designs().
 std::vector<cases::Design> methods();
 
 /// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without

@@ -17,7 +17,10 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge) {
   return cubic_moduli(c11, c44 + stiffness.volume, c44);
 }
 
-Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
+namespace {
+
+/// @param matrix  24x24, N/mm
+Elasticity affine_elasticity(const CellMatrix& matrix, const CellVertices& vertices) {
   static constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   // Columns: the displacement u = e x at the vertices, e symmetric with unit engineering strain in one
   // component.
@@ -30,15 +33,30 @@ Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& v
     for (int v = 0; v < 8; ++v)
       strains.block<3, 1>(3 * v, c) = strain * vertices[static_cast<std::size_t>(v)];
   }
-  return strains.transpose() * cell_stiffness_matrix(vertices, stiffness) * strains /
-         cases::cell_volume(vertices);
+  return strains.transpose() * matrix * strains / cases::cell_volume(vertices);
 }
 
-LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
-  const Elasticity elasticity = cell_elasticity(stiffness, vertices);
+LatticeModuli averaged_over_axes(const Elasticity& elasticity) {
   return cubic_moduli(elasticity.diagonal().head<3>().mean(),
                       (elasticity(0, 1) + elasticity(1, 2) + elasticity(0, 2)) / 3,
                       elasticity.diagonal().tail<3>().mean());
+}
+
+} // namespace
+
+Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
+  return affine_elasticity(cell_stiffness_matrix(vertices, stiffness), vertices);
+}
+
+LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
+  return averaged_over_axes(cell_elasticity(stiffness, vertices));
+}
+
+LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
+  Elasticity sum = Elasticity::Zero();
+  for (const CellTerms& kind : kinds)
+    sum += affine_elasticity(cell_stiffness_matrix(vertices, kind), vertices);
+  return averaged_over_axes(sum / static_cast<double>(kinds.size()));
 }
 
 CellVertices cube(double edge) {

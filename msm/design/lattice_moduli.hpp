@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/lattice.hpp"
+#include "msm/cell_terms.hpp"
 
 namespace springproof::msm {
 
@@ -26,6 +26,10 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
 /// are averaged over the three axes; for another hexahedron the affine (Voigt) estimate.
 /// @param vertices  mm
 LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices);
+
+/// The same of cells of terms: the mean of their kinds. Exact too where the points of the lattice are centres
+/// of symmetry, as those of the cut cells are.
+LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices);
 
 /// MPa; engineering strains in the order xx, yy, zz, yz, xz, xy.
 using Elasticity = Eigen::Matrix<double, 6, 6>;

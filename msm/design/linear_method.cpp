@@ -1,6 +1,7 @@
 #include "msm/design/linear_method.hpp"
 
 #include "msm/design/bounded_least_squares.hpp"
+#include "msm/tangent.hpp"
 
 namespace springproof::msm {
 
@@ -26,6 +27,20 @@ CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffne
     matrix.block<3, 3>(3 * j, 3 * i) -= block;
   });
   if (stiffness.volume != 0) add_volume_term(matrix, vertices, stiffness.volume);
+  return matrix;
+}
+
+CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellTerms& terms) {
+  cases::HexMesh cell;
+  cell.nodes = std::vector<Eigen::Vector3d>(vertices.begin(), vertices.end());
+  cell.cells = std::vector<std::array<int, 8>>{{0, 1, 2, 3, 4, 5, 6, 7}};
+  const Lattice lattice = make_lattice(cell, BodyTerms{{terms}});
+  CellMatrix matrix = CellMatrix::Zero();
+  visit_tangent_blocks(lattice, lattice.rest, TransverseTerm::exact,
+                       [&](int row, int column, const Eigen::Matrix3d& block) {
+                         matrix.block<3, 3>(3 * row, 3 * column) += block;
+                         if (row != column) matrix.block<3, 3>(3 * column, 3 * row) += block.transpose();
+                       });
   return matrix;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "msm/cell_terms.hpp"
 #include "msm/design/lattice_moduli.hpp"
 
 namespace springproof::msm {
@@ -12,6 +13,9 @@ using CellMatrix = Eigen::Matrix<double, 24, 24>;
 /// plus that of the volume term, (k_v/V0) g g^T with g = dV/dx.  Source: thesis eqs 4.12, 4.13.
 /// @param vertices  rest positions, mm
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness);
+
+/// The same of a cell of terms: its tangent at rest.
+CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellTerms& terms);
 
 struct LinearFit {
   CellStiffness stiffness; ///< without a volume term

@@ -41,6 +41,11 @@ class Part {
         lattice_.volume_cells.push_back(cell);
         for (int& node : lattice_.volume_cells.back().nodes) node = local(node);
       }
+    for (const Tetrahedron& tetrahedron : problem.lattice.tetrahedra)
+      if (owns(tetrahedron.nodes[0])) {
+        lattice_.tetrahedra.push_back(tetrahedron);
+        for (int& node : lattice_.tetrahedra.back().nodes) node = local(node);
+      }
     for (PetscInt d = 3 * first_; d < 3 * (first_ + n_own_); ++d)
       if (problem.is_constrained[index(d)]) constrained_.push_back(d);
     moved_ = make_vector();
@@ -168,10 +173,13 @@ class Part {
     std::set<PetscInt> touched;
     for (const Link& link : problem_.lattice.links)
       if (owns(link.i) && !owns(link.j)) touched.insert(link.j);
-    for (const VolumeCell& cell : problem_.lattice.volume_cells)
-      if (owns(cell.nodes[0]))
-        for (const int node : cell.nodes)
+    const auto touch = [&](const auto& nodes) {
+      if (owns(nodes[0]))
+        for (const int node : nodes)
           if (!owns(node)) touched.insert(node);
+    };
+    for (const VolumeCell& cell : problem_.lattice.volume_cells) touch(cell.nodes);
+    for (const Tetrahedron& tetrahedron : problem_.lattice.tetrahedra) touch(tetrahedron.nodes);
     ghosts_.assign(touched.begin(), touched.end());
   }
 
@@ -343,12 +351,19 @@ class SnesProblem : public petsc::DistributedProblem {
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                               MPI_Comm communicator, const mechanics::EquilibriumSettings& settings,
                               const Points& start) {
-  const auto sharing = mechanics::share_out(scene.mesh, communicator);
   if (takes_multigrid(scene, stiffness))
-    return Model(scene, stiffness, {Path::multigrid, 1, deal_out_to(communicator), sharing})
+    return Model(scene, stiffness,
+                 {Path::multigrid, 1, deal_out_to(communicator),
+                  mechanics::share_out(scene.mesh, communicator)})
         .solve(settings, start);
+  return solve_lattice_by_snes(scene, make_lattice(scene.mesh, stiffness), communicator, settings, start);
+}
+
+cases::Solution solve_lattice_by_snes(const cases::Scene& scene, Lattice lattice, MPI_Comm communicator,
+                                      const mechanics::EquilibriumSettings& settings, const Points& start) {
+  const auto sharing = mechanics::share_out(scene.mesh, communicator);
   Problem problem = make_problem(scene);
-  problem.lattice = make_lattice(scene.mesh, stiffness);
+  problem.lattice = std::move(lattice);
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES",

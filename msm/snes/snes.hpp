@@ -20,4 +20,10 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellS
                               MPI_Comm communicator, const mechanics::EquilibriumSettings& settings = {},
                               const Points& start = {});
 
+/// The same for a lattice of any links, tetrahedra and volume terms on the scene's nodes: by PETSc on every
+/// mesh.
+cases::Solution solve_lattice_by_snes(const cases::Scene& scene, Lattice lattice, MPI_Comm communicator,
+                                      const mechanics::EquilibriumSettings& settings = {},
+                                      const Points& start = {});
+
 } // namespace springproof::msm

@@ -1,5 +1,7 @@
-// The readers of comma-separated values as a target for libFuzzer: displacements and measured curves.
+// The readers of comma-separated values as a target for libFuzzer: displacements, measured curves and spring
+// networks.
 
+#include "cases/scene/network.hpp"
 #include "msm/design/uniaxial.hpp"
 #include "tests/fuzz/displacements.hpp"
 
@@ -18,6 +20,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     }
   } catch (const cases::InputError&) {
     // what wrong input is answered with
+  }
+  try {
+    constexpr std::size_t n_nodes = 8;
+    const auto springs =
+        cases::read_network({reinterpret_cast<const char*>(bytes), size}, "network", n_nodes);
+    PROMISE(!springs.empty());
+    for (const cases::NetworkSpring& spring : springs) {
+      PROMISE(0 <= spring.a && spring.a < static_cast<int>(n_nodes) && spring.a != spring.b);
+      PROMISE(0 <= spring.b && spring.b < static_cast<int>(n_nodes));
+      PROMISE(std::isfinite(spring.stiffness) && spring.stiffness >= 0); // what is below 1e-308 is 0
+      PROMISE(!spring.rest_length || (std::isfinite(*spring.rest_length) && *spring.rest_length > 0));
+      PROMISE(!spring.exponent || std::abs(*spring.exponent) <= 20);
+    }
+  } catch (const cases::InputError&) {
+    // the same
   }
   return 0;
 }

@@ -164,6 +164,31 @@ TEST_CASE("a mistake in [msm] is refused where it is made") {
        25,
        "msm.poissons_ratio",
        {"left out"}},
+      {msm,
+       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6]\n",
+       24,
+       "msm.axis_stiffness",
+       {"seven numbers"}},
+      {msm,
+       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, -7]\n",
+       24,
+       "msm.axis_stiffness",
+       {"none below 0"}},
+      {msm,
+       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, 7]\nstiffness = [1, 2, 3]\n",
+       25,
+       "msm.stiffness",
+       {"left out beside axis_stiffness"}},
+      {msm, "design = 'uniform'\nstiffness = [1, 2, 3]\n", 24, "msm.stiffness", {"above 0", "every spring"}},
+      {msm, "design = 'uniform'\nstiffness = 0\n", 24, "msm.stiffness", {"above 0"}},
+      {msm, "design = 'uniform'\nsplit = 0.5\n", 24, "msm.split", {"left out", "\"hybrid\""}},
+      {msm, "design = 'baudet'\npoissons_ratio = -0.3\n", 23, "msm.design", {"-0.25 and more", "\"baudet\""}},
+      {msm, "design = 'biquadratic'\nlaw = 'power_log'\n", 24, "msm.law", {"left out", "law of its own"}},
+      {msm, "design = 'network'\n", 22, "msm.file", {"is missing"}},
+      {msm, "design = 'network'\nfile = 'springs.txt'\n", 24, "msm.file", {".csv"}},
+      {msm, "design = 'network'\nfile = 'no_such.csv'\n", 24, "msm.file", {"a file that exists"}},
+      {msm, "design = 'hybrid'\nfile = 'springs.csv'\n", 24, "msm.file", {"left out", "\"network\""}},
+      {msm, "design = 'lloyd'\npoissons_ratio = 0.3\n", 24, "msm.poissons_ratio", {"left out", "\"hybrid\""}},
       {msm, "design = 'hybrid'\npoissons_ratio = -0.2\n", 23, "msm.design", {"0 and more", "-0.2"}},
       {msm, "design = 'matched'\npoissons_ratio = -0.2\n", 23, "msm.design", {"0 and more", "\"matched\""}},
       {msm, "design = 'matched'\nlaw = 'hooke'\n", 24, "msm.law", {"left out", "\"matched\""}},
@@ -203,4 +228,17 @@ TEST_CASE("the matched design has power-log springs, whose exponents the file le
   CHECK(msm.law == SpringLaw::power_log);
   CHECK_FALSE(msm.exponent);
   CHECK(msm.strain_range == std::array{-0.1, 0.3});
+}
+
+TEST_CASE("stiffnesses are of kinds of springs, of kinds along every axis, or of all springs") {
+  const auto read = [](const std::string& lines) {
+    const std::string msm = "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8\n";
+    return read_case_text(replaced(good_case, msm, lines), "case.toml").msm;
+  };
+  CHECK(read("design = 'given'\nstiffness = [1, 2, 3]\n").stiffness == std::array{1., 2., 3.});
+  const Msm by_axis = read("design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, 7]\n");
+  CHECK_FALSE(by_axis.stiffness);
+  CHECK(by_axis.axis_stiffness == std::array{1., 2., 3., 4., 5., 6., 7.});
+  CHECK(read("design = 'uniform'\nstiffness = 45\n").uniform_stiffness == 45);
+  CHECK_FALSE(read("design = 'uniform'\n").uniform_stiffness);
 }

@@ -218,7 +218,10 @@ TEST_CASE("design --compare shows every method, and why one refuses") {
   const ProgramRun outcome = run_program("design --young 0.3 --poisson -0.2 --compare --json");
   REQUIRE(outcome.status == 0);
   const auto methods = nlohmann::json::parse(outcome.out)["methods"];
-  REQUIRE(methods.size() == 6);
+  REQUIRE(methods.size() == 12);
+  CHECK(methods[10]["method"] == "lloyd");
+  CHECK(methods[10]["stiffness_N_per_m"].is_null());
+  CHECK(methods[10]["cell"]["springs"].size() == 18);
   CHECK(methods[3]["method"] == "hybrid");
   CHECK(methods[3]["refused"].get<std::string>().find("-0.2") != std::string::npos);
 }

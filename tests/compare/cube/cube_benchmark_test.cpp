@@ -169,3 +169,62 @@ TEST_CASE("the stable strain is the smaller of the two directions'") {
         Approx(0.2).epsilon(1e-14)); // exp and log
   CHECK(compare::stable_strain({std::exp(0.1), std::exp(-0.2), 1}) == Approx(0.1).epsilon(1e-14));
 }
+
+namespace {
+
+/// Largest error of a test's lengths and angles with springs of one stiffness, with its sign, percent.
+double largest_error(const compare::CubeErrors& errors, const std::string& test) {
+  double largest = 0;
+  for (const compare::CubeError& measured : errors.small.measures) {
+    const bool is_volume = measured.measure.find("volume") != std::string::npos;
+    if (measured.test.find(test) == std::string::npos || is_volume) continue;
+    REQUIRE(measured.error_percent);
+    if (std::abs(*measured.error_percent) > std::abs(largest)) largest = *measured.error_percent;
+  }
+  return largest;
+}
+
+} // namespace
+
+TEST_CASE("springs of one stiffness err on the cube as Vega's MassSpringSystem does, and none is right",
+          "[peer][verification-long]") {
+  // Measured with Vega's own class from cubes, E = 0.3 MPa, nu = 0.35, cells of 1 mm, small loads.
+  struct Row {
+    double stiffness, tension, shear, torsion; // N/m, percent
+  };
+  const double tolerance = 1.0; // points: the printed digits, and a reference of another program
+  for (const Row& row : {Row{45, 3.8, 38, -18}, Row{55, 2.5, 12.9, -33}, Row{65, 1.6, -4.7, -43}}) {
+    CAPTURE(row.stiffness);
+    cases::Msm options;
+    options.design = cases::Design::uniform;
+    options.uniform_stiffness = row.stiffness;
+    const msm::DesignRequest request =
+        compare::design_request(cases::LinearElastic{0.3, 0.35}, msm::cube(1), options);
+    std::vector<compare::DesignAttempt> attempts{compare::attempt_one(request)};
+    compare::measure_on_cube(attempts, request);
+    const compare::CubeErrors& errors = *attempts.front().cube;
+    CHECK(largest_error(errors, "tensile") == Approx(row.tension).margin(tolerance));
+    CHECK(largest_error(errors, "shear") == Approx(row.shear).margin(tolerance));
+    CHECK(largest_error(errors, "torsion") == Approx(row.torsion).margin(tolerance));
+  }
+}
+
+TEST_CASE(
+    "designs of cells of terms are solved on the cube as they are designed, mirrored from cell to cell") {
+  cases::Case definition = compare::cube_case(compare::cube_tests[0], cases::LinearElastic{0.3, 0.35}, 1);
+  definition.msm = cases::Msm{};
+  definition.msm.design = cases::Design::van_gelder;
+  const cases::Scene scene = cases::make_scene(definition);
+  const msm::DesignResult design = compare::design_for(scene);
+  REQUIRE(design.terms);
+  REQUIRE(design.terms->kind_of_cell.size() == 1000);
+  CHECK(design.terms->kind_of_cell[0] == 0);
+  CHECK(design.terms->kind_of_cell[1] == 1);  // the next along x
+  CHECK(design.terms->kind_of_cell[10] == 1); // along y
+  CHECK(design.terms->kind_of_cell[11] == 0);
+  CHECK(design.terms->kind_of_cell[100] == 1); // along z
+  CHECK(compare::is_assembled(definition.msm));
+  cases::Scene no_grid = scene;
+  no_grid.mesh.grid.reset();
+  CHECK_THROWS_WITH(compare::design_for(no_grid), Catch::Contains("grids of equal cells"));
+}

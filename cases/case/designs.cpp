@@ -1,0 +1,136 @@
+#include "cases/case/designs.hpp"
+
+#include <algorithm>
+
+namespace springproof::cases {
+
+const std::vector<DesignFacts>& all_designs() {
+  using D = Design;
+  // linear_method is the default, of cases too whose springs nobody asks for, so that it refuses a negative
+  // Poisson's ratio when it designs and not when the file is read.
+  static const std::vector<DesignFacts> all{
+      {D::linear_method,
+       "the springs whose linearised stiffness matrix is closest to the finite element's",
+       "San-Vicente, thesis, eq. 4.15",
+       {"poissons_ratio"},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::four_stiffnesses,
+       true},
+      {D::nonlinear_method,
+       "the springs that fit a uniaxial curve and its lateral strain",
+       "San-Vicente, thesis, eq. 5.9",
+       {"poissons_ratio", "strain_range"},
+       DesignLaw::hooke},
+      {D::moduli,
+       "springs whose lattice has E along its axes and G between them",
+       "docs/designing.md",
+       {"poissons_ratio", "split"}},
+      {D::hybrid,
+       "springs and a volume term whose lattice is isotropic with E and nu",
+       "the family of Golec et al. 2020, doi 10.1007/s00371-019-01663-0",
+       {"poissons_ratio", "split"},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::four_stiffnesses,
+       false,
+       0},
+      {D::matched,
+       "the hybrid's stiffnesses with power-log springs that follow the material's law",
+       "docs/designing.md",
+       {"poissons_ratio", "split", "strain_range"},
+       DesignLaw::power_log,
+       DesignSource::material,
+       DesignCells::four_stiffnesses,
+       false,
+       0},
+      {D::multi_load,
+       "springs and a volume term that fit stresses along several homogeneous paths",
+       "docs/designing.md",
+       {"poissons_ratio", "split", "paths", "weights", "volume_term", "strain_range"},
+       DesignLaw::hooke},
+      {D::ladd_kinney,
+       "edges and face diagonals of one stiffness inside: isotropic with E and nu = 1/4, whatever the "
+       "material's",
+       "Ladd & Kinney 1997; Kot, Nagahashi & Szymczak 2015, Vis Comput 31:1339",
+       {}},
+      {D::baudet,
+       "edges and internal diagonals; the published lateral correction force, which has no energy, is left "
+       "out",
+       "Baudet et al. 2009, hal-00994456",
+       {"poissons_ratio"},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::four_stiffnesses,
+       false,
+       -0.25},
+      {D::uniform,
+       "one stiffness for every spring, those at the boundary not halved",
+       "what simulators ship: SOFA's RegularGridSpringForceField, Vega's MassSpringSystem from cubes",
+       {"stiffness"},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::terms},
+      {D::van_gelder,
+       "cells cut into five tetrahedra, every edge of which adds E V/l^2",
+       "Van Gelder 1998",
+       {},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::cut},
+      {D::lloyd,
+       "the same cut, every edge of a tetrahedron adds a share of E by its volume",
+       "Lloyd, Szekely & Harders 2007",
+       {},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::cut},
+      {D::biquadratic,
+       "the same cut with biquadratic springs: linear tetrahedra of St. Venant-Kirchhoff",
+       "Delingette 2008, in three dimensions",
+       {"poissons_ratio"},
+       DesignLaw::biquadratic,
+       DesignSource::material,
+       DesignCells::cut},
+      {D::given,
+       "the stiffnesses of the case file",
+       "the case file",
+       {"stiffness", "axis_stiffness", "volume_stiffness"},
+       DesignLaw::any,
+       DesignSource::file},
+      {D::network,
+       "springs between any nodes of the mesh, one by one",
+       "a CSV file",
+       {"file"},
+       DesignLaw::by_spring,
+       DesignSource::file,
+       DesignCells::terms},
+  };
+  return all;
+}
+
+const DesignFacts& facts_of(Design design) {
+  return all_designs().at(static_cast<std::size_t>(design));
+}
+
+std::vector<std::string> keys_of_designs() {
+  std::vector<std::string> keys;
+  for (const DesignFacts& facts : all_designs())
+    for (const std::string& key : facts.keys)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+bool takes(Design design, const std::string& key) {
+  const std::vector<std::string>& keys = facts_of(design).keys;
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+std::string designs_with(const std::string& key) {
+  std::vector<std::string> names;
+  for (const DesignFacts& facts : all_designs())
+    if (takes(facts.design, key)) names.push_back(name_of(facts.design));
+  return alternatives(names);
+}
+
+} // namespace springproof::cases

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "cases/case/names.hpp"
+
+/// The designs of springs: what each is, where it comes from, and what it takes of a case file's [msm]. The
+/// reader of case files, `design`, `tables`, `sweep` and `run --designs` iterate this table; msm/design has a
+/// function for every row that designs from a material.
+namespace springproof::cases {
+
+SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, multi_load,
+                        ladd_kinney, baudet, uniform, van_gelder, lloyd, biquadratic, given, network)
+
+/// The spring laws that a design goes with.
+enum class DesignLaw {
+  any,
+  hooke,       ///< it fits Hooke's springs to curves, so that its stiffnesses are of no other law
+  power_log,   ///< it finds the exponents itself
+  biquadratic, ///< energies of squared lengths
+  by_spring    ///< every spring has its own
+};
+
+/// What the cells of a design consist of.
+enum class DesignCells {
+  four_stiffnesses, ///< of edges, face diagonals, internal diagonals and a volume term: the grid's kernels
+                    ///< take them
+  terms,            ///< others, on any mesh: assembled and factorised
+  cut               ///< others, cut in mirror images from cell to cell of a grid
+};
+
+/// Where a design's stiffnesses come from.
+enum class DesignSource { material, file };
+
+struct DesignFacts {
+  Design design;
+  const char* what;              ///< a line
+  const char* published_in;      ///< a line
+  std::vector<std::string> keys; ///< of [msm] that this design takes and not every design
+  DesignLaw law = DesignLaw::any;
+  DesignSource source = DesignSource::material;
+  DesignCells cells = DesignCells::four_stiffnesses;
+  bool is_refused_at_half = false; ///< with an incompressible material: it needs a Poisson's ratio below 0.5
+  std::optional<double> least_poissons_ratio{}; ///< refused below when a case is read
+};
+
+/// In the order in which messages and tables list them.
+const std::vector<DesignFacts>& all_designs();
+
+const DesignFacts& facts_of(Design design);
+
+/// Every key of [msm] that only some designs take.
+std::vector<std::string> keys_of_designs();
+
+bool takes(Design design, const std::string& key);
+
+/// The designs that take a key of [msm], as a message shows them: "a" | "b".
+std::string designs_with(const std::string& key);
+
+} // namespace springproof::cases

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+
+/// A spring network of the user's own: `design = "network"`, `file = "NAME.csv"` in [msm].
+namespace springproof::cases {
+
+/// A spring between two nodes of the mesh, by their numbers.
+struct NetworkSpring {
+  int a, b;
+  double stiffness;                    ///< N/mm, > 0
+  std::optional<double> rest_length{}; ///< mm, > 0; absent: the distance of the nodes at rest
+  std::optional<double> exponent{};    ///< of the power-log law; absent: Hooke's
+};
+
+/// Lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes), stiffness in
+/// N/m, and perhaps rest length in mm and exponent of the power-log law; a field of these two may be empty.
+/// Empty lines and those that begin with # or a letter are skipped.
+/// @param text  the file's content    @param name  of the file, for messages    @param n_nodes  of the mesh
+/// @throws InputError with the line and the field
+std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,
+                                        std::size_t n_nodes);
+
+} // namespace springproof::cases

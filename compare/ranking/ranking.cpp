@@ -1,0 +1,174 @@
+#include "compare/ranking/ranking.hpp"
+
+#include "cases/case/names.hpp"
+#include "compare/error_bars/auto_fem.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/solve/estimate.hpp"
+#include "compare/solve/springs.hpp"
+#include "compare/write/springs_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <tuple>
+
+namespace springproof::compare {
+
+namespace {
+
+/// The scene with the springs of a design.
+cases::Scene with_design(cases::Scene scene, cases::Design design) {
+  cases::Msm& own = scene.definition.msm;
+  if (own.design == design) return scene;
+  cases::Msm other;
+  other.design = design;
+  other.accepted = own.accepted;
+  other.where = own.where;
+  own = other;
+  return scene;
+}
+
+/// Worst errors of the measures that have one.
+void add_errors(RankedDesign& ranked, const Comparison& comparison) {
+  const std::vector<cases::Measure>& asked = comparison.scene.definition.measures;
+  const bool has_others = std::any_of(asked.begin(), asked.end(), [](const cases::Measure& m) {
+    return m.kind != cases::MeasureKind::volume;
+  });
+  for (std::size_t m = 0; m < comparison.measures.size(); ++m) {
+    const MeasuredValue& measured = comparison.measures[m];
+    if (!measured.error_percent) continue;
+    const double error = std::abs(*measured.error_percent);
+    const bool is_volume = asked[m].kind == cases::MeasureKind::volume;
+    if (is_volume) ranked.worst_volume = std::max(ranked.worst_volume.value_or(0), error);
+    if ((is_volume && has_others) || (ranked.worst && !(error > *ranked.worst))) continue;
+    ranked.worst = error;
+    ranked.worst_at = measured.name;
+  }
+  if (!ranked.worst) ranked.failure = "no measure has an error: the references are 0";
+}
+
+RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
+  RankedDesign ranked{cases::name_of(scene.definition.msm.design)};
+  Answers answers = fem;
+  try {
+    check_memory(scene.definition.file, estimate(size_of(scene), {cases::Side::msm}), memory_limit());
+    answers.msm = solve_springs(scene, 1, answers.design);
+  } catch (const cases::InputError& error) {
+    ranked.refusal = error.what();
+    return ranked;
+  }
+  const cases::Solution& solution = answers.msm.solution;
+  ranked.milliseconds = 1e3 * answers.msm.seconds();
+  if (answers.design) ranked.springs = springs_text(*answers.design);
+  if (!answers.msm.converged()) {
+    ranked.failure = fmt::format("{} (reached: {:.2f} of the load)", solution.message, solution.load_reached);
+    return ranked;
+  }
+  ranked.is_stable = solution.outcome == cases::Outcome::stable_equilibrium && solution.inverted_cells == 0;
+  const Comparison comparison = comparison_of(scene, std::move(answers));
+  ranked.measures = comparison.measures;
+  add_errors(ranked, comparison);
+  return ranked;
+}
+
+std::string two_digits(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
+} // namespace
+
+const RankedDesign* Ranking::recommended() const {
+  for (const RankedDesign& ranked : designs)
+    if (ranked.worst && ranked.is_stable) return &ranked;
+  return nullptr;
+}
+
+void sort_by_error(std::vector<RankedDesign>& designs) {
+  const auto place = [](const RankedDesign& ranked) {
+    const int group = ranked.worst ? 0 : ranked.refusal.empty() ? 1 : 2;
+    return std::tuple(group, ranked.worst.value_or(0));
+  };
+  std::stable_sort(designs.begin(), designs.end(),
+                   [&](const RankedDesign& a, const RankedDesign& b) { return place(a) < place(b); });
+}
+
+Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs, int meshes) {
+  if (scene.definition.measures.empty())
+    throw cases::InputError(scene.definition.file +
+                            ": --designs ranks by the errors of measures, and the case "
+                            "has no [[measure]]");
+  const Answers fem = solve(scene, {cases::Side::fem, meshes}, solve_fem);
+  Ranking ranking{scene.definition.name, fem.resolved, fem.fem};
+  ranking.fem.solution.displacement.clear();
+  ranking.fem.solution.cell_volume.clear();
+  if (mpi_rank() != 0 || !fem.fem.converged()) return ranking;
+  for (const cases::Design design : designs)
+    ranking.designs.push_back(rank_one(with_design(scene, design), fem));
+  sort_by_error(ranking.designs);
+  return ranking;
+}
+
+std::string advice_of(const Ranking& ranking) {
+  if (!ranking.fem.converged())
+    return fmt::format("There is no reference: finite elements: {}", ranking.fem.solution.message);
+  const RankedDesign* best = ranking.recommended();
+  if (!best) return "No design has a stable equilibrium under the whole load here.";
+  return fmt::format(
+      "Use {} here: errors up to {} % ({}){}, stable, in {:.0f} ms against {:.0f} ms of the finite "
+      "elements.",
+      best->name, two_digits(best->worst), best->worst_at,
+      best->worst_volume ? fmt::format(", volume within {} %", two_digits(best->worst_volume)) : "",
+      best->milliseconds, 1e3 * ranking.fem.seconds());
+}
+
+void write_ranking_text(std::ostream& out, const Ranking& ranking) {
+  print(out, "{}: designs by their worst error against {} {}\n", ranking.case_name,
+        cases::name_of(ranking.resolved.formulation), cases::name_of(ranking.resolved.element));
+  print(out, "  {:<17}{:>9}  {:<12}{:>9}{:>8}{:>9}  {}\n", "design", "worst %", "where", "volume %", "stable",
+        "ms", "springs");
+  const RankedDesign* best = ranking.recommended();
+  for (const RankedDesign& ranked : ranking.designs)
+    if (ranked.worst)
+      print(out, "{} {:<17}{:>9}  {:<12}{:>9}{:>8}{:>9.1f}  {}\n", &ranked == best ? ">" : " ", ranked.name,
+            two_digits(ranked.worst), ranked.worst_at, two_digits(ranked.worst_volume),
+            ranked.is_stable ? "yes" : "NO", ranked.milliseconds, ranked.springs);
+    else
+      print(out, "  {:<17}{}: {}\n", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
+            ranked.refusal.empty() ? ranked.failure : ranked.refusal);
+  print(out, "  {}\n", advice_of(ranking));
+}
+
+nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
+  using Json = nlohmann::ordered_json;
+  const auto text_or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
+  Json designs = Json::array();
+  for (const RankedDesign& ranked : ranking.designs) {
+    Json errors = Json::object();
+    for (const MeasuredValue& measured : ranked.measures) errors[measured.name] = measured.error_percent;
+    const bool is_solved = ranked.refusal.empty();
+    designs.push_back({{"design", ranked.name},
+                       {"refused", text_or_null(ranked.refusal)},
+                       {"failed", text_or_null(ranked.failure)},
+                       {"worst_error_percent", ranked.worst},
+                       {"worst_at", text_or_null(ranked.worst_at)},
+                       {"worst_volume_error_percent", ranked.worst_volume},
+                       {"stable", is_solved ? Json(ranked.is_stable) : Json(nullptr)},
+                       {"milliseconds", is_solved ? Json(ranked.milliseconds) : Json(nullptr)},
+                       {"springs", text_or_null(ranked.springs)},
+                       {"errors_percent", errors}});
+  }
+  const RankedDesign* best = ranking.recommended();
+  return {{"name", ranking.case_name},
+          {"fem",
+           {{"formulation", cases::name_of(ranking.resolved.formulation)},
+            {"element", cases::name_of(ranking.resolved.element)},
+            {"status", cases::name_of(ranking.fem.solution.status)},
+            {"message", ranking.fem.solution.message},
+            {"milliseconds", 1e3 * ranking.fem.seconds()}}},
+          {"designs", designs},
+          {"recommended", best ? Json(best->name) : Json(nullptr)},
+          {"advice", advice_of(ranking)}};
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "compare/gates/comparison.hpp"
+#include "compare/write/json.hpp"
+
+#include <iosfwd>
+
+/// Which springs to use for a case: its finite elements solved once, every design that applies held against
+/// them. `run CASE --designs`.
+namespace springproof::compare {
+
+/// What one design comes to. Exactly one of refusal, failure and worst is there.
+struct RankedDesign {
+  std::string name;
+  std::string refusal{}; ///< why it does not apply to the case
+  std::string failure{}; ///< why there is no equilibrium under the whole load, or no error
+  std::string springs{}; ///< as springs_text() has them
+  std::optional<double> worst{}, worst_volume{}; ///< of |error|, percent; of all but volumes, where there are
+                                                 ///< others, and of volumes
+  std::string worst_at{};                        ///< the measure
+  bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
+  double milliseconds = 0;                       ///< design, setup and solve
+  std::vector<MeasuredValue> measures{};
+};
+
+struct Ranking {
+  std::string case_name;
+  cases::Fem resolved;                 ///< [fem] of the reference
+  Answer fem;                          ///< without its fields
+  std::vector<RankedDesign> designs{}; ///< by worst error, then those that failed, then those refused
+
+  /// The stable design of the smallest worst error; null when there is none.
+  const RankedDesign* recommended() const;
+};
+
+/// Solves the finite elements of a scene once, and its springs by every design. The case's own design keeps
+/// the case's settings, others have their defaults. Collective over MPI_COMM_WORLD; springs are solved on
+/// rank 0, the ranking of the other ranks has no designs.
+/// @param meshes  of the finite elements' limit, as in Request
+/// @throws InputError when the case has no measure
+Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs, int meshes = 0);
+
+/// Puts designs into the order of a ranking.
+void sort_by_error(std::vector<RankedDesign>& designs);
+
+/// A table, and a sentence that names the design to use.
+void write_ranking_text(std::ostream& out, const Ranking& ranking);
+
+/// The sentence.
+std::string advice_of(const Ranking& ranking);
+
+nlohmann::ordered_json ranking_to_json(const Ranking& ranking);
+
+} // namespace springproof::compare

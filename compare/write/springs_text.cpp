@@ -1,0 +1,69 @@
+#include "compare/write/springs_text.hpp"
+
+#include <fmt/format.h>
+#include <map>
+
+namespace springproof::compare {
+
+namespace {
+
+std::string cell_text(const msm::CellTerms& terms) {
+  std::map<std::string, int> n_of; // springs of one stiffness, as printed
+  std::vector<std::string> parts;
+  for (const msm::CellSpring& spring : terms.springs)
+    ++n_of[fmt::format("{:.4g} N/m", 1e3 * spring.stiffness)];
+  for (const auto& [stiffness, n] : n_of) parts.push_back(fmt::format("{} springs of {}", n, stiffness));
+  if (!terms.tetrahedra.empty())
+    parts.push_back(fmt::format("{} tetrahedra of biquadratic springs", terms.tetrahedra.size()));
+  if (terms.volume != 0) parts.push_back(fmt::format("k_v = {:.4g} MPa", terms.volume));
+  return fmt::format("{} in a cell", fmt::join(parts, ", "));
+}
+
+nlohmann::ordered_json cell_to_json(const msm::BodyTerms& terms) {
+  const msm::CellTerms& cell = terms.kinds.front();
+  nlohmann::ordered_json springs = nlohmann::ordered_json::array(), tetrahedra = springs;
+  for (const msm::CellSpring& spring : cell.springs) {
+    springs.push_back({{"vertices", spring.vertices}, {"stiffness_N_per_m", 1e3 * spring.stiffness}});
+    if (spring.exponent) springs.back()["exponent"] = *spring.exponent;
+  }
+  for (const msm::CellTetrahedron& tetrahedron : cell.tetrahedra)
+    tetrahedra.push_back(
+        {{"vertices", tetrahedron.vertices}, {"lambda_MPa", tetrahedron.lambda}, {"mu_MPa", tetrahedron.mu}});
+  return {{"springs", springs},
+          {"tetrahedra", tetrahedra},
+          {"mirrored_from_cell_to_cell", terms.kinds.size() > 1},
+          {"boundary", cases::name_of(terms.boundary)}};
+}
+
+} // namespace
+
+std::string springs_text(const msm::DesignResult& design) {
+  if (design.terms && design.terms->kinds.empty()) return "of the case's file";
+  if (design.terms && design.terms->boundary == msm::Boundary::whole)
+    return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
+  if (design.terms) return cell_text(design.terms->kinds.front());
+  const msm::CellStiffness& k = design.stiffness;
+  std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
+                                 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
+  if (k.exponents)
+    text += fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge, k.exponents->face_diagonal,
+                        k.exponents->internal_diagonal);
+  return text;
+}
+
+nlohmann::ordered_json springs_to_json(const msm::DesignResult& design) {
+  const msm::CellStiffness& k = design.stiffness;
+  nlohmann::ordered_json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
+  if (!design.terms)
+    springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+  if (k.exponents)
+    springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+  if (design.terms && !design.terms->kinds.empty()) {
+    springs["volume_stiffness_MPa"] = design.terms->kinds.front().volume;
+    springs["cell"] = cell_to_json(*design.terms);
+  }
+  return springs;
+}
+
+} // namespace springproof::compare

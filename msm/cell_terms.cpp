@@ -1,0 +1,83 @@
+#include "msm/cell_terms.hpp"
+
+#include <cassert>
+#include <map>
+
+namespace springproof::msm {
+
+namespace {
+
+using cases::index;
+
+std::pair<int, int> nodes_of(const std::array<int, 8>& cell, const CellSpring& spring) {
+  return std::minmax({cell[index(spring.vertices[0])], cell[index(spring.vertices[1])]});
+}
+
+const CellTerms& terms_of_cell(const BodyTerms& terms, std::size_t cell) {
+  return terms.kinds[terms.kind_of_cell.empty() ? 0 : index(terms.kind_of_cell[cell])];
+}
+
+/// Of a spring inside a grid: four cells share an edge, two a face diagonal.
+int n_cells_inside(const CellSpring& spring) {
+  return 4 >> (n_axes(spring) - 1);
+}
+
+/// How many cells of the mesh have a spring between two nodes.
+std::map<std::pair<int, int>, int> count_cells(const cases::HexMesh& mesh, const BodyTerms& terms) {
+  std::map<std::pair<int, int>, int> n_cells;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const CellSpring& spring : terms_of_cell(terms, c).springs)
+      ++n_cells[nodes_of(mesh.cells[c], spring)];
+  return n_cells;
+}
+
+} // namespace
+
+CellTerms terms_of(const CellStiffness& stiffness) {
+  CellTerms terms;
+  for_each_spring(stiffness, [&](int v, int w, double k, const std::optional<double>& exponent) {
+    terms.springs.push_back({{v, w}, k, exponent});
+  });
+  terms.volume = stiffness.volume;
+  terms.is_logarithmic = stiffness.exponents.has_value();
+  return terms;
+}
+
+int n_axes(const CellSpring& spring) {
+  const int crossed = spring.vertices[0] ^ spring.vertices[1];
+  return (crossed & 1) + ((crossed >> 1) & 1) + ((crossed >> 2) & 1);
+}
+
+void set_exponents(CellTerms& terms, const Exponents& exponents) {
+  const std::array<double, 3> by_kind{exponents.edge, exponents.face_diagonal, exponents.internal_diagonal};
+  for (CellSpring& spring : terms.springs) spring.exponent = by_kind[index(n_axes(spring) - 1)];
+  terms.is_logarithmic = true;
+}
+
+Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms) {
+  assert(terms.kind_of_cell.empty() || terms.kind_of_cell.size() == mesh.cells.size());
+  const bool is_whole = terms.boundary == Boundary::whole;
+  const auto n_cells = is_whole ? count_cells(mesh, terms) : std::map<std::pair<int, int>, int>();
+  Lattice lattice;
+  lattice.rest = mesh.nodes.to_vector();
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::array<int, 8> cell = mesh.cells[c];
+    const CellTerms& of_cell = terms_of_cell(terms, c);
+    for (const CellSpring& spring : of_cell.springs) {
+      const auto nodes = nodes_of(cell, spring);
+      const double share = is_whole ? double(n_cells_inside(spring)) / n_cells.at(nodes) : 1;
+      if (spring.stiffness != 0)
+        lattice.links.push_back({nodes.first, nodes.second, {share * spring.stiffness, 0, spring.exponent}});
+    }
+    for (const CellTetrahedron& tetrahedron : of_cell.tetrahedra)
+      lattice.tetrahedra.push_back(make_tetrahedron(cases::pick(cell, tetrahedron.vertices), lattice.rest,
+                                                    tetrahedron.lambda, tetrahedron.mu));
+    if (of_cell.volume != 0)
+      lattice.volume_cells.push_back(
+          {cell, of_cell.volume, cases::cell_volume(cases::cell_vertices(mesh, c)), of_cell.is_logarithmic});
+  }
+  finish_links(lattice);
+  return lattice;
+}
+
+} // namespace springproof::msm

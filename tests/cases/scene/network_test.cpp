@@ -1,0 +1,44 @@
+#include "cases/scene/network.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace springproof;
+
+using cases::read_network;
+
+TEST_CASE("a network's lines are node, node, stiffness, and perhaps rest length and exponent") {
+  const auto springs =
+      read_network("# my lattice\na,b,stiffness\n0,1,31\n\n1, 2, 47.5, 1.25\n2,0,1e3,,-1.5\r\n", "n.csv", 3);
+  REQUIRE(springs.size() == 3);
+  CHECK(springs[0].a == 0);
+  CHECK(springs[0].b == 1);
+  CHECK(springs[0].stiffness == Approx(0.031).epsilon(1e-15)); // N/m become N/mm
+  CHECK_FALSE(springs[0].rest_length);
+  CHECK_FALSE(springs[0].exponent);
+  CHECK(springs[1].rest_length == 1.25);
+  CHECK_FALSE(springs[2].rest_length);
+  CHECK(springs[2].exponent == -1.5);
+  CHECK(springs[2].stiffness == Approx(1).epsilon(1e-15));
+}
+
+TEST_CASE("a mistake in a network is refused with its line and field") {
+  const auto refused = [](const std::string& text, const std::string& with) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(read_network("0,1,1\n" + text, "n.csv", 8),
+                      Catch::Contains("n.csv:2: ") && Catch::Contains(with));
+  };
+  refused("0,1\n", "2 fields");
+  refused("0,1,2,3,4,5\n", "6 fields");
+  refused("0,8,1\n", "node b is 8, must be the number of a node, from 0 to 7");
+  refused("-1,2,1\n", "node a is -1");
+  refused("0.5,2,1\n", "node a is 0.5");
+  refused("3,3,1\n", "another node");
+  refused("0,1,,1\n", "stiffness is missing");
+  refused("0,1,0\n", "stiffness is 0");
+  refused("0,1,nan\n", "stiffness is nan");
+  refused("0,1,1e999\n", "stiffness is 1e999");
+  refused("0,1,1x\n", "stiffness is 1x");
+  refused("0,1,1,-2\n", "rest length is -2");
+  refused("0,1,1,,21\n", "exponent is 21");
+  CHECK_THROWS_WITH(read_network("# nothing\n", "n.csv", 8), Catch::Contains("at least one spring"));
+}

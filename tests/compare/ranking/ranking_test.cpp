@@ -1,0 +1,86 @@
+#include "compare/ranking/ranking.hpp"
+
+#include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/provenance/machine.hpp"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+using namespace springproof;
+
+using compare::RankedDesign;
+
+namespace {
+
+RankedDesign with_error(const std::string& name, double worst, bool is_stable) {
+  RankedDesign ranked{name};
+  ranked.worst = worst;
+  ranked.is_stable = is_stable;
+  return ranked;
+}
+
+cases::Scene small_shear(const std::vector<std::string>& settings = {}) {
+  return cases::make_scene(
+      cases::read_case(compare::cases_folder() + "/thesis/linear_elastic/cube_shear_small.toml", settings));
+}
+
+} // namespace
+
+TEST_CASE("designs come by their worst error, then those that failed, then those refused") {
+  RankedDesign failed{"failed"}, refused{"refused"};
+  failed.failure = "no equilibrium";
+  refused.refusal = "not for this material";
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {refused, with_error("worse", 7, true), failed, with_error("unstable", 1, false),
+                     with_error("best", 3, true)};
+  compare::sort_by_error(ranking.designs);
+  std::vector<std::string> names;
+  for (const RankedDesign& ranked : ranking.designs) names.push_back(ranked.name);
+  CHECK(names == std::vector<std::string>{"unstable", "best", "worse", "failed", "refused"});
+  REQUIRE(ranking.recommended() != nullptr);
+  CHECK(ranking.recommended()->name == "best");
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("Use best here: errors up to 3.00 %"));
+  std::ostringstream text;
+  compare::write_ranking_text(text, ranking);
+  CHECK_THAT(text.str(), Catch::Contains("> best") && Catch::Contains("failed: no equilibrium") &&
+                             Catch::Contains("refused: not for this material"));
+}
+
+TEST_CASE("without a stable design none is recommended, and the sentence says so") {
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("unstable", 1, false)};
+  CHECK(ranking.recommended() == nullptr);
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("No design"));
+  CHECK(compare::ranking_to_json(ranking)["recommended"].is_null());
+}
+
+TEST_CASE("a ranked design has the errors that run prints of it", "[verification-long]") {
+  const std::vector<cases::Design> designs{cases::Design::hybrid, cases::Design::lloyd, cases::Design::given};
+  const compare::Ranking ranking = compare::rank_designs(small_shear(), designs);
+  REQUIRE(ranking.designs.size() == 3);
+  CHECK(ranking.designs.back().name == "given"); // the case gives no stiffness
+  CHECK_THAT(ranking.designs.back().refusal, Catch::Contains("stiffness"));
+  for (const RankedDesign& ranked : {ranking.designs[0], ranking.designs[1]}) {
+    CAPTURE(ranked.name);
+    const compare::Comparison run =
+        compare::compare_case(small_shear({"msm.design=" + ranked.name}).definition);
+    double worst = 0;
+    for (std::size_t m = 0; m < run.measures.size(); ++m)
+      if (run.scene.definition.measures[m].kind != cases::MeasureKind::volume)
+        worst = std::max(worst, std::abs(run.measures[m].error_percent.value()));
+    REQUIRE(ranked.worst);
+    CHECK(*ranked.worst == Approx(worst).margin(1e-9)); // the same solves
+    CHECK(ranked.is_stable);
+    CHECK(ranked.milliseconds > 0);
+  }
+  CHECK(ranking.recommended()->name == "hybrid"); // lloyd's lattice is 14 % too stiff
+}
+
+TEST_CASE("a case without measures cannot be ranked") {
+  cases::Scene scene = small_shear();
+  scene.definition.measures.clear();
+  CHECK_THROWS_WITH(compare::rank_designs(scene, {cases::Design::hybrid}), Catch::Contains("[[measure]]"));
+}
