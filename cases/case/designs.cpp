@@ -48,7 +48,7 @@ const std::vector<DesignFacts>& all_designs() {
        "springs and a volume term that fit stresses along several homogeneous paths",
        "docs/designing.md",
        {"poissons_ratio", "split", "paths", "weights", "volume_term", "strain_range"},
-       DesignLaw::hooke},
+       DesignLaw::fitted},
       {D::ladd_kinney,
        "edges and face diagonals of one stiffness inside: isotropic with E and nu = 1/4, whatever the "
        "material's",

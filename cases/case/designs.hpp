@@ -14,6 +14,7 @@ SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid,
 enum class DesignLaw {
   any,
   hooke,       ///< it fits Hooke's springs to curves, so that its stiffnesses are of no other law
+  fitted,      ///< Hooke's, or power-log springs, whose exponents it fits when none are given
   power_log,   ///< it finds the exponents itself
   biquadratic, ///< energies of squared lengths
   by_spring    ///< every spring has its own

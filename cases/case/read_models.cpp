@@ -234,7 +234,7 @@ std::array<double, 3> read_exponent(const Entry& entry) {
 
 void read_law(Table& table, Msm& msm) {
   const DesignLaw law = facts_of(msm.design).law;
-  if (law != DesignLaw::any && law != DesignLaw::hooke) {
+  if (law != DesignLaw::any && law != DesignLaw::hooke && law != DesignLaw::fitted) {
     table.refuse_unless(
         false, {"law", "exponent"},
         fmt::format("left out: design = \"{}\" has springs of a law of its own", name_of(msm.design)));
@@ -249,7 +249,10 @@ void read_law(Table& table, Msm& msm) {
   if (law == DesignLaw::hooke)
     table.entry("law").refuse(
         fmt::format("\"hooke\" with design = \"{}\", which fits springs of that law", name_of(msm.design)));
-  msm.exponent = read_exponent(table.entry("exponent"));
+  if (law == DesignLaw::fitted)
+    msm.exponent = table.optional("exponent", read_exponent);
+  else
+    msm.exponent = read_exponent(table.entry("exponent"));
 }
 
 /// The stiffnesses that a file gives: of the kinds of springs, of the kinds along every axis, or of all

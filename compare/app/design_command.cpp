@@ -47,11 +47,22 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
   plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
 }
 
+/// Of the designs whose lattices have closed forms.
+void write_stress_strain(const std::string& folder, const msm::DesignRequest& request,
+                         const std::vector<DesignAttempt>& attempts) {
+  const double edge = msm::cube_edge(request.cell);
+  std::vector<NamedSprings> springs;
+  for (const DesignAttempt& a : attempts)
+    if (a.design && a.design->is_of_four_stiffnesses()) springs.push_back({a.name, a.design->stiffness});
+  if (edge > 0 && !springs.empty()) plot_stress_strain(folder, request.material, springs, edge);
+}
+
 void write_files(const CommandOptions& options, const msm::DesignRequest& request,
                  const std::vector<DesignAttempt>& attempts) {
   write_file(options.out + "/design.json",
              [&](std::ostream& out) { out << json_text(to_json(options, attempts)); });
   if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
+  if (options.compare) write_stress_strain(options.out, request, attempts);
   if (options.has_many()) return;
   if (request.options.design == cases::Design::linear_method)
     plot_linear_method(options.out, *cases::value_of<cases::Element>(options.design.element));

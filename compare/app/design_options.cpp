@@ -131,6 +131,9 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--strain-range", o.strain_range, "logarithmic strains that the fits cover")
       ->expected(2)
       ->check(CLI::Range(-largest_allowed_strain, largest_allowed_strain));
+  command
+      .add_option("--law", o.law, "law of the multi-load method's springs; power_log: it fits exponents too")
+      ->check(CLI::IsMember(cases::all_names<cases::SpringLaw>()));
   command.add_flag("--springs-only", o.springs_only, "the multi-load method without its volume term");
 }
 
@@ -144,6 +147,13 @@ msm::DesignRequest request_from(const DesignOptions& o) {
     request.options.paths.push_back(*cases::value_of<cases::LoadPath>(path));
   if (!o.strain_range.empty()) request.options.strain_range = {o.strain_range.at(0), o.strain_range.at(1)};
   if (o.springs_only) request.options.has_volume_term = false;
+  if (!o.law.empty()) {
+    if (!o.method.empty() && cases::facts_of(request.options.design).law != cases::DesignLaw::fitted)
+      throw cases::InputError(
+          "--law: belongs to --method multi_load; the law of other springs is in a case file");
+    request.options.law = *cases::value_of<cases::SpringLaw>(o.law);
+    request.options.exponent.reset();
+  }
   return request;
 }
 

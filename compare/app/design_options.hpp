@@ -24,6 +24,7 @@ struct DesignOptions {
   std::optional<double> largest_strain;
   std::vector<std::string> paths;   ///< of the multi-load method; empty: all
   std::vector<double> strain_range; ///< two, or left out
+  std::string law;                  ///< of the multi-load method's springs; empty: the case's, or Hooke's
   bool springs_only = false;        ///< the multi-load method without its volume term
 };
 

@@ -1,10 +1,14 @@
 #include "compare/cube/plot_design.hpp"
 
+#include "cases/case/error.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
+#include "msm/design/homogeneous.hpp"
+#include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -22,6 +26,36 @@ std::vector<double> equally_spaced(double lowest, double highest, int n) {
 double contribution(const msm::CellStiffness& part, double lateral_strain, double strain, double edge) {
   const double k[] = {part.edge, part.face_diagonal, part.internal_diagonal};
   return msm::axial_stress(k, std::exp(lateral_strain), std::exp(strain), edge);
+}
+
+/// A homogeneous test, as a figure shows it.
+struct HomogeneousTest {
+  std::string file;
+  cases::LoadPath path;
+  int row, column; ///< of the nominal stress
+  std::vector<double> strains;
+};
+
+/// First Piola-Kirchhoff stress of the material, MPa.
+double nominal_stress(const HomogeneousTest& test, const cases::Material& material, double strain) {
+  const auto [f, cauchy] = msm::material_state(material, test.path, strain);
+  const Eigen::Matrix3d nominal = f.determinant() * cauchy * f.transpose().inverse();
+  return nominal(test.row, test.column);
+}
+
+/// The lattice's; nothing where its sides find no equilibrium.
+std::optional<double> nominal_stress(const HomogeneousTest& test, const msm::CellStiffness& springs,
+                                     double edge, double strain) {
+  try {
+    Eigen::Matrix3d f = msm::simple_shear(strain);
+    if (test.path == cases::LoadPath::uniaxial) {
+      const double axial = std::exp(strain), lateral = msm::free_lateral_stretch(springs, edge, axial);
+      f = Eigen::Vector3d(lateral, lateral, axial).asDiagonal();
+    }
+    return msm::lattice_stress(springs, edge, f)(test.row, test.column);
+  } catch (const cases::SolveError&) {
+    return std::nullopt;
+  }
 }
 
 } // namespace
@@ -115,6 +149,30 @@ void plot_incompressible_family(const std::string& folder) {
   });
   draw(folder, "figure_5_5", "incompressible_family",
        {{"n_sets", n_sets}, {"width", 1100.}, {"height", 500.}});
+}
+
+void plot_stress_strain(const std::string& folder, const cases::Material& material,
+                        const std::vector<NamedSprings>& designs, double edge) {
+  const double youngs_modulus = msm::small_strain_material(material).youngs_modulus;
+  std::vector<std::string> names;
+  for (const NamedSprings& springs : designs) names.push_back(springs.name);
+  for (const HomogeneousTest& test :
+       {HomogeneousTest{"uniaxial", cases::LoadPath::uniaxial, 2, 2, equally_spaced(-0.3, 0.3, 61)},
+        HomogeneousTest{"shear", cases::LoadPath::simple_shear, 0, 2, equally_spaced(0, 0.6, 61)}})
+    write_csv_file(folder + "/stress_strain_" + test.file + ".csv", [&](CsvWriter& csv) {
+      csv.row("# design", test.row == test.column ? "log_strain" : "amount_of_shear",
+              "nominal_stress_over_E; the material first");
+      for (const double strain : test.strains)
+        csv.row("material", strain, nominal_stress(test, material, strain) / youngs_modulus);
+      csv.end_block();
+      for (const NamedSprings& springs : designs) {
+        for (const double strain : test.strains)
+          if (const auto stress = nominal_stress(test, springs.stiffness, edge, strain))
+            csv.row(springs.name, strain, *stress / youngs_modulus);
+        csv.end_block();
+      }
+    });
+  draw(folder, "stress_strain", "stress_strain", {{"designs", names}, {"width", 1200.}, {"height", 500.}});
 }
 
 void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, double edge,

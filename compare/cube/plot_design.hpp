@@ -39,4 +39,17 @@ void plot_incompressible_family(const std::string& folder);
 void plot_valley(const std::string& folder, const msm::CellStiffness& minimum, double edge,
                  const msm::UniaxialCurve& reference, const std::vector<msm::CellStiffness>& others);
 
+/// Springs of a design, by its name.
+struct NamedSprings {
+  std::string name;
+  msm::CellStiffness stiffness;
+};
+
+/// How the infinite lattices of designs follow a material: nominal stress over the material's Young's modulus
+/// in uniaxial tests with free sides (logarithmic strains from -0.3 to 0.3) and under simple shear (amounts
+/// to 0.6). Where a lattice's sides find no equilibrium its line ends.
+/// @param edge  of the designs' cell, mm
+void plot_stress_strain(const std::string& folder, const cases::Material& material,
+                        const std::vector<NamedSprings>& designs, double edge);
+
 } // namespace springproof::compare

@@ -2,7 +2,7 @@
 set encoding utf8
 set datafile separator ','
 set datafile missing ''
-set terminal svg size 1000,400 font 'Sans,13' background 'white'
+set terminal svg size 1080,420 font 'Sans,13' background 'white'
 set linetype 1 lc rgb '#0072B2' lw 2 dt solid pt 7
 set linetype 2 lc rgb '#D55E00' lw 2 dt (12,5) pt 5
 set linetype 3 lc rgb '#009E73' lw 2 dt (3,4) pt 9
@@ -18,22 +18,31 @@ set yrange [1:100]
 set xrange [0.24:0.5]
 set xtics 0.1
 set tmargin 2
-array titles = ['linear method (thesis, ch. 4)', 'nonlinear method (ch. 5)', 'moduli: springs alone', 'multi-load fit', \
-                'hybrid: springs and cell volume', 'matched: hybrid that softens']
-array styles = [2, 4, 3, 5, 1, 6]
+set linetype 7 lc rgb '#888888' lw 1.5 dt solid pt 6
+set linetype 8 lc rgb '#888888' lw 1.5 dt (12,5) pt 4
+set linetype 9 lc rgb '#888888' lw 1.5 dt (3,4) pt 8
+set linetype 10 lc rgb '#888888' lw 1.5 dt (12,4,3,4) pt 12
+set linetype 11 lc rgb '#888888' lw 1.5 dt (20,5) pt 10
+set linetype 12 lc rgb '#444444' lw 1.5 dt solid pt 1
+# In the order of the columns.
+array titles = ['linear method (thesis, ch. 4)', 'nonlinear method (ch. 5)', 'moduli: springs alone', \
+                'hybrid: springs and cell volume', 'matched: hybrid that softens', 'multi-load fit', 'Ladd and Kinney', 'Baudet', \
+                'uniform: one stiffness', 'Van Gelder', 'Lloyd', 'biquadratic (Delingette)']
+array styles = [2, 4, 3, 1, 6, 5, 7, 8, 12, 9, 10, 11]
+n = |titles|
 set multiplot
 set xlabel 'Poisson''s ratio of the tissue'
 set ylabel 'worst error of the springs, %'
 set title 'small loads'
 set nokey
 set lmargin at screen 0.07
-set rmargin at screen 0.34
-plot for [d = 1:6] 'worst_error.csv' using 1:(column(d + 1) > 0 ? column(d + 1) : NaN) with linespoints lt styles[d] notitle
+set rmargin at screen 0.32
+plot for [d = 1:n] 'worst_error.csv' using 1:(column(d + 1) > 0 ? column(d + 1) : NaN) with linespoints lt styles[d] notitle
 set ylabel ''
 set title 'large loads'
-set key at screen 0.69, 0.75 left top Left reverse samplen 3 spacing 1.4
-set lmargin at screen 0.40
-set rmargin at screen 0.67
-plot for [d = 1:6] 'worst_error.csv' using 1:(column(d + 7) > 0 ? column(d + 7) : NaN) with linespoints lt styles[d] title titles[d]
+set key at screen 0.67, 0.95 left top Left reverse samplen 3 spacing 1.3 maxrows 12 maxcols 1
+set lmargin at screen 0.38
+set rmargin at screen 0.64
+plot for [d = 1:n] 'worst_error.csv' using 1:(column(d + 1 + n) > 0 ? column(d + 1 + n) : NaN) with linespoints lt styles[d] title titles[d]
 unset multiplot
 unset output

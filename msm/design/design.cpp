@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/design/cut_cells.hpp"
+#include "msm/design/homogeneous.hpp"
 #include "msm/design/matched.hpp"
 #include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
@@ -78,8 +79,15 @@ double required_cube_edge(const DesignRequest& request) {
                               name_of(request.options.design)));
 }
 
+/// Whether the design finds the exponents of power-log springs.
+bool finds_exponents(const cases::Msm& options) {
+  const cases::DesignLaw law = cases::facts_of(options.design).law;
+  return law == cases::DesignLaw::power_log ||
+         (law == cases::DesignLaw::fitted && options.law == cases::SpringLaw::power_log && !options.exponent);
+}
+
 double split(const DesignRequest& request) {
-  const bool keeps_its_curve = cases::facts_of(request.options.design).law == cases::DesignLaw::power_log;
+  const bool keeps_its_curve = finds_exponents(request.options);
   const double t = request.options.split.value_or(
       keeps_its_curve ? small_strain_split : by_material(request, large_strain_split, small_strain_split));
   if (t >= 0 && t <= 1) return t;
@@ -178,14 +186,25 @@ Designed from_multi_load(const DesignRequest& request) {
       settings.paths.push_back(*cases::value_of<cases::LoadPath>(name));
   settings.weights = options.weights;
   if (settings.weights.empty()) settings.weights.assign(settings.paths.size(), 1);
-  const auto range = options.strain_range.value_or(by_material(request, ogden_range, linear_range));
+  const auto range = options.strain_range.value_or(options.law == cases::SpringLaw::power_log
+                                                       ? matched_range
+                                                       : by_material(request, ogden_range, linear_range));
   settings.lowest_strain = range[0];
   settings.highest_strain = range[1];
   settings.has_volume_term = options.has_volume_term;
   settings.incompressible_lambda = elastic_moduli(request).lambda;
   settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
                                    // states hardly tell them apart
-  const MultiLoadFit fit = multi_load_method(material, edge, settings);
+  if (const auto& p = options.exponent) settings.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
+  if (!finds_exponents(options)) {
+    const MultiLoadFit fit = multi_load_method(material, edge, settings);
+    return {fit.stiffness, fit.objective};
+  }
+  const mechanics::ElasticModuli moduli = elastic_moduli(request);
+  const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
+  const MultiLoadFit fit = multi_load_with_exponents(
+      material, edge, settings,
+      closed_form_exponent(second_order_coefficient(material, nu), moduli, *settings.split));
   return {fit.stiffness, fit.objective};
 }
 
@@ -370,8 +389,7 @@ DesignResult design(const DesignRequest& request) {
   result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
   const auto range = options.strain_range.value_or(matched_range);
   const double edge = cube_edge(request.cell);
-  if (cases::facts_of(options.design).law == cases::DesignLaw::power_log && edge > 0 &&
-      !is_stable_over(range, result.stiffness, edge))
+  if (finds_exponents(options) && edge > 0 && !is_stable_over(range, result.stiffness, edge))
     result.warnings.push_back(fmt::format(
         "a large lattice of these cells is not stable over the logarithmic strains from {:g} to {:g} of "
         "its exponents: waves of two cells may grow in it",

@@ -195,4 +195,16 @@ StabilityRange stability_range(const CellStiffness& stiffness, double edge) {
           last_stable(0, search_ends.shear, [&](double amount) { return stable(simple_shear(amount)); })};
 }
 
+bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge) {
+  return std::all_of(strain_range.begin(), strain_range.end(), [&](double strain) {
+    try {
+      const double axial = std::exp(strain), lateral = free_lateral_stretch(stiffness, edge, axial);
+      return smallest_wave_stiffness(stiffness, edge, Eigen::Vector3d(lateral, lateral, axial).asDiagonal()) >
+             0;
+    } catch (const cases::SolveError&) {
+      return false;
+    }
+  });
+}
+
 } // namespace springproof::msm

@@ -42,4 +42,8 @@ StabilityRange stability_range(const CellStiffness& stiffness, double edge);
 /// @throws SolveError when there is none
 double free_lateral_stretch(const CellStiffness& stiffness, double edge, double axial_stretch);
 
+/// Whether the infinite lattice has no unstable wave at either end of the strains, in uniaxial tests along an
+/// axis.
+bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge);
+
 } // namespace springproof::msm

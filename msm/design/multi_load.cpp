@@ -6,9 +6,14 @@
 #include "mechanics/laws/ogden.hpp"
 #include "msm/design/bounded_least_squares.hpp"
 #include "msm/design/design.hpp"
+#include "msm/design/exponents.hpp"
 #include "msm/design/homogeneous.hpp"
+#include "msm/design/minimise.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <ceres/dynamic_numeric_diff_cost_function.h>
+#include <ceres/normal_prior.h>
 #include <cmath>
 
 namespace springproof::msm {
@@ -18,7 +23,9 @@ namespace {
 using cases::LoadPath;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr int n_states = 20; ///< per path, as in the thesis's uniaxial fit
+constexpr int n_states = 20;             ///< per path, as in the thesis's uniaxial fit
+constexpr double lowest_exponent = -20;  ///< as in case files
+constexpr double hookean_exponent = 0.5; ///< whose tension has no second-order part, as Hooke's
 
 Eigen::Matrix3d deformation(LoadPath path, double strain, double nu) {
   if (path == LoadPath::simple_shear) return simple_shear(strain);
@@ -69,10 +76,10 @@ struct LinearProblem {
 };
 
 LinearProblem path_problem(const cases::Material& material, double edge, LoadPath path, Part part,
-                           const MultiLoadSettings& settings) {
+                           const MultiLoadSettings& settings, const std::optional<Exponents>& exponents) {
   LinearProblem problem{Eigen::MatrixXd(6 * n_states, 4), Eigen::VectorXd(6 * n_states)};
-  const std::array<CellStiffness, 4> units = {
-      {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1 / edge}}};
+  std::array<CellStiffness, 4> units = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1 / edge}}};
+  for (CellStiffness& unit : units) unit.exponents = exponents;
   for (int i = 0; i < n_states; ++i) {
     const double t = static_cast<double>(i) / (n_states - 1);
     const double strain = settings.lowest_strain + t * (settings.highest_strain - settings.lowest_strain);
@@ -114,6 +121,116 @@ void check(const MultiLoadSettings& settings) {
     throw cases::InputError("multi-load design: split must lie in [0, 1]");
 }
 
+/// The fit of all paths at once.
+class Fit {
+ public:
+  Fit(const cases::Material& material, double edge, const MultiLoadSettings& settings)
+      : material_(material), edge_(edge), settings_(settings),
+        is_incompressible_(std::holds_alternative<cases::Ogden>(material)),
+        part_(settings.has_volume_term && is_incompressible_ ? Part::deviator : Part::all),
+        unit_(small_strain_material(material).youngs_modulus * edge),
+        to_stiffness_(
+            unknowns_to_stiffness(settings.split, settings.has_volume_term && !is_incompressible_)) {}
+
+  Eigen::Index n_residuals() const {
+    return static_cast<Eigen::Index>(6 * n_states * settings_.paths.size());
+  }
+  Eigen::Index n_unknowns() const { return to_stiffness_.cols(); }
+
+  /// All paths below each other, each with the square root of its weight.
+  LinearProblem weighted(const std::optional<Exponents>& exponents) const {
+    LinearProblem all{Eigen::MatrixXd(n_residuals(), 4), Eigen::VectorXd(n_residuals())};
+    for (std::size_t p = 0; p < settings_.paths.size(); ++p) {
+      const auto first = static_cast<Eigen::Index>(6 * n_states * p);
+      const double factor = std::sqrt(settings_.weights[p]);
+      const LinearProblem problem = problem_of(p, exponents);
+      all.matrix.middleRows<6 * n_states>(first) = factor * problem.matrix;
+      all.target.segment<6 * n_states>(first) = factor * problem.target;
+    }
+    return all;
+  }
+
+  /// The unknowns over E edge, at their minimum for springs of these exponents.
+  Eigen::VectorXd best_unknowns(const std::optional<Exponents>& exponents) const {
+    const LinearProblem all = weighted(exponents);
+    return bounded_least_squares(all.matrix * to_stiffness_, all.target, unit_) / unit_;
+  }
+
+  Eigen::VectorXd stiffness_of(const Eigen::VectorXd& unknowns) const {
+    return to_stiffness_ * (unit_ * unknowns);
+  }
+
+  MultiLoadFit result(const Eigen::VectorXd& unknowns, const std::optional<Exponents>& exponents) const {
+    const Eigen::VectorXd k = stiffness_of(unknowns);
+    MultiLoadFit fit{{k(0), k(1), k(2), k(3) / edge_, exponents}, 0, {}};
+    for (std::size_t p = 0; p < settings_.paths.size(); ++p) {
+      const LinearProblem problem = problem_of(p, exponents);
+      fit.errors.push_back((problem.matrix * k - problem.target).norm());
+      fit.objective += settings_.weights[p] * fit.errors[p] * fit.errors[p];
+    }
+    // Lambda of the lattice is C12 = C44 + k_v.
+    if (part_ == Part::deviator)
+      fit.stiffness.volume = settings_.incompressible_lambda - lattice_moduli(fit.stiffness, edge_).c44;
+    return fit;
+  }
+
+ private:
+  LinearProblem problem_of(std::size_t path, const std::optional<Exponents>& exponents) const {
+    return path_problem(material_, edge_, settings_.paths[path], part_, settings_, exponents);
+  }
+
+  const cases::Material& material_;
+  double edge_;
+  const MultiLoadSettings& settings_;
+  bool is_incompressible_;
+  Part part_;
+  double unit_; ///< N/mm
+  Eigen::MatrixXd to_stiffness_;
+};
+
+Exponents exponents_of(const double* p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// The weighted residual, a function of the unknowns and of the three exponents.
+struct PowerLogError {
+  const Fit& fit;
+
+  bool operator()(double const* const* parameters, double* residual) const {
+    const LinearProblem all = fit.weighted(exponents_of(parameters[1]));
+    const Eigen::Map<const Eigen::VectorXd> unknowns(parameters[0], fit.n_unknowns());
+    Eigen::Map<Eigen::VectorXd>(residual, fit.n_residuals()) =
+        all.matrix * fit.stiffness_of(unknowns) - all.target;
+    return true;
+  }
+};
+
+/// @param start  one exponent for all kinds, near which they are held    @param lowest  exponent
+MultiLoadFit fit_exponents(const Fit& fit, double start, double lowest) {
+  std::array<double, 3> p;
+  p.fill(std::max(start, lowest));
+  Eigen::VectorXd unknowns = fit.best_unknowns(exponents_of(p.data()));
+  auto* cost =
+      new ceres::DynamicNumericDiffCostFunction<PowerLogError, ceres::CENTRAL>(new PowerLogError{fit});
+  cost->AddParameterBlock(static_cast<int>(fit.n_unknowns()));
+  cost->AddParameterBlock(3);
+  cost->SetNumResiduals(static_cast<int>(fit.n_residuals()));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, unknowns.data(), p.data());
+  problem.AddResidualBlock(
+      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
+      nullptr, p.data());
+  for (int i = 0; i < fit.n_unknowns(); ++i) problem.SetParameterLowerBound(unknowns.data(), i, 0);
+  for (int kind = 0; kind < 3; ++kind) problem.SetParameterLowerBound(p.data(), kind, lowest);
+  ceres::Solver::Options options;
+  options.function_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-10;
+  const ceres::Solver::Summary summary = minimise(problem, options);
+  if (!summary.IsSolutionUsable())
+    throw cases::SolveError("multi-load design: the minimisation failed: " + summary.message);
+  return fit.result(unknowns, exponents_of(p.data()));
+}
+
 } // namespace
 
 MaterialState material_state(const cases::Material& material, LoadPath path, double strain) {
@@ -131,32 +248,33 @@ MaterialState material_state(const cases::Material& material, LoadPath path, dou
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings) {
   check(settings);
-  const bool is_incompressible = std::holds_alternative<cases::Ogden>(material);
-  const bool fits_volume = settings.has_volume_term && !is_incompressible;
-  const Part part = settings.has_volume_term && is_incompressible ? Part::deviator : Part::all;
-  // All paths below each other, each with the square root of its weight.
-  const auto rows = static_cast<Eigen::Index>(6 * n_states * settings.paths.size());
-  LinearProblem all{Eigen::MatrixXd(rows, 4), Eigen::VectorXd(rows)};
-  std::vector<LinearProblem> problems;
-  for (const LoadPath path : settings.paths) {
-    const auto first = static_cast<Eigen::Index>(6 * n_states * problems.size());
-    const double factor = std::sqrt(settings.weights[problems.size()]);
-    problems.push_back(path_problem(material, edge, path, part, settings));
-    all.matrix.middleRows<6 * n_states>(first) = factor * problems.back().matrix;
-    all.target.segment<6 * n_states>(first) = factor * problems.back().target;
+  const Fit fit(material, edge, settings);
+  return fit.result(fit.best_unknowns(settings.exponents), settings.exponents);
+}
+
+MultiLoadFit multi_load_with_exponents(const cases::Material& material, double edge,
+                                       const MultiLoadSettings& settings, double exponent) {
+  check(settings);
+  const Fit fit(material, edge, settings);
+  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
+  const MultiLoadFit fitted =
+      fit_exponents(fit, exponent, is_ogden ? lowest_ogden_exponent : lowest_exponent);
+  const auto is_stable = [&](const MultiLoadFit& found) {
+    return is_stable_over({settings.lowest_strain, settings.highest_strain}, found.stiffness, edge);
+  };
+  const auto towards_hooke = [&](double part) {
+    Exponents p = *fitted.stiffness.exponents;
+    for (double* of : {&p.edge, &p.face_diagonal, &p.internal_diagonal})
+      *of += part * (hookean_exponent - *of);
+    return fit.result(fit.best_unknowns(p), p);
+  };
+  if (is_stable(fitted) || !is_stable(towards_hooke(1))) return fitted;
+  double unstable = 0, stable = 1;
+  while (stable - unstable > 1e-3) {
+    const double middle = (stable + unstable) / 2;
+    (is_stable(towards_hooke(middle)) ? stable : unstable) = middle;
   }
-  const double unit = small_strain_material(material).youngs_modulus * edge;
-  const Eigen::MatrixXd to_stiffness = unknowns_to_stiffness(settings.split, fits_volume);
-  const Eigen::VectorXd k = to_stiffness * bounded_least_squares(all.matrix * to_stiffness, all.target, unit);
-  MultiLoadFit fit{{k(0), k(1), k(2), k(3) / edge}, 0, {}};
-  for (std::size_t p = 0; p < problems.size(); ++p) {
-    fit.errors.push_back((problems[p].matrix * k - problems[p].target).norm());
-    fit.objective += settings.weights[p] * fit.errors[p] * fit.errors[p];
-  }
-  // Lambda of the lattice is C12 = C44 + k_v.
-  if (part == Part::deviator)
-    fit.stiffness.volume = settings.incompressible_lambda - lattice_moduli(fit.stiffness, edge).c44;
-  return fit;
+  return towards_hooke(stable);
 }
 
 } // namespace springproof::msm

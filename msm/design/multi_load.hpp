@@ -30,6 +30,7 @@ struct MultiLoadSettings {
   double incompressible_lambda; ///< MPa: Lame's constant that an incompressible material's volume term gives
                                 ///< the lattice
   std::optional<double> split = std::nullopt; ///< t = (4K_d/3)/(K_f + 4K_d/3), held; nothing: fitted
+  std::optional<Exponents> exponents{};       ///< of power-log springs, held; nothing: Hooke's
 };
 
 struct MultiLoadFit {
@@ -45,5 +46,14 @@ struct MultiLoadFit {
 /// @throws InputError for settings without a meaning    @throws SolveError when the minimisation fails
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings);
+
+/// The same for power-log springs, whose exponents are fitted with the stiffnesses: the squares of
+/// exponent_prior (p - exponent) are added to the objective. Where the lattice is then unstable over the
+/// strain range (is_stable_over), the exponents go together towards 1/2, with which the tension has no
+/// second-order part, as Hooke's, as far as makes it stable; if nothing does, they stay.
+/// @param exponent  near which they are held: closed_form_exponent()
+/// @throws  as multi_load_method()
+MultiLoadFit multi_load_with_exponents(const cases::Material& material, double edge,
+                                       const MultiLoadSettings& settings, double exponent);
 
 } // namespace springproof::msm

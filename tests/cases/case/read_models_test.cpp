@@ -200,11 +200,11 @@ TEST_CASE("a mistake in [msm] is refused where it is made") {
       {"split = 0.8", "law = 'power_log'\nexponent = nan", 26, "msm.exponent", {"is nan", "from -20 to 20"}},
       {"split = 0.8", "law = 'power_log'\nexponent = [1, 2]", 26, "msm.exponent", {"is [1, 2]", "three"}},
       {"split = 0.8", "law = 'power_log'\nexponent = [1, 2, 21]", 26, "msm.exponent", {"from -20 to 20"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\nlaw = 'power_log'\nexponent = -1",
+      {"design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8",
+       "design = 'nonlinear_method'\nlaw = 'power_log'\nexponent = -1",
        24,
        "msm.law",
-       {"\"hooke\" with design = \"multi_load\""}},
+       {"\"hooke\" with design = \"nonlinear_method\""}},
   });
 }
 
@@ -217,6 +217,18 @@ TEST_CASE("an exponent is one number for all springs or one for each kind") {
   CHECK(read("law = 'power_log'\nexponent = -1.5").law == SpringLaw::power_log);
   CHECK(read("law = 'power_log'\nexponent = -1.5").exponent == std::array{-1.5, -1.5, -1.5});
   CHECK(read("law = 'power_log'\nexponent = [-1.3, -2, 2]").exponent == std::array{-1.3, -2., 2.});
+}
+
+TEST_CASE("the multi-load design has exponents of the file, or fits them, and Hooke's springs by default") {
+  const auto read = [](const std::string& lines) {
+    return read_case_text(replaced(good_case, "design = 'moduli'", "design = 'multi_load'\n" + lines),
+                          "case.toml")
+        .msm;
+  };
+  CHECK(read("").law == SpringLaw::hooke);
+  CHECK(read("law = 'power_log'").law == SpringLaw::power_log);
+  CHECK_FALSE(read("law = 'power_log'").exponent);
+  CHECK(read("law = 'power_log'\nexponent = 2").exponent == std::array{2., 2., 2.});
 }
 
 TEST_CASE("the matched design has power-log springs, whose exponents the file leaves to it") {

@@ -1,6 +1,9 @@
 #include "msm/design/multi_load.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/design.hpp"
+#include "msm/design/exponents.hpp"
+#include "msm/design/homogeneous.hpp"
 #include "msm/design/lattice_moduli.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -99,6 +102,42 @@ TEST_CASE("a split that is given is kept") {
   const msm::CellStiffness k = msm::multi_load_method(bodies::thesis_ogden, 1, held).stiffness;
   const double internal = 4 * k.internal_diagonal / 3, face = 2 * k.face_diagonal;
   CHECK(internal / (internal + face) == Approx(0.6).epsilon(1e-12)); // two products
+}
+
+TEST_CASE("exponents that are fitted leave a smaller objective than Hooke's springs and than one exponent") {
+  for (const cases::Material& material :
+       {cases::Material(bodies::thesis_ogden), cases::Material(cases::LinearElastic{0.3, 0.35})}) {
+    const double exponent = std::holds_alternative<cases::Ogden>(material) ? 1.8 : -1.5;
+    msm::MultiLoadSettings wide = settings(-0.2, 0.2, true);
+    wide.split = 0.8;
+    const msm::MultiLoadFit fitted = msm::multi_load_with_exponents(material, 1, wide, exponent),
+                            hooke = msm::multi_load_method(material, 1, wide);
+    wide.exponents = msm::Exponents{exponent, exponent, exponent};
+    const msm::MultiLoadFit held = msm::multi_load_method(material, 1, wide);
+    CHECK(fitted.objective < hooke.objective);
+    CHECK(held.objective < hooke.objective);
+    REQUIRE(fitted.stiffness.exponents);
+    // Its stiffnesses are the best of springs of its exponents: no smaller minimum is left.
+    wide.exponents = fitted.stiffness.exponents;
+    CHECK(msm::multi_load_method(material, 1, wide).objective ==
+          Approx(fitted.objective).epsilon(1e-6)); // the solver's tolerance
+    CHECK(msm::is_stable_over({-0.2, 0.2}, fitted.stiffness, 1));
+  }
+}
+
+TEST_CASE("under small strains a fit with exponents has the material's moduli too", "[verification]") {
+  msm::DesignRequest request;
+  request.options.design = cases::Design::multi_load;
+  request.options.law = cases::SpringLaw::power_log;
+  request.options.strain_range = {{-1e-3, 1e-3}};
+  request.material = cases::LinearElastic{0.3, 0.3};
+  const msm::DesignResult result = msm::design(request);
+  CHECK(result.moduli.youngs_modulus == Approx(0.3).epsilon(2e-3)); // strains of 1e-3
+  CHECK(result.moduli.zener == Approx(1).epsilon(2e-3));
+  REQUIRE(result.stiffness.exponents);
+  CHECK(result.warnings.empty());
+  CHECK_THROWS_AS(msm::multi_load_with_exponents(request.material, 1, settings(0.1, -0.1, true), -1.5),
+                  cases::InputError);
 }
 
 TEST_CASE("multi-load settings without a meaning are refused") {
