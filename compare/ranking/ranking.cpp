@@ -44,6 +44,7 @@ void add_errors(RankedDesign& ranked, const Comparison& comparison) {
     if ((is_volume && has_others) || (ranked.worst && !(error > *ranked.worst))) continue;
     ranked.worst = error;
     ranked.worst_at = measured.name;
+    ranked.worst_bar = measured.error_uncertainty_percent;
   }
   if (!ranked.worst) ranked.failure = "no measure has an error: the references are 0";
 }
@@ -74,6 +75,38 @@ RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
 
 std::string two_digits(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
+std::string worst_text(const RankedDesign& ranked) {
+  return two_digits(ranked.worst) + (ranked.worst_bar ? fmt::format(" +- {:.2g}", *ranked.worst_bar) : "");
+}
+
+/// What the errors are against.
+std::string reference_text(const Ranking& ranking) {
+  const bool has_limit = std::any_of(ranking.designs.begin(), ranking.designs.end(),
+                                     [](const RankedDesign& r) { return r.worst_bar.has_value(); });
+  return fmt::format("{}{} {}{}", has_limit ? "the limit of " : "",
+                     cases::name_of(ranking.resolved.formulation), cases::name_of(ranking.resolved.element),
+                     has_limit ? "" : " on the same mesh");
+}
+
+/// The finite elements' own worst error on the mesh of the springs, percent, where there is a limit.
+std::optional<double> worst_of_fem(const RankedDesign& ranked) {
+  std::optional<double> worst;
+  for (const MeasuredValue& measured : ranked.measures)
+    if (measured.fem_error_percent)
+      worst = std::max(worst.value_or(0), std::abs(*measured.fem_error_percent));
+  return worst;
+}
+
+/// Stable designs whose error bars meet the best one's.
+std::vector<std::string> as_good_as(const Ranking& ranking, const RankedDesign& best) {
+  std::vector<std::string> names;
+  for (const RankedDesign& ranked : ranking.designs)
+    if (&ranked != &best && ranked.worst && ranked.is_stable &&
+        *ranked.worst - ranked.worst_bar.value_or(0) < *best.worst + best.worst_bar.value_or(0))
+      names.push_back(ranked.name);
+  return names;
 }
 
 } // namespace
@@ -114,24 +147,29 @@ std::string advice_of(const Ranking& ranking) {
     return fmt::format("There is no reference: finite elements: {}", ranking.fem.solution.message);
   const RankedDesign* best = ranking.recommended();
   if (!best) return "No design has a stable equilibrium under the whole load here.";
+  const std::vector<std::string> others = as_good_as(ranking, *best);
+  const std::optional<double> fem_error = worst_of_fem(*best);
   return fmt::format(
       "Use {} here: errors up to {} % ({}){}, stable, in {:.0f} ms against {:.0f} ms of the finite "
-      "elements.",
-      best->name, two_digits(best->worst), best->worst_at,
+      "elements{}.{}",
+      best->name, worst_text(*best), best->worst_at,
       best->worst_volume ? fmt::format(", volume within {} %", two_digits(best->worst_volume)) : "",
-      best->milliseconds, 1e3 * ranking.fem.seconds());
+      best->milliseconds, 1e3 * ranking.fem.seconds(),
+      fem_error ? fmt::format(", which err by up to {} % on this mesh", two_digits(fem_error)) : "",
+      others.empty() ? ""
+                     : fmt::format(" The uncertainty of the reference does not tell it from {}.",
+                                   fmt::join(others, ", ")));
 }
 
 void write_ranking_text(std::ostream& out, const Ranking& ranking) {
-  print(out, "{}: designs by their worst error against {} {}\n", ranking.case_name,
-        cases::name_of(ranking.resolved.formulation), cases::name_of(ranking.resolved.element));
-  print(out, "  {:<17}{:>9}  {:<12}{:>9}{:>8}{:>9}  {}\n", "design", "worst %", "where", "volume %", "stable",
-        "ms", "springs");
+  print(out, "{}: designs by their worst error against {}\n", ranking.case_name, reference_text(ranking));
+  print(out, "  {:<17}{:>14}  {:<12}{:>9}{:>8}{:>9}  {}\n", "design", "worst %", "where", "volume %",
+        "stable", "ms", "springs");
   const RankedDesign* best = ranking.recommended();
   for (const RankedDesign& ranked : ranking.designs)
     if (ranked.worst)
-      print(out, "{} {:<17}{:>9}  {:<12}{:>9}{:>8}{:>9.1f}  {}\n", &ranked == best ? ">" : " ", ranked.name,
-            two_digits(ranked.worst), ranked.worst_at, two_digits(ranked.worst_volume),
+      print(out, "{} {:<17}{:>14}  {:<12}{:>9}{:>8}{:>9.1f}  {}\n", &ranked == best ? ">" : " ", ranked.name,
+            worst_text(ranked), ranked.worst_at, two_digits(ranked.worst_volume),
             ranked.is_stable ? "yes" : "NO", ranked.milliseconds, ranked.springs);
     else
       print(out, "  {:<17}{}: {}\n", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
@@ -151,6 +189,7 @@ nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
                        {"refused", text_or_null(ranked.refusal)},
                        {"failed", text_or_null(ranked.failure)},
                        {"worst_error_percent", ranked.worst},
+                       {"worst_error_uncertainty_percent", ranked.worst_bar},
                        {"worst_at", text_or_null(ranked.worst_at)},
                        {"worst_volume_error_percent", ranked.worst_volume},
                        {"stable", is_solved ? Json(ranked.is_stable) : Json(nullptr)},
@@ -166,6 +205,7 @@ nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
             {"status", cases::name_of(ranking.fem.solution.status)},
             {"message", ranking.fem.solution.message},
             {"milliseconds", 1e3 * ranking.fem.seconds()}}},
+          {"reference", reference_text(ranking)},
           {"designs", designs},
           {"recommended", best ? Json(best->name) : Json(nullptr)},
           {"advice", advice_of(ranking)}};

@@ -18,6 +18,7 @@ struct RankedDesign {
   std::optional<double> worst{}, worst_volume{}; ///< of |error|, percent; of all but volumes, where there are
                                                  ///< others, and of volumes
   std::string worst_at{};                        ///< the measure
+  std::optional<double> worst_bar{};             ///< points: what the reference's uncertainty leaves of worst
   bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
   double milliseconds = 0;                       ///< design, setup and solve
   std::vector<MeasuredValue> measures{};
@@ -46,7 +47,7 @@ void sort_by_error(std::vector<RankedDesign>& designs);
 /// A table, and a sentence that names the design to use.
 void write_ranking_text(std::ostream& out, const Ranking& ranking);
 
-/// The sentence.
+/// The sentence. Of designs that the reference's uncertainty does not tell apart from the best it says so.
 std::string advice_of(const Ranking& ranking);
 
 nlohmann::ordered_json ranking_to_json(const Ranking& ranking);

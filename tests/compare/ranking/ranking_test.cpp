@@ -48,6 +48,17 @@ TEST_CASE("designs come by their worst error, then those that failed, then those
                              Catch::Contains("refused: not for this material"));
 }
 
+TEST_CASE("the sentence names the designs that the reference's uncertainty does not tell from the best") {
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("best", 3, true), with_error("close", 3.4, true),
+                     with_error("unstable", 3.1, false), with_error("far", 5, true)};
+  CHECK_THAT(compare::advice_of(ranking), !Catch::Contains("does not tell"));
+  for (RankedDesign& ranked : ranking.designs) ranked.worst_bar = 0.3;
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("errors up to 3.00 +- 0.3 %") &&
+                                              Catch::Contains("does not tell it from close."));
+}
+
 TEST_CASE("without a stable design none is recommended, and the sentence says so") {
   compare::Ranking ranking{"case", {}, {}};
   ranking.fem.solution.status = cases::Status::converged;
