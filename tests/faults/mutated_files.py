@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, msh, stl, vtu, displacements, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the
+Kinds: case, msh, stl, vtu, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the
 program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a
 damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same
 in every run. Only Python's standard library is used.
@@ -169,6 +169,20 @@ class Vtu(Displacements):
         return next(out.glob("*.vtu")).read_bytes()
 
 
+class Network(Kind):
+    """Springs between all of the nodes of the box that are neighbours, or a diagonal apart."""
+
+    @property
+    def whole(self):
+        nodes = [(i, j, k) for k in range(3) for j in range(3) for i in range(3)]
+        near = [(a, b) for b in range(27) for a in range(b) if max(abs(x - y) for x, y in zip(nodes[a], nodes[b])) == 1]
+        return "\n".join(["node_a,node_b,stiffness", *(f"{a},{b},{40 + a}" for a, b in near), ""]).encode()
+
+    def given(self, content):
+        (self.folder / "springs.csv").write_bytes(content)
+        return springproof("run", "--only", "msm", self.case(), "--set", "msm.design=network", "--set", "msm.file=springs.csv")
+
+
 class Curve(Kind):
     whole = "\n".join(["stretch,stress", *(f"{1 + 0.02 * i},{0.012 * i}" for i in range(20)), ""]).encode()
 
@@ -197,7 +211,8 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "displacements": Displacements, "curve": Curve, "kept": Kept}
+KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "displacements": Displacements,
+         "network": Network, "curve": Curve, "kept": Kept}
 
 
 def try_out(kind, count, keep):
