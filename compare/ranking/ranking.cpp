@@ -5,6 +5,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/estimate.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/springs_text.hpp"
 
@@ -131,7 +132,7 @@ Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>
     throw cases::InputError(scene.definition.file +
                             ": --designs ranks by the errors of measures, and the case "
                             "has no [[measure]]");
-  const Answers fem = solve(scene, {cases::Side::fem, meshes}, solve_fem);
+  const Answers fem = gathered(solve(scene, {cases::Side::fem, meshes}, solve_fem));
   Ranking ranking{scene.definition.name, fem.resolved, fem.fem};
   ranking.fem.solution.displacement.clear();
   ranking.fem.solution.cell_volume.clear();

@@ -154,7 +154,7 @@ def test_sweep(folder):
         parts = shards(folder, n, "sweep", "--quick", TINY)
         merged = springproof("merge", *parts, "--out", folder / f"merged{n}")
         assert merged.returncode == 1 and "no stiffness" in merged.stdout, merged
-        assert rows(folder / f"merged{n}") == rows(folder / "whole") and len(rows(folder / "whole")) == 36
+        assert rows(folder / f"merged{n}") == rows(folder / "whole") and len(rows(folder / "whole")) == 54
         assert files(folder / f"merged{n}").keys() == files(folder / "whole").keys()
     record = parts[0] / "shard.json"
     record.write_text(re.sub(r'("processor": ").*"', r'\1another"', record.read_text()))
