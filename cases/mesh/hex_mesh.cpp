@@ -200,6 +200,8 @@ bool find_grid(HexMesh& mesh) {
   grid.cells = *extent;
   if (grid.n_lattice_cells() / most_places_of_a_cell > mesh.cells.size()) return false;
 
+  const std::array<int, 3> points{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1};
+  std::map<std::size_t, int> node_at; // two nodes at a place are a slit, which no grid has
   std::map<std::size_t, std::pair<std::array<int, 8>, std::size_t>> by_place;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto cell = along_axes(mesh, c, grid.spacing);
@@ -208,6 +210,12 @@ bool find_grid(HexMesh& mesh) {
     if (!place) return false;
     const std::size_t number = number_of((*place)[0], (*place)[1], (*place)[2], grid.cells);
     if (!by_place.emplace(number, std::pair(*cell, c)).second) return false;
+    for (int v = 0; v < 8; ++v) {
+      const std::size_t point =
+          number_of((*place)[0] + (v & 1), (*place)[1] + ((v >> 1) & 1), (*place)[2] + (v >> 2), points);
+      const int node = (*cell)[index(v)];
+      if (node_at.emplace(point, node).first->second != node) return false;
+    }
   }
   // The spacing of the first cell carries its rounding; that of the whole body less.
   grid.spacing = body.sizes().cwiseQuotient(Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));

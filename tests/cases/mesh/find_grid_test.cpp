@@ -83,6 +83,20 @@ TEST_CASE("cells that are unequal, distorted or off the axes are no grid") {
   }
 }
 
+TEST_CASE("a body with a slit is no grid, which would close it") {
+  HexMesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
+  mesh.grid.reset();
+  HexMesh slit = mesh;
+  const auto n = static_cast<int>(mesh.nodes.size());
+  for (const int node : {9, 12, 15}) slit.nodes.stored().push_back(mesh.nodes[index(node)]); // x = 0, z = 1
+  for (std::size_t c = 4; c < 8; ++c)                                                        // those above
+    for (int& node : slit.cells.stored()[c])
+      if (node == 9 || node == 12 || node == 15) node = n + (node - 9) / 3;
+  CHECK(find_grid(mesh));
+  CHECK_FALSE(find_grid(slit));
+  CHECK(boundary_faces(slit).size() == 24 + 4); // the body's, and the slit's two sides
+}
+
 TEST_CASE("a chain of cells along a diagonal is no grid: its lattice would fill the memory") {
   HexMesh mesh;
   constexpr int n = 1000; // steps in each direction: a lattice of 10⁹ places
