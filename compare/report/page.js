@@ -68,6 +68,9 @@ const report = JSON.parse(document.getElementById("report-data").textContent);
     `${number(a.large.worst_error_percent, 1)} % under the large ones, ${number(Math.max(a.small.worst_volume_error_percent || 0,
       a.large.worst_volume_error_percent || 0))} % in volume.`;
 
+  // What power-log springs have besides stiffnesses.
+  const exponents = (a) => (a.exponents ? `, power-log springs of exponents ${a.exponents.map((p) => number(p, 3)).join(", ")}` : "");
+
   // Stiffnesses for the reader's own E, nu and edge.
   function calculator(recommended) {
     const field = (name, value) => make("input", { name, value, type: "number", min: 0, step: "any" });
@@ -84,7 +87,7 @@ const report = JSON.parse(document.getElementById("report-data").textContent);
       }
       const [e, f, d] = best.stiffness_per_E_L0.map((over) => (1000 * young * edge * over).toPrecision(4));
       output.textContent = `${best.design}: k_e = ${e}, k_f = ${f}, k_d = ${d} N/m, ` +
-        `k_v = ${(young * best.volume_stiffness_per_E).toPrecision(4)} MPa. ${expected(best)}`;
+        `k_v = ${(young * best.volume_stiffness_per_E).toPrecision(4)} MPa${exponents(best)}. ${expected(best)}`;
     };
     if (recommended.some((a) => a.poissons_ratio === 0.45)) ratios.value = "0.45";
     form.addEventListener("input", answer);
@@ -99,7 +102,7 @@ const report = JSON.parse(document.getElementById("report-data").textContent);
       const [e, f, d] = a.stiffness_per_E_L0.map((over) => number(50 * over));
       return make("li", null, `ν = ${general(a.poissons_ratio)}: `, make("b", null, a.design), "; for E = 50 kPa and cells of 1 mm ",
         k("e"), ` = ${e}, `, k("f"), ` = ${f}, `, k("d"), ` = ${d} N/m and `, k("v"),
-        ` = ${number(0.05 * a.volume_stiffness_per_E, 5)} MPa. ${expected(a)}`);
+        ` = ${number(0.05 * a.volume_stiffness_per_E, 5)} MPa${exponents(a)}. ${expected(a)}`);
     };
     const errors = (a, e) => (missing(e.worst_error_percent)
       ? [cell("–"), cell("–"), text_cell(a.designed ? "a test failed" : "refused")]

@@ -132,6 +132,10 @@ def check_calculator(said, advice):
     for symbol, over in zip("efd", best["stiffness_per_E_L0"]):
         number = float(re.search(rf"k_{symbol} = ([-.e0-9]+)", said).group(1))  # N/m; E L0 is 50 N/m
         assert abs(number - 50 * over) < 1e-3 * abs(number), (said, best)
+    named = re.search(r"of exponents ([-.0-9, ]+)\.", said)
+    assert (named is not None) == ("exponents" in best), (said, best)
+    for number, exponent in zip(named.group(1).split(",") if named else (), best.get("exponents", ())):
+        assert abs(float(number) - exponent) < 6e-4, (said, best)
     worst = re.search(r"up to ([.0-9]+) % under the\s+small loads, ([.0-9]+) % under the\s+large", said)
     for number, load_set in zip(worst.groups(), ("small", "large")):
         assert abs(float(number) - best[load_set]["worst_error_percent"]) < 0.06, (said, best)
