@@ -150,8 +150,10 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) 
   if (backend == Backend::automatic)
     backend = choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, halvings));
   if (backend == Backend::grid && !grid::is_on_grid(scene))
-    throw cases::InputError(scene.definition.fem.where,
-                            "the grid's backend needs a body that is a grid of cells, and no q2_p1");
+    throw cases::InputError(
+        scene.definition.fem.where,
+        "the grid's backend needs a body that is a grid of cells, an isotropic material, and "
+        "no q2_p1");
   if (backend == Backend::grid)
     implementation_ = std::make_unique<OnGrid>(scene, communicator, may_assemble_instead);
   else

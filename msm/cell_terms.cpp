@@ -43,6 +43,17 @@ CellTerms terms_of(const CellStiffness& stiffness) {
   return terms;
 }
 
+CellTerms terms_by_axis(const std::array<double, 7>& stiffness, double volume) {
+  CellTerms terms = terms_of(CellStiffness{1, 1, 1});
+  for (CellSpring& spring : terms.springs) {
+    const int crossed = spring.vertices[0] ^ spring.vertices[1]; // bit a: the axis a
+    const std::array<std::size_t, 8> place{0, 0, 1, 5, 2, 4, 3, 6};
+    spring.stiffness = stiffness[place[static_cast<std::size_t>(crossed)]];
+  }
+  terms.volume = volume;
+  return terms;
+}
+
 int n_axes(const CellSpring& spring) {
   const int crossed = spring.vertices[0] ^ spring.vertices[1];
   return (crossed & 1) + ((crossed >> 1) & 1) + ((crossed >> 2) & 1);

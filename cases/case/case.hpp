@@ -12,6 +12,8 @@
 /// The shared vocabulary: what a case file says, as plain values. Units: mm, N, MPa, degrees.
 namespace springproof::cases {
 
+SPRINGPROOF_ENUMERATION(Axis, x, y, z)
+
 struct Box {
   Eigen::Vector3d size;     ///< mm, > 0; the box reaches from the origin to size
   std::array<int, 3> cells; ///< > 0
@@ -46,7 +48,31 @@ struct Ogden {
   std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
 };
 
-using Material = std::variant<LinearElastic, Ogden>;
+/// Linear elastic with an axis of symmetry, its fibre: engineering constants along and across it. The strain
+/// energy is positive when poissons_ratio_along² < (1 - poissons_ratio_across) E_along/(2 E_across).
+struct TransverselyIsotropic {
+  double youngs_modulus_along, youngs_modulus_across; ///< E_L, E_T, MPa, > 0
+  double poissons_ratio_along;  ///< nu_LT: contraction across the fibre, pulled along it
+  double poissons_ratio_across; ///< nu_TT in (-1, 1): contraction across the fibre, pulled across it
+  double shear_modulus_along;   ///< G_LT, MPa, > 0: between the fibre and a direction across it
+  Eigen::Vector3d fibre;        ///< unit length
+};
+
+using Material = std::variant<LinearElastic, Ogden, TransverselyIsotropic>;
+
+/// The axis along which a direction lies, to 1e-9 of its length; none when it lies askew.
+inline std::optional<Axis> axis_along(const Eigen::Vector3d& direction) {
+  int axis = 0;
+  const double along = direction.cwiseAbs().maxCoeff(&axis);
+  Eigen::Vector3d across = direction;
+  across[axis] = 0;
+  if (across.norm() > 1e-9 * along) return std::nullopt;
+  return static_cast<Axis>(axis);
+}
+
+inline bool is_isotropic(const Material& material) {
+  return !std::holds_alternative<TransverselyIsotropic>(material);
+}
 
 /// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
 /// those whose centre lies in a box.
@@ -175,7 +201,6 @@ struct Msm {
 
 SPRINGPROOF_ENUMERATION(MeasureKind, coordinate, displacement, tilt, twist, volume, displacement_field_l2,
                         displacement_field_max)
-SPRINGPROOF_ENUMERATION(Axis, x, y, z)
 SPRINGPROOF_ENUMERATION(Component, x, y, z, norm)
 
 struct Measure {

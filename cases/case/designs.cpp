@@ -92,19 +92,36 @@ const std::vector<DesignFacts>& all_designs() {
        DesignLaw::biquadratic,
        DesignSource::material,
        DesignCells::cut},
+      {D::transverse,
+       "springs by axis and a volume term with the moduli nearest to a transversely isotropic material's",
+       "docs/designing.md",
+       {"split"},
+       DesignLaw::any,
+       DesignSource::material,
+       DesignCells::terms,
+       false,
+       {},
+       DesignMaterial::transversely_isotropic},
       {D::given,
        "the stiffnesses of the case file",
        "the case file",
        {"stiffness", "axis_stiffness", "volume_stiffness"},
        DesignLaw::any,
-       DesignSource::file},
+       DesignSource::file,
+       DesignCells::four_stiffnesses,
+       false,
+       {},
+       DesignMaterial::any},
       {D::network,
        "springs between any nodes of the mesh, one by one",
        "a CSV file",
        {"file"},
        DesignLaw::by_spring,
        DesignSource::file,
-       DesignCells::terms},
+       DesignCells::terms,
+       false,
+       {},
+       DesignMaterial::any},
   };
   return all;
 }
@@ -130,6 +147,18 @@ std::string designs_with(const std::string& key) {
   std::vector<std::string> names;
   for (const DesignFacts& facts : all_designs())
     if (takes(facts.design, key)) names.push_back(name_of(facts.design));
+  return alternatives(names);
+}
+
+bool is_for(Design design, bool is_isotropic) {
+  const DesignMaterial wanted = facts_of(design).material;
+  return wanted == DesignMaterial::any || (wanted == DesignMaterial::isotropic) == is_isotropic;
+}
+
+std::string designs_for(bool is_isotropic) {
+  std::vector<std::string> names;
+  for (const DesignFacts& facts : all_designs())
+    if (is_for(facts.design, is_isotropic)) names.push_back(name_of(facts.design));
   return alternatives(names);
 }
 

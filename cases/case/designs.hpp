@@ -8,7 +8,8 @@
 namespace springproof::cases {
 
 SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, multi_load,
-                        ladd_kinney, baudet, uniform, van_gelder, lloyd, biquadratic, given, network)
+                        ladd_kinney, baudet, uniform, van_gelder, lloyd, biquadratic, transverse, given,
+                        network)
 
 /// The spring laws that a design goes with.
 enum class DesignLaw {
@@ -31,6 +32,9 @@ enum class DesignCells {
 /// Where a design's stiffnesses come from.
 enum class DesignSource { material, file };
 
+/// What a design's stiffnesses follow, and so what a material must be.
+enum class DesignMaterial { isotropic, transversely_isotropic, any };
+
 struct DesignFacts {
   Design design;
   const char* what;              ///< a line
@@ -41,6 +45,7 @@ struct DesignFacts {
   DesignCells cells = DesignCells::four_stiffnesses;
   bool is_refused_at_half = false; ///< with an incompressible material: it needs a Poisson's ratio below 0.5
   std::optional<double> least_poissons_ratio{}; ///< refused below when a case is read
+  DesignMaterial material = DesignMaterial::isotropic;
 };
 
 /// In the order in which messages and tables list them.
@@ -55,5 +60,11 @@ bool takes(Design design, const std::string& key);
 
 /// The designs that take a key of [msm], as a message shows them: "a" | "b".
 std::string designs_with(const std::string& key);
+
+/// Whether a design is made for such a material.
+bool is_for(Design design, bool is_isotropic);
+
+/// The designs that such a material has, as a message shows them: "a" | "b".
+std::string designs_for(bool is_isotropic);
 
 } // namespace springproof::cases

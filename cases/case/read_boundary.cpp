@@ -46,16 +46,6 @@ std::array<bool, 3> read_components(const Entry& entry) {
   return components;
 }
 
-/// The axis of a torque: "x", "y", "z", or any direction.
-Eigen::Vector3d read_direction(const Entry& entry) {
-  if (entry.node && entry.node->is_string())
-    return Eigen::Vector3d::Unit(static_cast<int>(read_name<Axis>(entry)));
-  const std::string allowed = "\"x\" | \"y\" | \"z\" or a direction of three numbers, not all 0";
-  const Eigen::Vector3d direction = Vector{allowed}(entry);
-  if (!(direction.stableNorm() > 0)) entry.refuse(allowed);
-  return direction.stableNormalized();
-}
-
 /// A load over an area needs a region with an area: of a box's regions, a face. Groups of a mesh are checked
 /// when it is read.
 void check_has_area(const Load& load, const Body& body) {
@@ -147,6 +137,15 @@ bool is_zero(const Load& load) {
 }
 
 } // namespace
+
+Eigen::Vector3d read_direction(const Entry& entry) {
+  if (entry.node && entry.node->is_string())
+    return Eigen::Vector3d::Unit(static_cast<int>(read_name<Axis>(entry)));
+  const std::string allowed = "\"x\" | \"y\" | \"z\" or a direction of three numbers, not all 0";
+  const Eigen::Vector3d direction = Vector{allowed}(entry);
+  if (!(direction.stableNorm() > 0)) entry.refuse(allowed);
+  return direction.stableNormalized();
+}
 
 Region read_region_text(const Entry& entry, const Body& body) {
   const std::string text = read_text(entry);

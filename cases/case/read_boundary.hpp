@@ -8,6 +8,9 @@ namespace springproof::cases {
 /// A region in a text: "z+ x-", "near 5 5 10", or the name of a physical group.
 Region read_region_text(const Entry& entry, const Body& body);
 
+/// A unit vector: "x", "y", "z", or any direction.
+Eigen::Vector3d read_direction(const Entry& entry);
+
 /// Reads supports, motions and loads into a case whose body is read.
 void read_boundary(Table& root, Case& result);
 

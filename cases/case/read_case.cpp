@@ -1,6 +1,7 @@
 #include "cases/case/read_case.hpp"
 
 #include "cases/case/read_boundary.hpp"
+#include "cases/case/read_materials.hpp"
 #include "cases/case/read_models.hpp"
 
 #include <algorithm>

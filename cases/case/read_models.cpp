@@ -1,87 +1,13 @@
 #include "cases/case/read_models.hpp"
 
+#include "cases/case/read_materials.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
-#include <numeric>
 
 namespace springproof::cases {
 
 namespace {
-
-constexpr auto is_poissons_ratio = [](double value) { return value > -1 && value < 0.5; };
-
-LinearElastic read_linear_elastic(Table& table) {
-  return {table.required("youngs_modulus", Number{"a number above 0 (MPa)", is_positive}),
-          table.required("poissons_ratio",
-                         Number{"a number above -1 and below 0.5 (at 0.5 the bulk modulus is infinite: "
-                                "model = \"ogden\" is for incompressible materials)",
-                                is_poissons_ratio})};
-}
-
-Ogden read_ogden(Table& table) {
-  Ogden material;
-  const Entry mu = table.entry("mu");
-  material.mu = Numbers{"one or more finite numbers (MPa)", 0}(mu);
-  if (!(std::accumulate(material.mu.begin(), material.mu.end(), 0.0) > 0))
-    mu.refuse("numbers with a sum above 0 (MPa): the sum is the initial shear modulus");
-  const Entry alpha = table.entry("alpha");
-  material.alpha = Numbers{"as many finite numbers as mu, none 0", 0, [](double a) { return a != 0; }}(alpha);
-  if (material.alpha.size() != material.mu.size())
-    alpha.refuse(fmt::format("as many numbers as mu has, which is {}", material.mu.size()));
-  material.bulk_modulus = table.optional("bulk_modulus", Number{"a number above 0 (MPa)", is_positive});
-  return material;
-}
-
-const std::vector<std::string> model_names{"linear_elastic", "ogden"}; // in the order of Material
-
-Material read_material(Table& table) {
-  if (table.entry("model").word(model_names) == "ogden") return read_ogden(table);
-  return read_linear_elastic(table);
-}
-
-/// Cells between two planes: axis, from, to; either end may be left out.
-void read_layer(Table& table, RegionMaterial& region) {
-  const int axis = static_cast<int>(table.required("axis", read_name<Axis>));
-  const Number position{"a finite number (mm)"};
-  const auto from = table.optional("from", position), to = table.optional("to", position);
-  if (!from && !to) table.entry("from").refuse("a finite number (mm), here or for to: where the layer ends");
-  region.lower[axis] = from.value_or(region.lower[axis]);
-  region.upper[axis] = to.value_or(region.upper[axis]);
-  if (!(region.lower[axis] < region.upper[axis])) table.entry("to").refuse("a number above from");
-}
-
-void read_corners(const Entry& entry, RegionMaterial& region) {
-  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
-  const std::vector<Entry> corners = entry.elements(allowed, 2);
-  region.lower = Vector{allowed}(corners[0]);
-  region.upper = Vector{allowed}(corners[1]);
-  if (!(region.lower.array() < region.upper.array()).all()) entry.refuse(allowed);
-}
-
-/// A material and the cells that consist of it.  @param own  the body's material
-RegionMaterial read_region_material(Table& table, const Material& own, const Body& body) {
-  RegionMaterial region;
-  region.where = table.where();
-  region.upper.setConstant(std::numeric_limits<double>::infinity());
-  region.lower = -region.upper;
-  const bool has_group = table.has("group"), has_box = table.has("box"), has_axis = table.has("axis");
-  if (has_group + has_box + has_axis != 1)
-    table.entry("axis").refuse(
-        "one of group, box, or axis with from and to: which cells are of this material");
-  table.refuse_unless(std::holds_alternative<MeshFile>(body), {"group"},
-                      "left out: only a body of shape = \"mesh\" has physical groups");
-  region.group = table.optional("group", read_text).value_or("");
-  if (has_box) read_corners(table.entry("box"), region);
-  if (has_axis) read_layer(table, region);
-  table.know({"box", "axis", "from", "to"});
-  table.refuse_unless(has_axis, {"from", "to"}, "left out without axis");
-  region.material = read_material(table);
-  if (region.material.index() != own.index())
-    table.entry("model").refuse(fmt::format("\"{}\" as in [material]: one formulation serves the whole body",
-                                            model_names[own.index()]));
-  return region;
-}
 
 /// The elements that a formulation has, its default first. The pressure of a mixed or averaged
 /// element acts on the volume ratio J; the law S = lambda tr(E) I + 2 mu E has no such part, so there is
@@ -100,6 +26,24 @@ std::vector<Element> elements_of(Formulation formulation) {
   return {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1};
 }
 
+std::vector<Formulation> formulations_of(const Material& material) {
+  using F = Formulation;
+  if (std::holds_alternative<Ogden>(material)) return {F::hyperelastic};
+  if (std::holds_alternative<TransverselyIsotropic>(material)) return {F::small_strain, F::log_strain};
+  return {F::small_strain, F::saint_venant_kirchhoff, F::log_strain};
+}
+
+std::string models_with(Formulation formulation) {
+  std::vector<std::string> models;
+  for (const Material& material :
+       {Material(LinearElastic{}), Material(Ogden{}), Material(TransverselyIsotropic{})}) {
+    const std::vector<Formulation> all = formulations_of(material);
+    if (std::count(all.begin(), all.end(), formulation) > 0)
+      models.push_back(material_models()[material.index()]);
+  }
+  return alternatives(models);
+}
+
 /// "auto" falls back on the default.
 void read_formulation(Table& table, const Material& material, Fem& fem) {
   std::vector<std::string> words = all_names<Formulation>();
@@ -111,13 +55,13 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
                       "\"hyperelastic\" with the ogden material, which has no small strains");
   fem.formulation = value_of<Formulation>(word.value_or("auto"))
                         .value_or(is_ogden ? Formulation::hyperelastic : Formulation::log_strain);
-  const bool needs_ogden = fem.formulation == Formulation::hyperelastic;
-  table.refuse_unless(
-      is_ogden || !needs_ogden, {"formulation"},
-      "\"small_strain\" | \"saint_venant_kirchhoff\" | \"log_strain\" with the linear_elastic "
-      "material; hyperelastic needs model = \"ogden\"");
-  table.refuse_unless(!is_ogden || needs_ogden, {"formulation"},
-                      "\"hyperelastic\" with the ogden material; the others need model = \"linear_elastic\"");
+  const std::vector<Formulation> allowed = formulations_of(material);
+  std::vector<std::string> names;
+  for (const Formulation formulation : allowed) names.push_back(name_of(formulation));
+  table.refuse_unless(std::count(allowed.begin(), allowed.end(), fem.formulation) > 0, {"formulation"},
+                      fmt::format("{} with model = \"{}\"; {} needs model = {}", alternatives(names),
+                                  material_models()[material.index()], name_of(fem.formulation),
+                                  models_with(fem.formulation)));
 }
 
 /// The elements required by the material, when this one is not among them; otherwise empty.
@@ -281,15 +225,30 @@ void read_stiffness(Table& table, Msm& msm) {
     msm.stiffness = {k[0], k[1], k[2]};
 }
 
+Design default_design(const Material& material) {
+  if (std::holds_alternative<Ogden>(material)) return Design::nonlinear_method;
+  return is_isotropic(material) ? Design::linear_method : Design::transverse;
+}
+
+/// What a design that is asked for requires of the material. A default is refused when springs are designed:
+/// nobody may ask for them.
+void check_is_for(const Entry& design, const Msm& msm, const Material& material) {
+  if (!is_for(msm.design, is_isotropic(material)))
+    design.refuse(fmt::format("{} with model = \"{}\"", designs_for(is_isotropic(material)),
+                              material_models()[material.index()]));
+  const auto* fibrous = std::get_if<TransverselyIsotropic>(&material);
+  if (msm.design == Design::transverse && !axis_along(fibrous->fibre))
+    design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
+}
+
 Msm read_msm(Table& table, const Material& material, const std::string& case_path) {
   Msm msm;
   msm.where = table.where();
-  msm.design = table.optional("design", read_name<Design>)
-                   .value_or(std::holds_alternative<Ogden>(material) ? Design::nonlinear_method
-                                                                     : Design::linear_method);
+  msm.design = table.optional("design", read_name<Design>).value_or(default_design(material));
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
+  if (table.has("design")) check_is_for(table.entry("design"), msm, material);
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   msm.poissons_ratio =
@@ -328,13 +287,6 @@ void check_region_materials(const Case& definition) {
 }
 
 } // namespace
-
-void read_materials(Table& root, Case& result) {
-  result.material = root.section("material", read_material);
-  result.region_materials = root.sections("region_material", [&](Table& table) {
-    return read_region_material(table, result.material, result.body);
-  });
-}
 
 void read_models(Table& root, Case& result) {
   result.fem = root.optional_section(

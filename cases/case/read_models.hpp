@@ -3,13 +3,12 @@
 #include "cases/case/case.hpp"
 #include "cases/case/toml_table.hpp"
 
-/// What both models are made of: [material], [[region_material]], [fem] and [msm].
+/// What either model is made with: [fem] and [msm].
 namespace springproof::cases {
 
-/// Reads them into a case whose body is read.
+/// Reads them into a case whose body and materials are read.
 /// @throws InputError, also if a material has no meaning in the element, or the springs' design does not
 /// exist for it
-void read_materials(Table& root, Case& result);
 void read_models(Table& root, Case& result);
 
 } // namespace springproof::cases

@@ -43,6 +43,8 @@ void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
 SPRINGPROOF_FIELDS(springproof::cases::Box, size, cells)
 SPRINGPROOF_FIELDS(springproof::cases::LinearElastic, youngs_modulus, poissons_ratio)
 SPRINGPROOF_FIELDS(springproof::cases::Ogden, mu, alpha, bulk_modulus)
+SPRINGPROOF_FIELDS(springproof::cases::TransverselyIsotropic, youngs_modulus_along, youngs_modulus_across,
+                   poissons_ratio_along, poissons_ratio_across, shear_modulus_along, fibre)
 SPRINGPROOF_FIELDS(springproof::cases::RegionMaterial, material, group, lower, upper, where)
 SPRINGPROOF_FIELDS(springproof::cases::Region, name, near, where, radius)
 SPRINGPROOF_FIELDS(springproof::cases::Fixed, region, components)

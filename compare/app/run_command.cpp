@@ -47,7 +47,7 @@ void ask_peer(const cases::Scene& scene, Answers& answers) {
 std::vector<cases::Design> designs_of(const RunOptions& options, const cases::Case& definition) {
   const bool are_all = std::count(options.designs.begin(), options.designs.end(), "all") > 0;
   std::vector<cases::Design> designs;
-  if (are_all) designs = msm::methods();
+  if (are_all) designs = msm::methods(definition.material);
   if (are_all && std::count(designs.begin(), designs.end(), definition.msm.design) == 0)
     designs.push_back(definition.msm.design);
   if (!are_all)

@@ -131,7 +131,7 @@ DesignAttempt attempt_one(const msm::DesignRequest& request) {
 
 std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request) {
   std::vector<DesignAttempt> attempts;
-  for (const cases::Design method : msm::methods())
+  for (const cases::Design method : msm::methods(request.material))
     attempts.push_back(attempt(cases::name_of(method), request, method));
   return attempts;
 }

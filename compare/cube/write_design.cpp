@@ -74,6 +74,49 @@ Json cube_to_json(const CubeErrors& cube) {
           {"large", errors_to_json(cube.large)}, {"measures", measures}};
 }
 
+/// In place of the moduli that a cubic lattice has.
+void write_fibre_lattice(std::ostream& out, const msm::NearestModuli& lattice) {
+  const mechanics::TransverseModuli& c = lattice.moduli;
+  const cases::TransverselyIsotropic m = mechanics::engineering_constants(c);
+  fmt::print(
+      out,
+      "  lattice          C11 {:.6g}, C12 {:.6g}, C13 {:.6g}, C33 {:.6g}, C44 {:.6g}, C66 {:.6g} MPa, 3 "
+      "along the fibre\n",
+      c.c11, c.c12, c.c13, c.c33, c.c44, c.c66);
+  fmt::print(out, "  along the fibre  E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus_along,
+             m.poissons_ratio_along, m.shear_modulus_along);
+  fmt::print(out, "  across it        E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus_across,
+             m.poissons_ratio_across, c.c66);
+  fmt::print(out, "  misfit           the energies of strains err by up to {:.3g} %\n", 100 * lattice.misfit);
+}
+
+Json moduli_to_json(const msm::DesignResult& design) {
+  if (!design.by_fibre) {
+    const msm::LatticeModuli& m = design.moduli;
+    return {{"C11", m.c11},
+            {"C12", m.c12},
+            {"C44", m.c44},
+            {"zener", m.zener},
+            {"youngs_modulus", m.youngs_modulus},
+            {"poissons_ratio", m.poissons_ratio},
+            {"shear_modulus", m.shear_modulus}};
+  }
+  const mechanics::TransverseModuli& c = design.by_fibre->moduli;
+  const cases::TransverselyIsotropic m = mechanics::engineering_constants(c);
+  return {{"C11", c.c11},
+          {"C12", c.c12},
+          {"C13", c.c13},
+          {"C33", c.c33},
+          {"C44", c.c44},
+          {"C66", c.c66},
+          {"youngs_modulus_along", m.youngs_modulus_along},
+          {"youngs_modulus_across", m.youngs_modulus_across},
+          {"poissons_ratio_along", m.poissons_ratio_along},
+          {"poissons_ratio_across", m.poissons_ratio_across},
+          {"shear_modulus_along", m.shear_modulus_along},
+          {"misfit_percent", 100 * design.by_fibre->misfit}};
+}
+
 } // namespace
 
 void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
@@ -90,10 +133,13 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   if (k.exponents)
     fmt::print(out, "  exponents        {:.6g}\n", fmt::join(exponents_of(*k.exponents), ", "));
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
-  fmt::print(out, "  lattice          C11 {:.6g}, C12 {:.6g}, C44 {:.6g} MPa, Zener ratio {:.4f}\n", m.c11,
-             m.c12, m.c44, m.zener);
-  fmt::print(out, "  along its axes   E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus,
-             m.poissons_ratio, m.shear_modulus);
+  if (design.by_fibre)
+    write_fibre_lattice(out, *design.by_fibre);
+  else
+    fmt::print(out,
+               "  lattice          C11 {:.6g}, C12 {:.6g}, C44 {:.6g} MPa, Zener ratio {:.4f}\n"
+               "  along its axes   E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n",
+               m.c11, m.c12, m.c44, m.zener, m.youngs_modulus, m.poissons_ratio, m.shear_modulus);
   if (attempt.stability) {
     const auto [stretch, compression, shear] = limits(attempt.stability);
     fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n", stretch,
@@ -115,7 +161,10 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
     const msm::LatticeModuli& m = a.design->moduli;
     const auto [edge, face, internal] = newton_per_metre(k);
     const auto [stretch, compression, shear] = limits(a.stability);
-    if (a.design->terms)
+    if (a.design->by_fibre) {
+      fmt::print(out, "{}\n", a.name);
+      write_fibre_lattice(out, *a.design->by_fibre);
+    } else if (a.design->terms)
       fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n", a.name, "",
                  m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, "-", stretch, compression);
     else
@@ -142,20 +191,12 @@ Json errors_to_json(const LoadSetErrors& errors) {
 Json attempt_to_json(const DesignAttempt& attempt) {
   if (!attempt.design) return {{"method", attempt.name}, {"refused", attempt.refusal}};
   const msm::DesignResult& design = *attempt.design;
-  const msm::LatticeModuli& m = design.moduli;
   const cases::DesignFacts& facts = cases::facts_of(attempt.options.design);
   Json document{{"method", attempt.name},
                 {"what", facts.what},
                 {"published_in", facts.published_in},
                 {"residual", design.residual},
-                {"moduli",
-                 {{"C11", m.c11},
-                  {"C12", m.c12},
-                  {"C44", m.c44},
-                  {"zener", m.zener},
-                  {"youngs_modulus", m.youngs_modulus},
-                  {"poissons_ratio", m.poissons_ratio},
-                  {"shear_modulus", m.shear_modulus}}},
+                {"moduli", moduli_to_json(design)},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
   document.update(springs_to_json(design));

@@ -66,11 +66,13 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
   }
   msm::DesignResult all = design_cell(scene, 0);
   msm::BodyTerms& terms = *all.terms;
-  const bool needs_grid = terms.kinds.size() > 1 || scene.definition.msm.design == cases::Design::given;
+  const cases::Design design = scene.definition.msm.design;
+  const bool is_by_axis = design == cases::Design::given || design == cases::Design::transverse;
+  const bool needs_grid = terms.kinds.size() > 1 || is_by_axis;
   if (needs_grid && !scene.mesh.grid)
-    throw cases::InputError(scene.definition.msm.where,
-                            fmt::format("design = \"{}\" is for bodies that are grids of equal cells",
-                                        cases::name_of(scene.definition.msm.design)));
+    throw cases::InputError(
+        scene.definition.msm.where,
+        fmt::format("design = \"{}\" is for bodies that are grids of equal cells", cases::name_of(design)));
   const std::size_t n_images = terms.kinds.size();
   const std::vector<int> parity = n_images > 1 ? parities(*scene.mesh.grid) : std::vector<int>();
   std::map<int, int> first_of_material{{cases::material_of(scene, 0), 0}};
@@ -80,6 +82,9 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
       first_of_material[material] = static_cast<int>(terms.kinds.size());
       const msm::DesignResult other = design_cell(scene, c);
       terms.kinds.insert(terms.kinds.end(), other.terms->kinds.begin(), other.terms->kinds.end());
+      for (const std::string& warning : other.warnings)
+        if (std::count(all.warnings.begin(), all.warnings.end(), warning) == 0)
+          all.warnings.push_back(warning);
     }
     terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
   }

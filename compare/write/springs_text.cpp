@@ -1,5 +1,6 @@
 #include "compare/write/springs_text.hpp"
 
+#include <array>
 #include <fmt/format.h>
 #include <map>
 
@@ -8,11 +9,14 @@ namespace springproof::compare {
 namespace {
 
 std::string cell_text(const msm::CellTerms& terms) {
-  std::map<std::string, int> n_of; // springs of one stiffness, as printed
+  const std::array<std::string, 3> kinds{"edges", "face diagonals", "internal diagonals"};
+  std::map<std::pair<int, std::string>, int> n_of; // springs of one kind and stiffness, as printed
   std::vector<std::string> parts;
   for (const msm::CellSpring& spring : terms.springs)
-    ++n_of[fmt::format("{:.4g} N/m", 1e3 * spring.stiffness)];
-  for (const auto& [stiffness, n] : n_of) parts.push_back(fmt::format("{} springs of {}", n, stiffness));
+    ++n_of[{msm::n_axes(spring), fmt::format("{:.4g} N/m", 1e3 * spring.stiffness)}];
+  for (const auto& [spring, n] : n_of)
+    parts.push_back(
+        fmt::format("{} {} of {}", n, kinds[static_cast<std::size_t>(spring.first - 1)], spring.second));
   if (!terms.tetrahedra.empty())
     parts.push_back(fmt::format("{} tetrahedra of biquadratic springs", terms.tetrahedra.size()));
   if (terms.volume != 0) parts.push_back(fmt::format("k_v = {:.4g} MPa", terms.volume));

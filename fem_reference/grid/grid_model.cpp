@@ -76,6 +76,7 @@ bool is_on_grid(const cases::Scene& scene) {
   if (fem.element == cases::Element::q2_p1) return false;
   std::size_t n_parameters = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
+    if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;
     if (std::holds_alternative<cases::Ogden>(material) !=
         (fem.formulation == cases::Formulation::hyperelastic))
       return false; // the other backend has the message

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/design/cut_cells.hpp"
+#include "msm/design/examine.hpp"
 #include "msm/design/homogeneous.hpp"
 #include "msm/design/matched.hpp"
 #include "msm/design/moduli_method.hpp"
@@ -10,7 +11,7 @@
 #include "msm/design/nonlinear_method.hpp"
 #include "msm/design/published.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -40,6 +41,10 @@ constexpr std::array<double, 2> linear_range = {-0.05, 0.05};
 
 /// The same of the matched design, whose springs follow the curve.
 constexpr std::array<double, 2> matched_range = {-0.2, 0.2};
+
+/// Relative errors of energies from which a lattice's distance from its material is told: a tenth of the
+/// errors that designs of isotropic materials have on a body.
+constexpr double told_misfit = 2e-3;
 
 /// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
 /// method still converges in few steps.
@@ -111,6 +116,7 @@ struct Designed {
   std::optional<double> residual{}; ///< its objective at its minimum
   std::optional<BodyTerms> terms{}; ///< in place of the stiffnesses
   std::vector<std::string> warnings{};
+  std::optional<NearestModuli> by_fibre{};
 };
 
 Designed from_linear_method(const DesignRequest& request) {
@@ -126,19 +132,6 @@ Designed from_moduli_method(const DesignRequest& request) {
       is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
   const double mu = mechanics::elastic_moduli(material).mu;
   return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), {}};
-}
-
-/// Eigenvalues of a cell's tangent at rest that are no round-off.
-struct Signs {
-  Eigen::Index n_negative, n_zero;
-};
-
-Signs signs_at_rest(const CellMatrix& matrix) {
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
-  // Far above round-off, far below any spring's share.
-  const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
-  return {(eigenvalues.array() < -zero).count(), (eigenvalues.array().abs() <= zero).count()};
 }
 
 /// Below nu = 1/4 the volume term is negative. In a cube the springs outweigh it; in another cell they may
@@ -251,24 +244,41 @@ Designed from_biquadratic(const DesignRequest& request) {
   return {{}, {}, BodyTerms{biquadratic(moduli.lambda, moduli.mu)}};
 }
 
-/// Springs of other stiffnesses along every axis.
-CellTerms terms_by_axis(const std::array<double, 7>& stiffness) {
-  const CellStiffness one{1, 1, 1};
-  CellTerms terms = terms_of(one);
-  for (CellSpring& spring : terms.springs) {
-    const int crossed = spring.vertices[0] ^ spring.vertices[1]; // bit a: the axis a
-    const std::array<std::size_t, 8> place{0, 0, 1, 5, 2, 4, 3, 6};
-    spring.stiffness = newton_per_metre * stiffness[place[static_cast<std::size_t>(crossed)]];
-  }
-  return terms;
+/// Where no stiffness is negative the lattice is stable at rest; where one is, the others may outweigh it.
+Designed from_transverse(const DesignRequest& request) {
+  const auto& material = std::get<cases::TransverselyIsotropic>(request.material);
+  const auto axis = cases::axis_along(material.fibre);
+  if (!axis)
+    refuse(request,
+           fmt::format("design = \"transverse\": material.fibre is ({:g}, {:g}, {:g}), must lie along "
+                       "an axis of the grid: \"x\" | \"y\" | \"z\"",
+                       material.fibre.x(), material.fibre.y(), material.fibre.z()));
+  const double edge = required_cube_edge(request);
+  const NearestModuli nearest = nearest_lattice_moduli(mechanics::transverse_moduli(material));
+  const AxisStiffness k = stiffness_by_axis(nearest.moduli, split(request), static_cast<int>(*axis), edge);
+  const CellTerms terms = terms_by_axis(k.springs, k.volume);
+  if (signs_at_rest(cell_stiffness_matrix(request.cell, terms)).n_negative > 0)
+    refuse(request,
+           fmt::format("design = \"transverse\": springs cannot follow this material. Their moduli have "
+                       "C12 - C66 = C13 - C44; the nearest ones err by {:.3g} % in the energy of a "
+                       "strain, and need negative springs that the others do not outweigh",
+                       100 * nearest.misfit));
+  Designed result{{}, nearest.distance, BodyTerms{{terms}}};
+  if (nearest.misfit > told_misfit)
+    result.warnings.push_back(
+        fmt::format("the lattice's moduli, C12 - C66 = C13 - C44, are the nearest to the "
+                    "material's: the energies of strains err by up to {:.2g} %",
+                    100 * nearest.misfit));
+  result.by_fibre = nearest;
+  return result;
 }
 
 Designed from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   if (options.axis_stiffness) {
-    CellTerms terms = terms_by_axis(*options.axis_stiffness);
-    terms.volume = options.volume_stiffness;
-    return {{}, {}, BodyTerms{{terms}}};
+    std::array<double, 7> stiffness = *options.axis_stiffness;
+    for (double& k : stiffness) k *= newton_per_metre;
+    return {{}, {}, BodyTerms{{terms_by_axis(stiffness, options.volume_stiffness)}}};
   }
   if (!options.stiffness) refuse(request, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
   const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
@@ -294,55 +304,27 @@ const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods 
     {cases::Design::van_gelder, from_van_gelder},
     {cases::Design::lloyd, from_lloyd},
     {cases::Design::biquadratic, from_biquadratic},
+    {cases::Design::transverse, from_transverse},
     {cases::Design::given, from_given},
     {cases::Design::network, from_network},
 };
 
-void examine_signs(const CellMatrix& matrix, std::vector<std::string>& warnings) {
-  const auto [n_negative, n_zero] = signs_at_rest(matrix);
-  if (n_negative > 0)
-    warnings.push_back(
-        fmt::format("the cell's tangent at rest is indefinite: {} negative eigenvalues", n_negative));
-  if (n_zero > 6)
-    warnings.push_back(
-        fmt::format("the cell is a mechanism: {} zero-energy modes besides the rigid motions", n_zero - 6));
-}
-
-/// Reasons not to trust a cell: negative stiffnesses, a mechanism (more than the six rigid modes), an
-/// indefinite tangent at rest.
-std::vector<std::string> examine(const CellStiffness& stiffness, const CellVertices& vertices) {
-  std::vector<std::string> warnings;
-  for (const auto& [name, value] : {std::pair("edge springs k_e", stiffness.edge),
-                                    {"face diagonals k_f", stiffness.face_diagonal},
-                                    {"internal diagonals k_d", stiffness.internal_diagonal},
-                                    {"volume term k_v", stiffness.volume}}) {
-    if (!std::isfinite(value)) return {fmt::format("{}: the stiffness is not a finite number", name)};
-    if (value < 0) warnings.push_back(fmt::format("{}: the stiffness is negative", name));
-  }
-  examine_signs(cell_stiffness_matrix(vertices, stiffness), warnings);
-  return warnings;
-}
-
-/// The same of cells of terms, whose kinds are mirror images.
-std::vector<std::string> examine(const CellTerms& terms, const CellVertices& vertices) {
-  std::vector<std::string> warnings;
-  for (const CellSpring& spring : terms.springs)
-    if (!std::isfinite(spring.stiffness)) return {"springs: a stiffness is not a finite number"};
-  examine_signs(cell_stiffness_matrix(vertices, terms), warnings);
-  return warnings;
-}
-
 } // namespace
 
-std::vector<cases::Design> methods() {
+std::vector<cases::Design> methods(const cases::Material& material) {
   std::vector<cases::Design> all;
   for (const cases::DesignFacts& facts : cases::all_designs())
-    if (facts.source == cases::DesignSource::material) all.push_back(facts.design);
+    if (facts.source == cases::DesignSource::material &&
+        cases::is_for(facts.design, cases::is_isotropic(material)))
+      all.push_back(facts.design);
   return all;
 }
 
 cases::LinearElastic small_strain_material(const cases::Material& material) {
   if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
+  if (std::holds_alternative<cases::TransverselyIsotropic>(material))
+    throw cases::InputError(
+        "material.model: is \"transversely_isotropic\", and an isotropic material is wanted here");
   const auto& ogden = std::get<cases::Ogden>(material);
   const double mu = mechanics::shear_modulus(ogden);
   if (!ogden.bulk_modulus) return {3 * mu, 0.5};
@@ -372,6 +354,11 @@ DesignResult design(const DesignRequest& request) {
   if (options.exponent && cases::facts_of(options.design).law == cases::DesignLaw::hooke)
     refuse(request, fmt::format("design = \"{}\" fits Hooke's springs: law must be \"hooke\"",
                                 name_of(options.design)));
+  const bool is_isotropic = cases::is_isotropic(request.material);
+  if (!cases::is_for(options.design, is_isotropic))
+    refuse(request, fmt::format("design = \"{}\": must be {} with this {} material", name_of(options.design),
+                                cases::designs_for(is_isotropic),
+                                is_isotropic ? "isotropic" : "transversely isotropic"));
   Designed found = known_methods.at(options.design)(request);
   if (const auto& p = options.exponent) {
     found.stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
@@ -382,6 +369,7 @@ DesignResult design(const DesignRequest& request) {
   result.stiffness = found.stiffness;
   result.residual = found.residual;
   result.terms = std::move(found.terms);
+  result.by_fibre = found.by_fibre;
   result.moduli = result.terms ? lattice_moduli(result.terms->kinds, request.cell)
                                : lattice_moduli(result.stiffness, request.cell);
   result.warnings = result.terms ? examine(result.terms->kinds.front(), request.cell)

@@ -2,6 +2,7 @@
 
 #include "msm/cell_terms.hpp"
 #include "msm/design/linear_method.hpp"
+#include "msm/design/transverse.hpp"
 #include "msm/design/uniaxial.hpp"
 
 #include <optional>
@@ -31,6 +32,8 @@ struct DesignResult {
   /// network.
   std::optional<BodyTerms> terms{};
 
+  std::optional<NearestModuli> by_fibre{}; ///< of the transverse design, in place of the moduli's means
+
   /// Whether `stiffness` says what the springs are far from the boundary.
   bool is_of_four_stiffnesses() const { return !terms || terms->boundary == Boundary::whole; }
 };
@@ -39,8 +42,8 @@ struct DesignResult {
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 
-/// The designs that are made from a material, in the order of cases::all_designs().
-std::vector<cases::Design> methods();
+/// The designs that are made from such a material, isotropic or not, in the order of cases::all_designs().
+std::vector<cases::Design> methods(const cases::Material& material);
 
 /// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
 /// a bulk modulus.

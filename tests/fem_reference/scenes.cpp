@@ -44,6 +44,10 @@ cases::Ogden thesis_ogden() {
   return {{0.01444, 0.01444, 0.01444}, {5.7255, 5.7255, 5.7255}, std::nullopt};
 }
 
+cases::TransverselyIsotropic fibrous(const Vector3d& fibre) {
+  return {0.3, 0.1, 0.4, 0.5, 0.05, fibre.normalized()};
+}
+
 cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases::Formulation formulation,
                  cases::Element element, int cells) {
   cases::Case c;

@@ -29,7 +29,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<LoadKind>(4);
   check_names<Formulation>(4);
   check_names<Element>(5);
-  check_names<Design>(14);
+  check_names<Design>(15);
   check_names<MeasureKind>(7);
   check_names<Axis>(3);
   check_names<Component>(4);

@@ -47,7 +47,7 @@ TEST_CASE("a mistake in [material] is refused where it is made") {
        "model = 'linear_elastik'",
        9,
        "material.model",
-       {"\"linear_elastic\" | \"ogden\"", "did you mean \"linear_elastic\"?"}},
+       {"\"linear_elastic\" | \"ogden\" | \"transversely_isotropic\"", "did you mean \"linear_elastic\"?"}},
       {"youngs_modulus = 0.3",
        "youngs_modulus = 0",
        10,
@@ -102,6 +102,86 @@ TEST_CASE("a mistake in [material] is refused where it is made") {
        "material.poissons_ratio",
        {"is not a key here", "bulk_modulus"}},
   });
+}
+
+namespace {
+
+const std::string isotropic_text = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n",
+                  fibrous_text =
+                      "model = 'transversely_isotropic'\nyoungs_modulus_along = 0.3\n"
+                      "youngs_modulus_across = 0.1\nshear_modulus_along = 0.05\n"
+                      "poissons_ratio_along = 0.4\npoissons_ratio_across = 0.5\nfibre = [0, 3, 4]\n",
+                  designed_text = "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8\n",
+                  given_text = "design = 'given'\nstiffness = [1, 1, 1]\n";
+
+} // namespace
+
+TEST_CASE("a transversely isotropic material is read") {
+  const std::string text =
+      replaced(replaced(good_case, isotropic_text, fibrous_text), designed_text, given_text);
+  const auto material = std::get<TransverselyIsotropic>(read_text(text).material);
+  CHECK(material.youngs_modulus_along == 0.3);
+  CHECK(material.youngs_modulus_across == 0.1);
+  CHECK(material.shear_modulus_along == 0.05);
+  CHECK(material.poissons_ratio_along == 0.4);
+  CHECK(material.poissons_ratio_across == 0.5);
+  CHECK((material.fibre - Eigen::Vector3d(0, 0.6, 0.8)).norm() <= 1e-15);
+  const auto along_z = read_text(replaced(text, "[0, 3, 4]", "'z'"));
+  CHECK(std::get<TransverselyIsotropic>(along_z.material).fibre == Eigen::Vector3d::UnitZ());
+  CHECK(along_z.fem.formulation == Formulation::log_strain);
+
+  const auto in_text = [&](const std::string& from, const std::string& to) {
+    return read_text(replaced(text, from, to));
+  };
+  CHECK_THROWS_WITH(in_text("'log_strain'", "'saint_venant_kirchhoff'"),
+                    Catch::Contains("fem.formulation") &&
+                        Catch::Contains("\"small_strain\" | \"log_strain\" with model = "
+                                        "\"transversely_isotropic\""));
+  CHECK_NOTHROW(in_text("'log_strain'", "'small_strain'"));
+}
+
+TEST_CASE("a transversely isotropic material has designs of its own") {
+  const std::string askew = replaced(replaced(good_case, isotropic_text, fibrous_text), designed_text, ""),
+                    along_z = replaced(askew, "[0, 3, 4]", "'z'");
+  // the default is refused when springs are asked for
+  for (const std::string& text : {askew, along_z}) CHECK(read_text(text).msm.design == Design::transverse);
+  const auto with_design = [](const std::string& text, const std::string& design) {
+    return read_text(replaced(text, "[msm]\n", "[msm]\ndesign = '" + design + "'\n"));
+  };
+  CHECK_NOTHROW(with_design(along_z, "transverse"));
+  CHECK_THROWS_WITH(with_design(askew, "transverse"),
+                    Catch::Contains("msm.design") && Catch::Contains("lies along no axis of the grid"));
+  CHECK_THROWS_WITH(with_design(along_z, "hybrid"),
+                    Catch::Contains("msm.design") &&
+                        Catch::Contains("must be \"transverse\" | \"given\" | \"network\" with model = "
+                                        "\"transversely_isotropic\""));
+  const std::string isotropic = replaced(good_case, designed_text, "design = 'transverse'\n");
+  CHECK_THROWS_WITH(read_text(isotropic), Catch::Contains("msm.design") && Catch::Contains("\"hybrid\"") &&
+                                              Catch::Contains("with model = \"linear_elastic\""));
+}
+
+TEST_CASE("a transversely isotropic material must store energy in every strain") {
+  const auto mistake = [](const std::string& from, const std::string& to, const std::string& key,
+                          const std::string& bound) {
+    const std::string text =
+        replaced(replaced(good_case, isotropic_text, fibrous_text), designed_text, given_text);
+    CAPTURE(to);
+    CHECK_THROWS_WITH(read_text(replaced(text, from, to)),
+                      Catch::Contains("material." + key + ": ") && Catch::Contains(bound));
+  };
+  mistake("youngs_modulus_along = 0.3", "youngs_modulus_along = 0", "youngs_modulus_along", "above 0 (MPa)");
+  mistake("youngs_modulus_across = 0.1", "youngs_modulus_across = -1", "youngs_modulus_across",
+          "above 0 (MPa)");
+  mistake("shear_modulus_along = 0.05", "shear_modulus_along = nan", "shear_modulus_along", "above 0 (MPa)");
+  mistake("poissons_ratio_across = 0.5", "poissons_ratio_across = 1", "poissons_ratio_across", "below 1");
+  mistake("poissons_ratio_across = 0.5", "poissons_ratio_across = -1", "poissons_ratio_across", "above -1");
+  // sqrt(0.5 * 0.3/(2 * 0.1))
+  mistake("poissons_ratio_along = 0.4", "poissons_ratio_along = 0.8661", "poissons_ratio_along",
+          "b = 0.866025");
+  mistake("poissons_ratio_along = 0.4", "poissons_ratio_along = -0.8661", "poissons_ratio_along",
+          "b = 0.866025");
+  mistake("fibre = [0, 3, 4]", "fibre = [0, 0, 0]", "fibre", "not all 0");
+  mistake("fibre = [0, 3, 4]", "", "fibre", "is missing");
 }
 
 TEST_CASE("a mistake in [[region_material]] is refused where it is made") {

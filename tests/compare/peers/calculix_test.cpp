@@ -100,6 +100,9 @@ TEST_CASE(
   CHECK(reason_without_calculix(cube("tensile_small", {"fem.formulation=log_strain"})).has_value());
   CHECK_FALSE(
       reason_without_calculix(cube("tensile_small", {"fem.formulation=saint_venant_kirchhoff"})).has_value());
+  cases::Case fibrous = cube("tensile_small", {"fem.formulation=small_strain", "fem.element=q1"});
+  fibrous.material = cases::TransverselyIsotropic{0.3, 0.1, 0.4, 0.5, 0.05, Eigen::Vector3d::UnitZ()};
+  CHECK(reason_without_calculix(fibrous) == "its input has isotropic materials");
 }
 
 TEST_CASE("the last displacements of a .dat file are read, and zeros with exponents of three digits") {

@@ -30,6 +30,8 @@ std::vector<Named> formulations() {
   return {{"small_strain", point_law<SmallStrain>(elastic)},
           {"saint_venant_kirchhoff", point_law<SaintVenantKirchhoff>(elastic)},
           {"log_strain", log_strain(elastic)},
+          {"small_strain with a fibre", point_law<TransverseSmallStrain>(scenes::fibrous({1, 2, -0.5}))},
+          {"log_strain with a fibre", point_law<TransverseLogStrain>(scenes::fibrous({1, 2, -0.5}))},
           {"neo-Hooke", ogden({{0.5}, {2}, 2.})},
           {"Mooney-Rivlin", ogden({{0.3, 0.2}, {2, -2}, 2.})},
           {"Ogden", ogden({{0.1, 0.2, -0.05}, {5.7255, 0.5, -3.}, 2.})}};
@@ -104,6 +106,10 @@ TEST_CASE("a superposed rotation turns the stress and changes nothing else", "[v
 }
 
 TEST_CASE("every law has the moduli of linear elasticity at rest", "[verification]") {
+  const auto fibrous = scenes::fibrous({1, 2, -0.5});
+  const Matrix9 of_fibrous = whole_tangent(point_law<TransverseSmallStrain>(fibrous), Matrix3::Identity());
+  CHECK((whole_tangent(point_law<TransverseLogStrain>(fibrous), Matrix3::Identity()) - of_fibrous).norm() <=
+        1e-13 * of_fibrous.norm()); // rounding error
   const double mu = 0.4, kappa = 1.7;
   const cases::LinearElastic elastic{9 * kappa * mu / (3 * kappa + mu),
                                      (3 * kappa - 2 * mu) / (6 * kappa + 2 * mu)};
