@@ -33,7 +33,7 @@ struct Limits {
   long loose; ///< finite elements of other tolerances than the tight one
   long tight;
   long calculix; ///< which factorises with SPOOLES
-  long lattice;  ///< springs of cells that are assembled and factorised
+  long lattice;  ///< springs of cells that are assembled and factorised, and designs of others
 };
 constexpr Limits size_limits{60000, 400000, 10000, 30000};
 
@@ -53,8 +53,8 @@ void leave_out(Plan& plan, const std::string& what, long size, long limit) {
   plan.left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
 }
 
-/// Designs of others are there to be compared with: the tight tolerance is enough, and saves three minutes of
-/// the ten that the four cases may take.
+/// Designs of others are there to be compared with: the tight tolerance is enough, and all have the sizes that
+/// those of them have that are factorised.
 bool is_of_others(cases::Design design) {
   using D = cases::Design;
   const std::array others{D::ladd_kinney, D::baudet, D::uniform, D::van_gelder, D::lloyd, D::biquadratic};
@@ -64,9 +64,8 @@ bool is_of_others(cases::Design design) {
 void add_springs(Plan& plan, Extent extent) {
   for (const cases::Design design : msm::methods(cases::LinearElastic{}))
     for (const auto& cells : plan.levels) {
-      const bool is_on_grid = cases::facts_of(design).cells == cases::DesignCells::four_stiffnesses;
       const long size = n_unknowns(cells, Element::q1);
-      if (!is_on_grid && size > size_limits.lattice) {
+      if (is_of_others(design) && size > size_limits.lattice) {
         leave_out(plan, "springs " + cases::name_of(design) + " " + cells_name(cells), size,
                   size_limits.lattice);
         continue;
