@@ -1,6 +1,7 @@
 #include "cases/case/designs.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace springproof::cases {
 
@@ -141,6 +142,12 @@ std::vector<std::string> keys_of_designs() {
 bool takes(Design design, const std::string& key) {
   const std::vector<std::string>& keys = facts_of(design).keys;
   return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+bool is_of_others(Design design) {
+  using D = Design;
+  const std::array others{D::ladd_kinney, D::baudet, D::uniform, D::van_gelder, D::lloyd, D::biquadratic};
+  return std::find(others.begin(), others.end(), design) != others.end();
 }
 
 std::string designs_with(const std::string& key) {

@@ -58,6 +58,9 @@ std::vector<std::string> keys_of_designs();
 
 bool takes(Design design, const std::string& key);
 
+/// Whether others published the design, or ship it: a row to compare with, and none to be advised.
+bool is_of_others(Design design);
+
 /// The designs that take a key of [msm], as a message shows them: "a" | "b".
 std::string designs_with(const std::string& key);
 

@@ -53,25 +53,19 @@ void leave_out(Plan& plan, const std::string& what, long size, long limit) {
   plan.left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
 }
 
-/// Designs of others are there to be compared with: the tight tolerance is enough, and all have the sizes that
-/// those of them have that are factorised.
-bool is_of_others(cases::Design design) {
-  using D = cases::Design;
-  const std::array others{D::ladd_kinney, D::baudet, D::uniform, D::van_gelder, D::lloyd, D::biquadratic};
-  return std::find(others.begin(), others.end(), design) != others.end();
-}
-
+/// Designs of others are there to be compared with: the tight tolerance is enough, and all have the sizes
+/// that those of them have that are factorised.
 void add_springs(Plan& plan, Extent extent) {
   for (const cases::Design design : msm::methods(cases::LinearElastic{}))
     for (const auto& cells : plan.levels) {
       const long size = n_unknowns(cells, Element::q1);
-      if (is_of_others(design) && size > size_limits.lattice) {
+      if (cases::is_of_others(design) && size > size_limits.lattice) {
         leave_out(plan, "springs " + cases::name_of(design) + " " + cells_name(cells), size,
                   size_limits.lattice);
         continue;
       }
       for (const double tolerance : tolerances)
-        if ((extent == Extent::full && !is_of_others(design)) || tolerance == tight)
+        if ((extent == Extent::full && !cases::is_of_others(design)) || tolerance == tight)
           plan.variants.push_back({Program::springs, design, {}, {}, cells, tolerance});
     }
 }

@@ -12,6 +12,7 @@
 #include "compare/write/write.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace springproof::compare {
@@ -180,10 +181,15 @@ struct Appearance {
   int linetype = 0, marker = 0;
 };
 
-/// Springs have the linetypes from 2 on, a colour each; the finite elements those of 1 (small strain), 7
-/// (finite strain) and 8 (CalculiX), an element its marker.
-Appearance appearance(const Variant& v, int design_number) {
-  if (v.program == Program::springs) return {2 + design_number % 5};
+/// Springs have the linetypes 2 to 6 and 9, a colour each, designs of others the thin grey lines of 10 with a
+/// marker each; the finite elements those of 1 (small strain), 7 (finite strain) and 8 (CalculiX), an element
+/// its marker.
+/// @param number  of the design among ours, or among those of others
+Appearance appearance(const Variant& v, int number) {
+  constexpr std::array ours{2, 3, 4, 5, 6, 9}, markers{4, 6, 8, 10, 12, 14};
+  if (v.program == Program::springs && cases::is_of_others(v.design))
+    return {10, markers.at(cases::index(number) % markers.size())};
+  if (v.program == Program::springs) return {ours.at(cases::index(number) % ours.size())};
   if (v.program == Program::calculix) return {8, 1 + static_cast<int>(v.formulation)};
   const int marker = v.element == cases::Element::q1 ? 4 : v.element == cases::Element::q1_bbar ? 6 : 12;
   return {v.formulation == cases::Formulation::small_strain ? 1 : 7, marker};
@@ -200,7 +206,7 @@ struct Series {
 
 std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
   std::vector<Series> all;
-  int n_designs = 0;
+  std::array<int, 2> n_designs{}; // ours, and of others
   for (const std::string& method : methods_of(sweep)) {
     std::vector<const SweepRow*> rows;
     double tightest = 1;
@@ -210,9 +216,10 @@ std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
       tightest = std::min(tightest, row.variant.tolerance);
     }
     const Variant& first = rows.front()->variant;
-    Series series{method, appearance(first, n_designs), std::nullopt, {}, {}};
+    int& n_alike = n_designs.at(cases::is_of_others(first.design) ? 1 : 0);
+    Series series{method, appearance(first, n_alike), std::nullopt, {}, {}};
     if (first.program == Program::springs) {
-      ++n_designs;
+      ++n_alike;
       series.floor = errors_by_level(sweep, method, picture.error).back();
     }
     for (const SweepRow* row : rows) {

@@ -1,4 +1,6 @@
 # Two blocks of data a method, of its tightest tolerance and of the others, then the Pareto front. A marker of 0 is the linetype's.
+set linetype 9 lc rgb '#8B0000' lw 2 dt solid pt 15
+set linetype 10 lc rgb '#aaaaaa' lw 1 dt solid pt 4
 set title headline noenhanced
 set logscale xy
 set xlabel 'time, ms'
@@ -13,7 +15,7 @@ if (uncertainty > bottom) {
 do for [i=1:|methods|] {
   if (floors[i] > 0) { set arrow from graph 0, first floors[i] to graph 1, first floors[i] nohead lt linetypes[i] lw 1 dt 3 }
 }
-marker(i) = markers[i] > 0 ? markers[i] : int(word('7 5 9 13 11 4 6 8', linetypes[i]))
+marker(i) = markers[i] > 0 ? markers[i] : int(word('7 5 9 13 11 4 6 8 15 4', linetypes[i]))
 plot for [i=1:|methods|] data index 2*i-2 using 1:2 with linespoints lt linetypes[i] pt marker(i) title methods[i], \
   for [i=1:|methods|] data index 2*i-1 using 1:2 with points lt linetypes[i] pt marker(i) ps 0.6 notitle, \
   data index 2*|methods| using 1:2 with steps lw 3 lc rgb '#000000' dt solid title 'Pareto front', \
