@@ -30,9 +30,7 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
   options.function_tolerance = 1e-15;
   options.gradient_tolerance = 1e-13;
   options.parameter_tolerance = 1e-13;
-  const ceres::Solver::Summary summary = minimise(problem, options);
-  if (!summary.IsSolutionUsable())
-    throw cases::SolveError("bounded least squares: the minimisation failed: " + summary.message);
+  minimum_of(problem, options, "bounded least squares");
   return unit * scaled;
 }
 

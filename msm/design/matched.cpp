@@ -8,7 +8,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <ceres/normal_prior.h>
 #include <cmath>
 
 namespace springproof::msm {
@@ -74,18 +73,9 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
         new ceres::NumericDiffCostFunction<PathError, ceres::CENTRAL, 9 * n_matched_states, 3>(
             new PathError(material, path, springs, strain_range)),
         nullptr, p.data());
-  problem.AddResidualBlock(
-      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
-      nullptr, p.data());
-  for (int kind = 0; is_ogden && kind < 3; ++kind)
-    problem.SetParameterLowerBound(p.data(), kind, lowest_ogden_exponent);
-  ceres::Solver::Options options;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-10;
-  const ceres::Solver::Summary summary = minimise(problem, options);
-  if (!summary.IsSolutionUsable())
-    throw cases::SolveError("matched design: the minimisation failed: " + summary.message);
-  return {{p[0], p[1], p[2]}, 2 * summary.final_cost};
+  const double objective = minimum_over_exponents(
+      problem, p, start, is_ogden ? std::optional(lowest_ogden_exponent) : std::nullopt, "matched design");
+  return {{p[0], p[1], p[2]}, objective};
 }
 
 } // namespace springproof::msm

@@ -13,7 +13,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <ceres/dynamic_numeric_diff_cost_function.h>
-#include <ceres/normal_prior.h>
 #include <cmath>
 
 namespace springproof::msm {
@@ -217,17 +216,8 @@ MultiLoadFit fit_exponents(const Fit& fit, double start, double lowest) {
   cost->SetNumResiduals(static_cast<int>(fit.n_residuals()));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, unknowns.data(), p.data());
-  problem.AddResidualBlock(
-      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
-      nullptr, p.data());
   for (int i = 0; i < fit.n_unknowns(); ++i) problem.SetParameterLowerBound(unknowns.data(), i, 0);
-  for (int kind = 0; kind < 3; ++kind) problem.SetParameterLowerBound(p.data(), kind, lowest);
-  ceres::Solver::Options options;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-10;
-  const ceres::Solver::Summary summary = minimise(problem, options);
-  if (!summary.IsSolutionUsable())
-    throw cases::SolveError("multi-load design: the minimisation failed: " + summary.message);
+  minimum_over_exponents(problem, p, start, lowest, "multi-load design");
   return fit.result(unknowns, exponents_of(p.data()));
 }
 

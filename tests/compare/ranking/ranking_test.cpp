@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
 #include <sstream>
@@ -81,7 +82,7 @@ TEST_CASE("a ranked design has the errors that run prints of it", "[verification
     double worst = 0;
     for (std::size_t m = 0; m < run.measures.size(); ++m)
       if (run.scene.definition.measures[m].kind != cases::MeasureKind::volume)
-        worst = std::max(worst, std::abs(run.measures[m].error_percent.value()));
+        worst = larger(worst, std::abs(run.measures[m].error_percent.value()));
     REQUIRE(ranked.worst);
     CHECK(*ranked.worst == Approx(worst).margin(1e-9)); // the same solves
     CHECK(ranked.is_stable);

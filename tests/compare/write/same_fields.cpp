@@ -85,6 +85,8 @@ void compare(vtkDataSetAttributes& whole, vtkDataSetAttributes& pieces,
     for (std::size_t n = 0; n < whole_number.size(); ++n)
       for (int c = 0; c < expected.GetNumberOfComponents(); ++c) {
         const double value = expected.GetComponent(whole_number[n], c);
+        if (!std::isfinite(value) || !std::isfinite(found->GetComponent(static_cast<vtkIdType>(n), c)))
+          differ(std::string("a value that is no number, of ") + expected.GetName());
         largest = std::max(largest, std::abs(value));
         difference =
             std::max(difference, std::abs(found->GetComponent(static_cast<vtkIdType>(n), c) - value));
