@@ -70,21 +70,13 @@ vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& nodes) {
   return grid;
 }
 
-std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<PointField>& point_fields,
-                                    const std::vector<CellField>& cell_fields) {
-  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
-  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    std::array<vtkIdType, 8> nodes;
-    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
-  }
+std::string write(vtkUnstructuredGrid& grid, const std::vector<PointField>& point_fields,
+                  const std::vector<CellField>& cell_fields) {
   for (const PointField& field : point_fields)
-    grid->GetPointData()->AddArray(array_of(field.name, field.values));
-  for (const CellField& field : cell_fields)
-    grid->GetCellData()->AddArray(array_of(field.name, field.values));
+    grid.GetPointData()->AddArray(array_of(field.name, field.values));
+  for (const CellField& field : cell_fields) grid.GetCellData()->AddArray(array_of(field.name, field.values));
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(grid);
+  writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone();
@@ -94,6 +86,30 @@ std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<Point
   return writer->GetOutputString();
 }
 
+std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<PointField>& point_fields,
+                                    const std::vector<CellField>& cell_fields) {
+  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
+  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
+  for (const std::array<int, 8>& cell : mesh.cells) {
+    std::array<vtkIdType, 8> nodes;
+    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
+  }
+  return write(*grid, point_fields, cell_fields);
+}
+
+std::string write_lines(const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<std::array<int, 2>>& lines,
+                        const std::vector<PointField>& point_fields,
+                        const std::vector<CellField>& cell_fields) {
+  const vtkNew<vtkUnstructuredGrid> grid = grid_of(points);
+  grid->AllocateEstimate(static_cast<vtkIdType>(lines.size()), 2);
+  for (const std::array<int, 2>& line : lines) {
+    const std::array<vtkIdType, 2> ends{line[0], line[1]};
+    grid->InsertNextCell(VTK_LINE, 2, ends.data());
+  }
+  return write(*grid, point_fields, cell_fields);
+}
 std::vector<Eigen::Vector3d> vectors_of(vtkDataArray& array) {
   std::vector<Eigen::Vector3d> vectors(static_cast<std::size_t>(array.GetNumberOfTuples()));
   for (std::size_t p = 0; p < vectors.size(); ++p)
@@ -161,7 +177,7 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 
 } // namespace
 
-extern "C" const VtkFunctions springproof_vtk{write_unstructured_grid, read_unstructured_grid, read_triangles,
-                                              nearest_points};
+extern "C" const VtkFunctions springproof_vtk{write_unstructured_grid, write_lines, read_unstructured_grid,
+                                              read_triangles, nearest_points};
 
 } // namespace springproof::cases

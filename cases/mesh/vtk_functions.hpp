@@ -30,6 +30,10 @@ struct VtkFunctions {
   /// Content of a .vtu: doubles, appended raw.
   std::string (*write_unstructured_grid)(const HexMesh&, const std::vector<PointField>&,
                                          const std::vector<CellField>&);
+  /// The same of lines between points, which are its cells.
+  std::string (*write_lines)(const std::vector<Eigen::Vector3d>& points,
+                             const std::vector<std::array<int, 2>>& lines, const std::vector<PointField>&,
+                             const std::vector<CellField>&);
   PointCloud (*read_unstructured_grid)(const std::string& content);
   /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
   Surface (*read_triangles)(const std::string& path);

@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 
 void add_design_command(CLI::App& program, Action& chosen);
 void add_eigen_command(CLI::App& program, Action& chosen);
+void add_export_command(CLI::App& program, Action& chosen);
 void add_gate_command(CLI::App& program, Action& chosen);
 void add_merge_command(CLI::App& program, Action& chosen);
 void add_new_command(CLI::App& program, Action& chosen);

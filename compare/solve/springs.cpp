@@ -190,6 +190,11 @@ msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResul
   return msm::make_lattice(scene.mesh, *design.terms);
 }
 
+msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design) {
+  return design.terms ? assembled_lattice(scene, design)
+                      : msm::make_lattice(scene.mesh, stiffness_of_cells(design));
+}
+
 msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
                       const msm::ModelOptions& options) {
   if (design.terms) return msm::Model(scene, assembled_lattice(scene, design), options);

@@ -27,6 +27,10 @@ std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& desi
 /// The lattice of a design that is_assembled(): of cells of terms, or the scene's network.
 msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design);
 
+/// All springs of a scene as they are solved.
+/// @param design  design_for() of the scene
+msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design);
+
 /// A scene's springs, ready to be solved.  @param design  design_for() of the scene
 msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
                       const msm::ModelOptions& options = {});

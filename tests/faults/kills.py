@@ -26,6 +26,7 @@ COMMANDS = {
     "tables": ["tables", "4.1"],
     "sweep": ["sweep", "--quick", BOX],
     "design": ["design", "--neo-hookean", "0.04", "--method", "nonlinear_method"],
+    "export": ["export", CUBE, "--to", "csv"],
     "eigen": ["eigen", "--poisson", "0.35"],
 }
 

@@ -1,0 +1,52 @@
+#include "compare/app/commands.hpp"
+
+#include "compare/export/export_springs.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/solve/solve_jobs.hpp"
+
+#include <iostream>
+#include <memory>
+
+namespace springproof::compare {
+
+namespace {
+
+struct ExportOptions {
+  std::string file, target, out;
+  std::vector<std::string> settings;
+};
+
+int export_case(const ExportOptions& options) {
+  Request request;
+  request.only = cases::Side::msm;
+  const cases::Scene scene = read_questions({options.file}, options.settings, request).front().scene;
+  const ExportTarget target = *cases::value_of<ExportTarget>(options.target);
+  const std::string& name = scene.definition.name;
+  const msm::Problem problem = exported_problem(scene);
+  check_expressible(target, name, problem); // before there is a folder
+  claim_folder(options.out);
+  if (mpi_rank() != 0) return 0;
+  const std::vector<std::string> said = export_springs(options.out, target, name, problem);
+  for (const std::string& line : said) print(std::cout, "{}\n", line);
+  return 0;
+}
+
+} // namespace
+
+void add_export_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = program.add_subcommand(
+      "export", "the designed springs of a case as an explicit list, for other programs");
+  command->add_option("case", options->file, "case file (TOML)")->required();
+  command->add_option("--to", options->target, "what the springs are written for")
+      ->required()
+      ->check(CLI::IsMember(cases::all_names<ExportTarget>()));
+  command->add_option("--out", options->out, "folder for the files")->required();
+  command->add_option("--set", options->settings, "override a key: msm.design=moduli")
+      ->allow_extra_args(false);
+  command->callback([options, &chosen] { chosen = [options] { return export_case(*options); }; });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,264 @@
+#include "compare/export/export_springs.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/mesh/vtk.hpp"
+#include "compare/solve/springs.hpp"
+#include "compare/write/csv.hpp"
+#include "compare/write/json.hpp"
+
+#include <fmt/ostream.h>
+#include <map>
+
+namespace springproof::compare {
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+
+/// As many digits as bring the number back, and no more.
+std::string exact(double number) {
+  return fmt::format("{}", number);
+}
+
+std::vector<std::string> exact(const Vector3d& vector) {
+  return {exact(vector.x()), exact(vector.y()), exact(vector.z())};
+}
+
+/// 1 in the components that are constrained, else 0.
+std::vector<int> constrained(const msm::Problem& problem, std::size_t node) {
+  std::vector<int> components;
+  for (std::size_t a = 0; a < 3; ++a) components.push_back(problem.is_constrained[3 * node + a] ? 1 : 0);
+  return components;
+}
+
+/// Prescribed displacements at full load, mm.
+msm::Points prescribed(const msm::Problem& problem) {
+  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
+}
+
+std::ptrdiff_t n_power_log(const msm::Lattice& lattice) {
+  return std::count_if(lattice.links.begin(), lattice.links.end(),
+                       [](const msm::Link& link) { return link.spring.exponent.has_value(); });
+}
+
+/// What these springs have that a target cannot say.
+std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& problem) {
+  const msm::Lattice& lattice = problem.lattice;
+  std::vector<std::string> all;
+  if (target != ExportTarget::csv && !lattice.tetrahedra.empty())
+    all.push_back(fmt::format("{} tetrahedra of biquadratic springs", lattice.tetrahedra.size()));
+  if (target != ExportTarget::sofa) return all;
+  if (!lattice.volume_cells.empty())
+    all.push_back(fmt::format("the volume terms of {} cells", lattice.volume_cells.size()));
+  if (const auto n = n_power_log(lattice); n > 0) all.push_back(fmt::format("{} power-log springs", n));
+  if (problem.supports) all.push_back("moved regions");
+  return all;
+}
+
+void write_springs_csv(const std::string& folder, const msm::Lattice& lattice) {
+  write_csv_file(folder + "/springs.csv", [&](CsvWriter& csv) {
+    csv.row("node_a", "node_b", "stiffness_N_per_m", "rest_length_mm", "exponent");
+    for (const auto& [i, j, spring] : lattice.links)
+      csv.row(i, j, exact(1e3 * spring.stiffness), exact(spring.rest_length),
+              spring.exponent ? exact(*spring.exponent) : "");
+  });
+}
+
+void write_nodes_csv(const std::string& folder, const msm::Problem& problem) {
+  const msm::Points displacement = prescribed(problem), force = problem.on_all_points(problem.force);
+  write_csv_file(folder + "/nodes.csv", [&](CsvWriter& csv) {
+    csv.row("node", "x_mm", "y_mm", "z_mm", "constrained_x", "constrained_y", "constrained_z",
+            "displacement_x_mm", "displacement_y_mm", "displacement_z_mm", "force_x_N", "force_y_N",
+            "force_z_N");
+    for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n)
+      csv.row(n, exact(problem.lattice.rest[n]), constrained(problem, n), exact(displacement[n]),
+              exact(force[n]));
+  });
+}
+
+void write_volume_terms_csv(const std::string& folder, const msm::Lattice& lattice) {
+  write_csv_file(folder + "/volume_terms.csv", [&](CsvWriter& csv) {
+    csv.row("stiffness_MPa", "rest_volume_mm3", "law", "node_0", "node_1", "node_2", "node_3", "node_4",
+            "node_5", "node_6", "node_7");
+    for (const msm::VolumeCell& cell : lattice.volume_cells)
+      csv.row(exact(cell.stiffness), exact(cell.rest_volume), cell.is_logarithmic ? "logarithmic" : "linear",
+              std::vector<int>(cell.nodes.begin(), cell.nodes.end()));
+  });
+}
+
+void write_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice) {
+  std::vector<std::string> header;
+  for (int v = 0; v < 4; ++v) header.push_back(fmt::format("node_{}", v));
+  for (const auto& [a, b] : msm::tetrahedron_edges)
+    header.push_back(fmt::format("rest_length_{}{}_mm", a, b));
+  for (const auto& [a, b] : msm::tetrahedron_edges)
+    for (const auto& [c, d] : msm::tetrahedron_edges)
+      header.push_back(fmt::format("stiffness_{}{}_{}{}_N_per_mm3", a, b, c, d));
+  write_csv_file(folder + "/tetrahedra.csv", [&](CsvWriter& csv) {
+    csv.row(header);
+    for (const msm::Tetrahedron& t : lattice.tetrahedra) {
+      std::vector<std::string> values;
+      for (const double length : t.rest_lengths) values.push_back(exact(length));
+      for (Eigen::Index e = 0; e < 6; ++e)
+        for (Eigen::Index f = 0; f < 6; ++f) values.push_back(exact(t.stiffness(e, f)));
+      csv.row(std::vector<int>(t.nodes.begin(), t.nodes.end()), values);
+    }
+  });
+}
+
+std::vector<std::string> write_csv_files(const std::string& folder, const msm::Problem& problem) {
+  const msm::Lattice& lattice = problem.lattice;
+  write_nodes_csv(folder, problem);
+  write_volume_terms_csv(folder, lattice);
+  write_tetrahedra_csv(folder, lattice);
+  write_springs_csv(folder, lattice);
+  const std::size_t n_others = lattice.volume_cells.size() + lattice.tetrahedra.size();
+  const auto n_negative = std::count_if(lattice.links.begin(), lattice.links.end(),
+                                        [](const msm::Link& link) { return link.spring.stiffness < 0; });
+  std::vector<std::string> said{
+      fmt::format("springs.csv: {} springs", lattice.links.size()),
+      fmt::format("nodes.csv: {} nodes with supports and loads", lattice.rest.size()),
+      fmt::format("volume_terms.csv: {} cells", lattice.volume_cells.size()),
+      fmt::format("tetrahedra.csv: {} tetrahedra of biquadratic springs", lattice.tetrahedra.size())};
+  if (n_others > 0) said.push_back("design = \"network\" reads springs.csv alone, not the other terms");
+  if (n_negative > 0)
+    said.push_back(
+        fmt::format("{} springs have a negative stiffness, which design = \"network\" refuses", n_negative));
+  return said;
+}
+
+/// Nodes by their constrained components.
+std::map<std::vector<int>, std::vector<int>> supports(const msm::Problem& problem) {
+  std::map<std::vector<int>, std::vector<int>> by_components;
+  for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n)
+    if (const auto components = constrained(problem, n); components != std::vector<int>{0, 0, 0})
+      by_components[components].push_back(static_cast<int>(n));
+  return by_components;
+}
+
+void write_sofa_json(std::ostream& out, const std::string& name, const msm::Problem& problem) {
+  const char* comma = "";
+  const auto begin_list = [&](const char* key) {
+    fmt::print(out, ",\n\"{}\": [", key);
+    comma = "";
+  };
+  const auto next = [&] { out << std::exchange(comma, ",") << "\n"; };
+  out << "{\"schema\": 1,\n\"case\": "
+      << nlohmann::json(name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)
+      << ",\n\"units\": \"mm, N, N/mm\"";
+  begin_list("positions");
+  for (const Vector3d& x : problem.lattice.rest) next(), fmt::print(out, "[{}, {}, {}]", x.x(), x.y(), x.z());
+  out << "]";
+  begin_list("springs"); // node, node, N/mm, mm
+  for (const auto& [i, j, spring] : problem.lattice.links)
+    next(), fmt::print(out, "[{}, {}, {}, {}]", i, j, spring.stiffness, spring.rest_length);
+  out << "]";
+  begin_list("supports");
+  for (const auto& [components, nodes] : supports(problem))
+    next(), fmt::print(out, "{{\"directions\": [{}], \"nodes\": [{}]}}", fmt::join(components, ", "),
+                       fmt::join(nodes, ", "));
+  out << "]";
+  begin_list("loads"); // node, N
+  for (const auto& [node, f] : problem.force)
+    if (f != Vector3d::Zero()) next(), fmt::print(out, "[{}, {}, {}, {}]", node, f.x(), f.y(), f.z());
+  out << "]}\n";
+}
+
+std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
+                                          const msm::Problem& problem) {
+  write_file(folder + "/scene.json", [&](std::ostream& out) { write_sofa_json(out, name, problem); });
+  const std::string program = read_file(SPRINGPROOF_EXPORT_DIR "/sofa_scene.py");
+  write_file(folder + "/scene.py", [&](std::ostream& out) { out << program; });
+  return {fmt::format("scene.json: {} nodes, {} springs, supports, loads; mm, N, N/mm",
+                      problem.lattice.rest.size(), problem.lattice.links.size()),
+          "scene.py: reads scene.json; runSofa scene.py (SOFA v24.06 or newer, with SofaPython3)"};
+}
+
+std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Problem& problem) {
+  const msm::Lattice& lattice = problem.lattice;
+  std::vector<std::array<int, 2>> ends;
+  std::vector<double> stiffness, rest_length, kind, is_power_log, exponent;
+  for (const int number : kinds_of_links(problem.mesh, lattice.links)) kind.push_back(number);
+  for (const auto& [i, j, spring] : lattice.links) {
+    ends.push_back({i, j});
+    stiffness.push_back(spring.stiffness);
+    rest_length.push_back(spring.rest_length);
+    is_power_log.push_back(spring.exponent ? 1 : 0);
+    exponent.push_back(spring.exponent.value_or(0));
+  }
+  msm::Points is_constrained;
+  for (std::size_t n = 0; n < lattice.rest.size(); ++n) {
+    const std::vector<int> components = constrained(problem, n);
+    is_constrained.emplace_back(components[0], components[1], components[2]);
+  }
+  const std::string content = cases::vtk().write_lines(lattice.rest, ends,
+                                                       {{"constrained", is_constrained},
+                                                        {"prescribed_displacement", prescribed(problem)},
+                                                        {"force", problem.on_all_points(problem.force)}},
+                                                       {{"kind", kind},
+                                                        {"stiffness", stiffness},
+                                                        {"rest_length", rest_length},
+                                                        {"is_power_log", is_power_log},
+                                                        {"exponent", exponent}});
+  write_file(folder + "/springs.vtu", [&](std::ostream& out) { out << content; });
+  std::vector<std::string> said{
+      fmt::format("springs.vtu: {} springs as lines (N/mm, mm)", lattice.links.size())};
+  if (!lattice.volume_cells.empty())
+    said.push_back(fmt::format("not in it: the volume terms of {} cells (--to csv writes them)",
+                               lattice.volume_cells.size()));
+  return said;
+}
+
+} // namespace
+
+msm::Problem exported_problem(const cases::Scene& scene) {
+  msm::Problem problem = msm::make_problem(scene);
+  problem.lattice = solved_lattice(scene, design_for(scene));
+  return problem;
+}
+
+void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem) {
+  const std::vector<std::string> missing = inexpressible(target, problem);
+  if (!missing.empty())
+    throw cases::InputError(fmt::format(
+        "export: --to {} cannot express {} of the case '{}'; --to csv can, and --set msm.design=moduli makes "
+        "springs alone",
+        cases::name_of(target), fmt::join(missing, ", "), one_line(name)));
+}
+
+std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
+                                        const std::string& name, const msm::Problem& problem) {
+  if (target == ExportTarget::csv) return write_csv_files(folder, problem);
+  if (target == ExportTarget::sofa) return write_sofa_files(folder, name, problem);
+  return write_vtu_file(folder, problem);
+}
+
+std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
+  struct Pair {
+    int i, j, kind;
+    bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
+  };
+  std::vector<Pair> pairs;
+  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
+    for (const auto& vertices : of_kind) {
+      const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
+      pairs.push_back({i, j, kind});
+    }
+  };
+  for (const std::array<int, 8>& cell : mesh.cells) {
+    add(cell, cases::cell_edges, 1);
+    add(cell, cases::cell_face_diagonals, 2);
+    add(cell, cases::cell_internal_diagonals, 3);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<int> kinds;
+  for (const msm::Link& link : links) {
+    const Pair wanted{link.i, link.j, 0};
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), wanted);
+    kinds.push_back(found != pairs.end() && !(wanted < *found) ? found->kind : 0);
+  }
+  return kinds;
+}
+
+} // namespace springproof::compare

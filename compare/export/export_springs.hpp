@@ -1,0 +1,33 @@
+#pragma once
+
+#include "cases/case/names.hpp"
+#include "msm/problem.hpp"
+
+/// A case's designed springs for other programs, as an explicit list. No force is left out in silence: what a
+/// target has no words for is refused by check_expressible(), or named in what export_springs() returns.
+namespace springproof::compare {
+
+SPRINGPROOF_ENUMERATION(ExportTarget, sofa, csv, vtu)
+
+/// The lattice, supports and loads of a scene.
+/// @throws InputError when no springs can be designed
+msm::Problem exported_problem(const cases::Scene& scene);
+
+/// @param name  of the case
+/// @throws InputError if the target cannot express the springs, with everything that it cannot
+void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem);
+
+/// Writes the files of a target, each whole or not at all:
+///   csv   springs.csv as design = "network" reads it; nodes.csv, volume_terms.csv, tetrahedra.csv
+///   sofa  scene.py, a program that is the same for every case, and its data scene.json
+///   vtu   springs.vtu: lines with stiffness, rest length and kind; supports and loads at points
+/// @param problem  which the target can express (check_expressible)
+/// @return what was written, and what the files do not hold, a line each
+std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
+                                        const std::string& name, const msm::Problem& problem);
+
+/// Of every link the kind of spring that it is in the mesh's cells: 1 an edge, 2 a face diagonal, 3 an
+/// internal diagonal; 0 for a link of a network that is none of these.
+std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links);
+
+} // namespace springproof::compare

@@ -1,0 +1,184 @@
+#include "compare/export/export_springs.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/provenance/call_program.hpp"
+#include "compare/provenance/machine.hpp"
+#include "tests/support/largest.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <random>
+
+using namespace springproof;
+
+using compare::ExportTarget;
+
+namespace {
+
+/// A cuboid of 3 x 2 x 2 cells under the thesis's small shear.
+msm::Problem springs_of(std::vector<std::string> settings) {
+  settings.insert(settings.end(), {"body.size=[3, 2, 2]", "body.cells=[3, 2, 2]"});
+  return compare::exported_problem(cases::make_scene(
+      cases::read_case(compare::cases_folder() + "/thesis/linear_elastic/cube_shear_small.toml", settings)));
+}
+
+/// Every node moved by up to 0.15 mm in each direction, of cells of 1 mm.
+msm::Points any_displacement(std::size_t n_nodes) {
+  std::mt19937 generator(20261122);
+  const auto any = [&] { return 0.3 * (double(generator()) / 4294967295.0) - 0.15; };
+  msm::Points displacement;
+  for (std::size_t n = 0; n < n_nodes; ++n) {
+    const double x = any(), y = any(), z = any();
+    displacement.emplace_back(x, y, z);
+  }
+  return displacement;
+}
+
+/// For rebuild_forces.py.
+std::string state_of(const msm::Problem& problem, const msm::Points& displacement) {
+  const msm::Points force = msm::internal_force_at(problem.lattice, displacement),
+                    load = problem.on_all_points(problem.force);
+  std::string text;
+  for (std::size_t n = 0; n < displacement.size(); ++n) {
+    std::vector<double> line;
+    for (const Eigen::Vector3d& of : {displacement[n], force[n]})
+      line.insert(line.end(), of.data(), of.data() + 3);
+    for (std::size_t a = 0; a < 3; ++a) line.push_back(problem.is_constrained[3 * n + a]);
+    line.insert(line.end(), load[n].data(), load[n].data() + 3);
+    text += fmt::format("{}\n", fmt::join(line, ","));
+  }
+  return text;
+}
+
+/// Exports a problem and has its forces rebuilt by a program that knows the files alone.
+void check_rebuilt(ExportTarget target, const msm::Problem& problem) {
+  const TemporaryFolder folder;
+  compare::export_springs(folder.path, target, "cube", problem);
+  const std::string state =
+      folder.write("state", state_of(problem, any_displacement(problem.lattice.rest.size())));
+  const auto end =
+      compare::call_program({{"python3", SPRINGPROOF_SOURCE_DIR "/tests/compare/export/rebuild_forces.py",
+                              folder.path.string(), cases::name_of(target), state},
+                             folder.path.string(),
+                             {}});
+  REQUIRE(end.has_value());
+  INFO(end->said);
+  CHECK(end->status == 0);
+}
+
+} // namespace
+
+TEST_CASE("a program that knows the exported files alone rebuilds the springs' forces", "[verification]") {
+  const std::vector<std::vector<std::string>> springs_alone{
+      {"msm.design=moduli"},
+      {"msm.design=uniform"},
+      {"msm.design=van_gelder"},
+      {"msm.design=given", "msm.axis_stiffness=[30, 40, 50, 20, 25, 30, 35]"},
+      {"fixed=[{region='z-', components=['x', 'z']}, {region='z- x-'}]"}};
+  for (const auto& settings : springs_alone) {
+    INFO(fmt::format("{}", fmt::join(settings, " ")));
+    const msm::Problem problem = springs_of(settings);
+    for (const ExportTarget target : {ExportTarget::csv, ExportTarget::sofa, ExportTarget::vtu})
+      check_rebuilt(target, problem);
+  }
+}
+
+TEST_CASE("the CSV files hold volume terms, exponents, tetrahedra and moved regions too", "[verification]") {
+  const std::vector<std::vector<std::string>> other_terms{
+      {"msm.design=hybrid"},
+      {"msm.design=matched"},
+      {"msm.design=biquadratic"},
+      {"moved=[{region='z+', displacement=[0, 0, 0.1], components=['z']}]"}};
+  for (const auto& settings : other_terms) {
+    INFO(settings.front());
+    check_rebuilt(ExportTarget::csv, springs_of(settings));
+  }
+  check_rebuilt(ExportTarget::vtu,
+                springs_of({"msm.design=moduli", "msm.law=power_log", "msm.exponent=-1.5"}));
+}
+
+TEST_CASE("exported springs are read back as a network of the same forces", "[verification]") {
+  for (const std::string design : {"linear_method", "matched"}) {
+    const TemporaryFolder folder;
+    msm::Problem problem = springs_of({"msm.design=" + design});
+    compare::export_springs(folder.path, ExportTarget::csv, "cube", problem);
+    problem.lattice.volume_cells.clear(); // the network's springs are Hooke's and power-log ones alone
+    const msm::Lattice network =
+        msm::network_lattice(problem.mesh, cases::read_network(content(folder.path / "springs.csv"),
+                                                               "springs.csv", problem.mesh.nodes.size()));
+    CHECK(network.links.size() == problem.lattice.links.size());
+    const msm::Points at = any_displacement(problem.mesh.nodes.size()),
+                      expected = msm::internal_force_at(problem.lattice, at),
+                      found = msm::internal_force_at(network, at);
+    double largest = 0, difference = 0;
+    for (std::size_t n = 0; n < at.size(); ++n) {
+      largest = larger(largest, expected[n].norm());
+      difference = larger(difference, (found[n] - expected[n]).norm());
+    }
+    CHECK(difference <= 1e-14 * largest); // N/m and back rounds twice
+  }
+}
+
+TEST_CASE("targets have the names of the command line") {
+  CHECK(cases::all_names<ExportTarget>() == std::vector<std::string>{"sofa", "csv", "vtu"});
+}
+
+TEST_CASE("what a target cannot express is refused with its names") {
+  const auto [setting, target, message] = GENERATE(table<std::string, ExportTarget, std::string>({
+      {"msm.design=hybrid", ExportTarget::sofa, "--to sofa cannot express the volume terms of 12 cells"},
+      {"msm.design=matched", ExportTarget::sofa, "the volume terms of 12 cells, 227 power-log springs"},
+      {"msm.design=biquadratic", ExportTarget::sofa, "60 tetrahedra of biquadratic springs"},
+      {"msm.design=biquadratic", ExportTarget::vtu, "60 tetrahedra of biquadratic springs"},
+      {"moved=[{region='z+', displacement=[0, 0, 0.1], components=['z']}]", ExportTarget::sofa,
+       "moved regions"},
+  }));
+  CHECK_THROWS_WITH(compare::check_expressible(target, "cube", springs_of({setting})),
+                    Catch::Contains(message) && Catch::Contains("'cube'"));
+}
+
+TEST_CASE("what a file does not hold is said") {
+  const TemporaryFolder folder;
+  const auto said = [&](ExportTarget target, const msm::Problem& problem) {
+    return fmt::format("{}", fmt::join(compare::export_springs(folder.path, target, "cube", problem), "\n"));
+  };
+  msm::Problem hybrid = springs_of({"msm.design=hybrid"});
+  CHECK_THAT(said(ExportTarget::vtu, hybrid), Catch::Contains("not in it: the volume terms of 12 cells"));
+  CHECK_THAT(said(ExportTarget::csv, hybrid),
+             Catch::Contains("reads springs.csv alone") && !Catch::Contains("refuses"));
+  hybrid.lattice.links.front().spring.stiffness *= -1;
+  CHECK_THAT(said(ExportTarget::csv, hybrid), Catch::Contains("1 springs have a negative stiffness"));
+}
+
+TEST_CASE("a case's name is data of a SOFA scene and no part of its program") {
+  const TemporaryFolder plain, hostile;
+  const msm::Problem problem = springs_of({"msm.design=moduli"});
+  const std::string name = "# coding: utf-7\n\"\"\"\nimport os; os.abort()\n'''\u2028\\";
+  compare::export_springs(plain.path, ExportTarget::sofa, "cube", problem);
+  compare::export_springs(hostile.path, ExportTarget::sofa, name, problem);
+  CHECK(content(hostile.path / "scene.py") == content(plain.path / "scene.py"));
+  const std::string data = content(hostile.path / "scene.json");
+  CHECK(nlohmann::json::parse(data)["case"] == name);
+  CHECK(std::all_of(data.begin(), data.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+}
+
+TEST_CASE("an export that is refused leaves no folder, and one that is not says what it wrote") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  const std::string command =
+      "export " + compare::cases_folder() + "/thesis/linear_elastic/cube_shear_small.toml --out " + out;
+  const ProgramRun refused = run_program(command + " --to sofa --set msm.design=hybrid");
+  CHECK(refused.status == 2);
+  CHECK(refused.out.empty());
+  CHECK(std::count(refused.error.begin(), refused.error.end(), '\n') == 1);
+  CHECK_FALSE(std::filesystem::exists(out));
+  const ProgramRun written = run_program(command + " --to csv");
+  CHECK(written.status == 0);
+  CHECK(written.error.empty());
+  CHECK(written.out.rfind("springs.csv: 14230 springs\n", 0) == 0); // 28 a cell, shared ones once
+  for (const char* file : {"springs.csv", "nodes.csv", "volume_terms.csv", "tetrahedra.csv"})
+    CHECK(std::filesystem::exists(out + "/" + file));
+}
