@@ -23,16 +23,22 @@ std::size_t Assembly::dof(int cell, std::size_t k) const {
   return 3 * index(discretisation_.nodes.of_cell[index(cell) * n + k % n]) + k / n;
 }
 
+CellKernel& Assembly::kernel(int cell) const {
+  const auto& material = discretisation_.material_of_cell;
+  return *kernels_[material.empty() ? 0 : index(material[index(cell)])];
+}
+
+const double* Assembly::pressure(int cell, const State& state) const {
+  return state.data() + n_displacements() + cell * discretisation_.element.n_pressure_modes;
+}
+
 const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted) {
   const auto& d = discretisation_;
   const auto n = index(d.nodes.per_cell);
   for (std::size_t a = 0; a < n; ++a)
     std::copy_n(state.data() + 3 * d.nodes.of_cell[index(cell) * n + a], 3,
                 cell_displacement_.data() + 3 * a);
-  const auto& material = d.material_of_cell;
-  return kernels_[material.empty() ? 0 : index(material[index(cell)])]->evaluate(
-      d.geometry.of(cell), cell_displacement_.data(),
-      state.data() + n_displacements() + cell * d.element.n_pressure_modes, wanted);
+  return kernel(cell).evaluate(d.geometry.of(cell), cell_displacement_.data(), pressure(cell, state), wanted);
 }
 
 /// Rows and columns of constrained degrees of freedom are left out.
@@ -112,6 +118,18 @@ std::vector<double> Assembly::cell_volumes(const State& state) {
   for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
     volumes.push_back(evaluate(cell, state, Wanted::stress).volume);
   return volumes;
+}
+
+void Assembly::add_fields(const State& state, int n_refinements, ElementFields& fields) {
+  const auto& d = discretisation_;
+  for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
+    const CellResult& result = evaluate(cell, state, Wanted::stress);
+    const CellGeometry geometry = d.geometry.of(cell);
+    const double* displacement = cell_displacement_.data();
+    fields.add({place_of(index(d.nodes.mesh_cell[index(cell)]), n_refinements), geometry, displacement,
+                result.plain_force.data(), result.volume,
+                kernel(cell).energy(geometry, displacement, pressure(cell, state))});
+  }
 }
 
 } // namespace springproof::fem_reference

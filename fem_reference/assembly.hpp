@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/discretisation.hpp"
+#include "fem_reference/element_fields.hpp"
 #include "fem_reference/laws/formulation.hpp"
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
@@ -31,11 +32,16 @@ class Assembly {
   void pressures_are_balanced();
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state);
+  /// Adds this rank's cells to fields on the body's own mesh.
+  /// @param n_refinements  of the discretisation's mesh
+  void add_fields(const State& state, int n_refinements, ElementFields& fields);
 
   std::size_t n_pressures() const { return pressure_residual_.size(); }
   Mat tangent() const { return tangent_.get(); }
 
  private:
+  CellKernel& kernel(int cell) const;
+  const double* pressure(int cell, const State& state) const;
   const CellResult& evaluate(int cell, const State& state, Wanted wanted);
   void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
                    const WriteEntries& condensed);

@@ -66,6 +66,10 @@ class CellKernel {
   /// @return valid until the next call
   const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* pressure,
                              Wanted wanted);
+  /// Strain energy of the cell in a state that evaluate() finds valid, N mm; with pressure modes, of the
+  /// volume ratios that belong to the pressures.
+  virtual double energy(const CellGeometry& geometry, const double* displacement,
+                        const double* pressure) const = 0;
 
  protected:
   /// Calls add_point() for every point.  @return false at one that is inverted or not a number

@@ -53,6 +53,16 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
   n_cells = static_cast<int>(mesh_cell.size());
 }
 
+std::vector<Vector3d> Nodes::in_unit_cube() const {
+  std::vector<Vector3d> nodes;
+  for (const std::vector<int>& vertices : between) {
+    Vector3d sum = Vector3d::Zero();
+    for (const int v : vertices) sum += Vector3d(v & 1, v >> 1 & 1, v >> 2);
+    nodes.push_back(sum / static_cast<double>(vertices.size()));
+  }
+  return nodes;
+}
+
 Vector Nodes::make_vector(MPI_Comm communicator) const {
   const auto n_ghosts = static_cast<PetscInt>(global.size()) - n_owned;
   Vector vector(get<Vec>(VecCreateGhostBlock, communicator, 3, 3 * n_owned, PETSC_DECIDE, n_ghosts,

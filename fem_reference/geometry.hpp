@@ -32,6 +32,9 @@ struct Nodes {
   std::vector<Eigen::Vector3d> point; ///< rest position of each local node, mm
   std::vector<std::vector<int>> between; ///< for each node of a cell: the cell's vertices whose mean it is
 
+  /// The nodes of a cell in its unit cube.
+  std::vector<Eigen::Vector3d> in_unit_cube() const;
+
   /// A vector of displacements or forces with ghosts, zero.
   Vector make_vector(MPI_Comm communicator) const;
 };

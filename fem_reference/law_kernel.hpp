@@ -12,6 +12,20 @@ class LawKernel final : public CellKernel {
  public:
   LawKernel(const ElementType& element, Law law) : CellKernel(element), law_(std::move(law)) {}
 
+  double energy(const CellGeometry& g, const double* displacement, const double* pressure) const override {
+    double sum = 0;
+    for (int q = 0; q < g.n_points; ++q) {
+      const Matrix3 f = deformation_gradient(g, q, displacement);
+      double density = law_.energy(f);
+      if constexpr (Law::traits.split == Split::pressure)
+        density += law_.volume_energy(element_.pressure == Pressure::pointwise
+                                          ? volume_ratio(kinematics, f)
+                                          : law_.volume_ratio(interpolated(g, q, pressure)).value);
+      sum += g.weights[q] * density;
+    }
+    return sum;
+  }
+
  private:
   static constexpr Kinematics kinematics = Law::traits.kinematics;
 
@@ -35,12 +49,17 @@ class LawKernel final : public CellKernel {
     return true;
   }
 
-  /// With modes the pressure is interpolated and its slope left to condensation.
-  ValueAndSlope pressure_at(const CellGeometry& g, int q, double ratio, const double* pressure) {
-    if (element_.pressure == Pressure::pointwise) return law_.pressure(ratio);
+  double interpolated(const CellGeometry& g, int q, const double* pressure) const {
     double p = 0;
     for (int m = 0; m < element_.n_pressure_modes; ++m)
       p += g.modes[q * element_.n_pressure_modes + m] * pressure[m];
+    return p;
+  }
+
+  /// With modes the pressure is interpolated and its slope left to condensation.
+  ValueAndSlope pressure_at(const CellGeometry& g, int q, double ratio, const double* pressure) {
+    if (element_.pressure == Pressure::pointwise) return law_.pressure(ratio);
+    const double p = interpolated(g, q, pressure);
     target_[static_cast<std::size_t>(q)] = law_.volume_ratio(p);
     return {p, 0};
   }

@@ -1,10 +1,12 @@
 #include "fem_reference/model.hpp"
 
+#include "fem_reference/cuboid.hpp"
 #include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/ranks/share_out.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deal.II/base/mpi.h>
 
@@ -60,6 +62,7 @@ struct Model::Implementation {
   virtual ~Implementation() = default;
   virtual cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) = 0;
   virtual void back_to_rest() = 0;
+  virtual cases::Fields fields(const cases::Sharing* sharing) = 0;
   virtual std::vector<NodeDisplacement> node_displacements() const = 0;
 };
 
@@ -77,6 +80,7 @@ struct Model::Assembled : Model::Implementation {
     last = equations.rest();
     last_load_factor = 0;
   }
+  cases::Fields fields(const cases::Sharing* sharing) override;
   std::vector<NodeDisplacement> node_displacements() const override;
 
   cases::Scene scene;                    ///< on the body's own mesh
@@ -108,6 +112,19 @@ std::vector<cases::Numbered<double>> Model::Assembled::body_cell_volumes() {
   return volumes;
 }
 
+cases::Fields Model::Assembled::fields(const cases::Sharing* sharing) {
+  cases::Range cells;
+  const int shift = 3 * scene.definition.fem.refine;
+  for (const int number : discretisation.nodes.mesh_cell) {
+    const std::size_t cell = index(number >> shift);
+    if (cells.size() == 0) cells = {cell, cell + 1};
+    cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
+  }
+  ElementFields sums(scene, formulations.front().kinematics, discretisation.nodes.in_unit_cube(), cells);
+  equations.add_fields(last, scene.definition.fem.refine, sums);
+  return sums.fields(sharing, last_load_factor);
+}
+
 struct Model::OnGrid : Model::Implementation {
   OnGrid(const cases::Scene& scene, MPI_Comm the_communicator, bool may_assemble)
       : communicator(the_communicator), may_assemble_instead(may_assemble), model(scene, communicator, 1) {}
@@ -116,6 +133,7 @@ struct Model::OnGrid : Model::Implementation {
     model.back_to_rest();
     if (assembled) assembled->back_to_rest();
   }
+  cases::Fields fields(const cases::Sharing* sharing) override;
   std::vector<NodeDisplacement> node_displacements() const override {
     if (assembled) return assembled->node_displacements();
     std::vector<NodeDisplacement> nodes;
@@ -128,6 +146,33 @@ struct Model::OnGrid : Model::Implementation {
   grid::GridModel model;
   std::unique_ptr<Assembled> assembled; ///< once the grid's multigrid was found not to serve
 };
+
+/// By the same kernels as the assembled backend's, one element at a time.
+cases::Fields Model::OnGrid::fields(const cases::Sharing* sharing) {
+  if (assembled) return assembled->fields(sharing);
+  const cases::Scene& scene = model.scene();
+  const std::vector<Formulation> formulations = formulations_of(scene);
+  const ElementType type = element_type(scene.definition.fem, formulations.front());
+  const Cuboid cuboid(type, scene.mesh.grid->spacing / (1 << scene.definition.fem.refine));
+  const CellGeometry geometry = cuboid.geometry();
+  std::vector<std::unique_ptr<CellKernel>> kernels;
+  for (const Formulation& formulation : formulations) kernels.push_back(formulation.make_kernel(type));
+  ElementFields sums(scene, formulations.front().kinematics, cuboid.nodes(), model.cells(sharing));
+  model.for_each_element(sharing, [&](const grid::GridModel::Element& element) {
+    CellKernel& kernel = *kernels[index(cases::material_of(scene, element.cell))];
+    const double* displacement = element.displacement.data();
+    const CellResult& result = kernel.evaluate(geometry, displacement, &element.pressure, Wanted::stress);
+    const double edge = 1. / element.n_parts;
+    const Eigen::Vector3d lower = edge * Eigen::Vector3d(element.part[0], element.part[1], element.part[2]);
+    sums.add({{element.cell, lower, edge},
+              geometry,
+              displacement,
+              result.plain_force.data(),
+              result.volume,
+              kernel.energy(geometry, displacement, &element.pressure)});
+  });
+  return sums.fields(sharing, model.load_factor());
+}
 
 /// Where the path fails, and multigrid fails the body at rest too or is known to, the body is not to blame.
 cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumSettings settings) {
@@ -188,6 +233,10 @@ cases::Solution Model::Assembled::solve(double load_factor, mechanics::Equilibri
     solution.negative_eigenvalues = equations.negative_eigenvalues();
   solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement, sharing);
   return solution;
+}
+
+cases::Fields Model::fields(const cases::Sharing* sharing) {
+  return implementation_->fields(sharing);
 }
 
 std::vector<NodeDisplacement> Model::node_displacements() const {

@@ -50,6 +50,10 @@ class Model {
   cases::Solution solve_again(double load_factor,
                               const mechanics::EquilibriumSettings& settings = default_settings());
 
+  /// Stress, strain, energy and reactions in the equilibrium last found, on the body's own mesh. Collective.
+  /// @param sharing  of its solution
+  cases::Fields fields(const cases::Sharing* sharing);
+
   /// Of every node of the elements, those between vertices too, in the equilibrium last found; in any order.
   std::vector<NodeDisplacement> node_displacements() const;
 

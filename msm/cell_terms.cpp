@@ -65,20 +65,33 @@ void set_exponents(CellTerms& terms, const Exponents& exponents) {
   terms.is_logarithmic = true;
 }
 
-Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms) {
+void for_each_cell(const cases::HexMesh& mesh, const BodyTerms& terms, const cases::Range& cells,
+                   const std::function<void(std::size_t, const CellTerms&)>& action) {
   assert(terms.kind_of_cell.empty() || terms.kind_of_cell.size() == mesh.cells.size());
   const bool is_whole = terms.boundary == Boundary::whole;
   const auto n_cells = is_whole ? count_cells(mesh, terms) : std::map<std::pair<int, int>, int>();
+  for (std::size_t c = cells.begin; c < cells.end; ++c) {
+    const CellTerms& of_kind = terms_of_cell(terms, c);
+    if (!is_whole) {
+      action(c, of_kind);
+      continue;
+    }
+    CellTerms own = of_kind;
+    for (CellSpring& spring : own.springs)
+      spring.stiffness *= double(n_cells_inside(spring)) / n_cells.at(nodes_of(mesh.cells[c], spring));
+    action(c, own);
+  }
+}
+
+Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms) {
   Lattice lattice;
   lattice.rest = mesh.nodes.to_vector();
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+  for_each_cell(mesh, terms, {0, mesh.cells.size()}, [&](std::size_t c, const CellTerms& of_cell) {
     const std::array<int, 8> cell = mesh.cells[c];
-    const CellTerms& of_cell = terms_of_cell(terms, c);
     for (const CellSpring& spring : of_cell.springs) {
       const auto nodes = nodes_of(cell, spring);
-      const double share = is_whole ? double(n_cells_inside(spring)) / n_cells.at(nodes) : 1;
       if (spring.stiffness != 0)
-        lattice.links.push_back({nodes.first, nodes.second, {share * spring.stiffness, 0, spring.exponent}});
+        lattice.links.push_back({nodes.first, nodes.second, {spring.stiffness, 0, spring.exponent}});
     }
     for (const CellTetrahedron& tetrahedron : of_cell.tetrahedra)
       lattice.tetrahedra.push_back(make_tetrahedron(cases::pick(cell, tetrahedron.vertices), lattice.rest,
@@ -86,7 +99,7 @@ Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms) {
     if (of_cell.volume != 0)
       lattice.volume_cells.push_back(
           {cell, of_cell.volume, cases::cell_volume(cases::cell_vertices(mesh, c)), of_cell.is_logarithmic});
-  }
+  });
   finish_links(lattice);
   return lattice;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "cases/case/names.hpp"
+#include "cases/mesh/sharing.hpp"
 #include "msm/lattice.hpp"
+
+#include <functional>
 
 /// Cells that are more than four stiffnesses: springs between any two vertices, each with a law of its own,
 /// tetrahedra of biquadratic springs, a volume term. Bodies of them are assembled; the grid's kernels know
@@ -54,6 +57,10 @@ int n_axes(const CellSpring& spring);
 
 /// Springs get the exponent of their kind, the volume term is logarithmic.
 void set_exponents(CellTerms& terms, const Exponents& exponents);
+
+/// Calls action(number, terms) for cells in ascending order, each spring with the cell's part of its link.
+void for_each_cell(const cases::HexMesh& mesh, const BodyTerms& terms, const cases::Range& cells,
+                   const std::function<void(std::size_t, const CellTerms&)>& action);
 
 /// The lattice of a body of such cells. Springs and volume terms of stiffness 0 are left out.
 Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms);

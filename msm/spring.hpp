@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mechanics/ramp_integral.hpp"
+
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
@@ -20,16 +22,9 @@ inline double log_stretch(double length, const Spring& spring) {
   return std::log1p((length - spring.rest_length) / spring.rest_length);
 }
 
-/// The integral of q^p ln q from 1, of y = ln q:  (e^x (x - 1) + 1)/x² y², x = (p + 1) y, and y²/2 at x = 0.
+/// The integral of q^p ln q from 1, of y = ln q:  y² times ramp_integral((p + 1) y).
 inline double power_log_integral(double log, double exponent) {
-  const double x = (exponent + 1) * log;
-  if (!(std::abs(x) < 1)) return (std::exp(x) * (x - 1) + 1) / (x * x) * log * log;
-  double ratio = 0.5, term = 0.5; // x^n (n + 1)/(n + 2)!: there the difference has no digits left
-  for (int n = 1; n <= 18; ++n) {
-    term *= x / (n + 2);
-    ratio += (n + 1) * term;
-  }
-  return ratio * log * log;
+  return mechanics::ramp_integral((exponent + 1) * log) * log * log;
 }
 
 /// Energy of a spring: Hooke's is k/2 (|d| - l0)².  @param d  x_j - x_i, mm  @return N mm

@@ -67,6 +67,13 @@ double biquadratic_energy(const TetrahedronPositions& x, const EdgeValues& rest_
   return 0.5 * changes.dot(stiffness * changes);
 }
 
+EdgeValues biquadratic_tensions(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
+                                const EdgeMatrix& stiffness) {
+  EdgeValues tensions = 2 * stiffness * squared_length_changes(x, rest_lengths);
+  for_each_edge(x, [&](Eigen::Index e, int, int, const Vector3d& d) { tensions[e] *= d.norm(); });
+  return tensions;
+}
+
 TetrahedronPositions biquadratic_forces(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
                                         const EdgeMatrix& stiffness) {
   const EdgeValues tension = stiffness * squared_length_changes(x, rest_lengths);

@@ -35,6 +35,11 @@ EdgeValues squared_length_changes(const TetrahedronPositions& x, const EdgeValue
 double biquadratic_energy(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
                           const EdgeMatrix& stiffness);
 
+/// Tensions of the edges, N: each pulls its ends together with 2 (K Delta)_e l_e, below 0 when they are
+/// pushed apart.
+EdgeValues biquadratic_tensions(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
+                                const EdgeMatrix& stiffness);
+
 /// Forces on the vertices, N: minus the gradient of the energy.
 TetrahedronPositions biquadratic_forces(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
                                         const EdgeMatrix& stiffness);

@@ -200,18 +200,31 @@ struct Msm {
 };
 
 SPRINGPROOF_ENUMERATION(MeasureKind, coordinate, displacement, tilt, twist, volume, displacement_field_l2,
-                        displacement_field_max)
+                        displacement_field_max, reaction, strain_energy, stress, strain)
+
+/// Whether a measure is one of Solution::fields, which a displacement alone does not tell.
+constexpr bool is_of_fields(MeasureKind kind) {
+  return kind == MeasureKind::reaction || kind == MeasureKind::strain_energy || kind == MeasureKind::stress ||
+         kind == MeasureKind::strain;
+}
 SPRINGPROOF_ENUMERATION(Component, x, y, z, norm)
+/// Of a symmetric tensor. principal_1 is its largest eigenvalue, principal_3 its smallest.
+SPRINGPROOF_ENUMERATION(TensorComponent, xx, yy, zz, xy, yz, xz, von_mises, principal_1, principal_2,
+                        principal_3)
 
 struct Measure {
   std::string name;
   MeasureKind kind;
   Region node;         ///< coordinate, displacement, twist: exactly one node
   Axis axis = Axis::z; ///< coordinate; twist: the axis looked along (thesis: beta is seen along z)
-  Component component = Component::norm; ///< displacement
+  Component component = Component::norm; ///< displacement, reaction
   Region top, bottom;                    ///< tilt: one node each
   Axis toward = Axis::x; ///< tilt: atan2(d_toward, d_up) of top - bottom, up = axis (default z)
   Region centre;         ///< twist
+  Region region;         ///< reaction: of supports
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();        ///< stress, strain: mm, of the body at rest
+  TensorComponent tensor_component = TensorComponent::xx; ///< stress, strain
+  Where point_where;
   Where where;
 };
 
@@ -285,6 +298,7 @@ struct Case {
   std::vector<Measure> measures;
   std::vector<Expectation> expectations;
   std::optional<Stress> stress; ///< of a hard case
+  bool has_fields = false;      ///< solutions get their fields: a measure or a file of results needs them
 };
 
 /// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends

@@ -60,24 +60,6 @@ void check_has_area(const Load& load, const Body& body) {
             name_of(load.kind)));
 }
 
-Region read_region(Table& table, const Body& body) {
-  if (!table.has("near")) {
-    Region region = read_region_text(table.entry("region"), body);
-    table.know({"near"});
-    table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
-    return region;
-  }
-  table.refuse_unless(!table.has("region"), {"near"},
-                      "left out beside region: they say the same thing twice");
-  const Entry near = table.entry("near");
-  Region region{"", read_point(near), near.where};
-  region.radius = table.optional("radius", Number{"a number above 0 (mm)", is_positive});
-  if (region.radius)
-    region.name = fmt::format("within {} of ({}, {}, {})", *region.radius, region.near->x(), region.near->y(),
-                              region.near->z());
-  return region;
-}
-
 Fixed read_fixed(Table& table, const Body& body) {
   Fixed fixed;
   fixed.region = read_region(table, body);
@@ -153,6 +135,24 @@ Region read_region_text(const Entry& entry, const Body& body) {
   if (words.front() == "near") return {"", read_near_words(entry, text), entry.where};
   if (!std::holds_alternative<MeshFile>(body)) check_box_region(entry, words);
   return {text, std::nullopt, entry.where};
+}
+
+Region read_region(Table& table, const Body& body) {
+  if (!table.has("near")) {
+    Region region = read_region_text(table.entry("region"), body);
+    table.know({"near"});
+    table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
+    return region;
+  }
+  table.refuse_unless(!table.has("region"), {"near"},
+                      "left out beside region: they say the same thing twice");
+  const Entry near = table.entry("near");
+  Region region{"", read_point(near), near.where};
+  region.radius = table.optional("radius", Number{"a number above 0 (mm)", is_positive});
+  if (region.radius)
+    region.name = fmt::format("within {} of ({}, {}, {})", *region.radius, region.near->x(), region.near->y(),
+                              region.near->z());
+  return region;
 }
 
 void read_boundary(Table& root, Case& result) {

@@ -63,6 +63,14 @@ void check_differ(Table& table, const std::string& key, const Region& here, cons
         fmt::format("another node than {}: there is no direction from a node to itself", other_key));
 }
 
+/// A strain has no component von_mises: there are several equivalent strains.
+TensorComponent read_tensor_component(const Entry& entry, MeasureKind kind) {
+  std::vector<std::string> allowed = all_names<TensorComponent>();
+  if (kind == MeasureKind::strain)
+    allowed.erase(std::find(allowed.begin(), allowed.end(), name_of(TensorComponent::von_mises)));
+  return *value_of<TensorComponent>(entry.word(allowed));
+}
+
 Measure read_measure(Table& table, const Body& body) {
   const auto node = [&](const Entry& entry) { return read_region_text(entry, body); };
   Measure measure;
@@ -94,6 +102,17 @@ Measure read_measure(Table& table, const Body& body) {
     measure.axis = table.optional("axis", read_name<Axis>).value_or(Axis::z);
     check_differ(table, "node", measure.node, measure.centre, "centre");
     break;
+  case MeasureKind::reaction:
+    measure.region = read_region(table, body);
+    measure.component = table.required("component", read_name<Component>);
+    break;
+  case MeasureKind::stress:
+  case MeasureKind::strain:
+    measure.point_where = table.entry("point").where;
+    measure.point = table.required("point", Vector{"three finite numbers (mm), a point of the body at rest"});
+    measure.tensor_component = read_tensor_component(table.entry("component"), measure.kind);
+    break;
+  case MeasureKind::strain_energy:
   case MeasureKind::volume:
   case MeasureKind::displacement_field_l2:
   case MeasureKind::displacement_field_max:
@@ -135,6 +154,7 @@ void read_measures(Table& root, Case& result) {
     if (same != seen.end())
       table.entry("name").refuse(fmt::format("a new name: measure[{}] has this one", same - seen.begin()));
     seen.push_back(measure.name);
+    result.has_fields = result.has_fields || is_of_fields(measure.kind);
     return measure;
   });
   result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });

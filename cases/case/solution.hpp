@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,23 @@ class Sharing;
 
 SPRINGPROOF_ENUMERATION(Status, converged, failed, skipped)
 
+/// A symmetric tensor, in VTK's order.
+using SymmetricTensor = std::array<double, 6>; ///< xx, yy, zz, xy, yz, xz
+
+/// What an equilibrium puts on the body's own mesh beside the displacement. Both models define them alike:
+/// see mechanics/field_sums.hpp.
+struct Fields {
+  std::vector<Eigen::Vector3d> reaction; ///< force of the supports on the body, N, one per node; 0 on free
+                                         ///< degrees of freedom
+  double total_energy = 0;               ///< N mm, of the whole body
+  bool has_stress = true;              ///< false of a network, whose springs belong to no cell: strain_energy
+                                       ///< and stress are empty
+  std::vector<double> strain_energy;   ///< N mm, one per cell
+  std::vector<SymmetricTensor> stress; ///< Cauchy stress, MPa: its mean over each deformed cell
+  std::vector<SymmetricTensor> strain; ///< ln V of each cell's mean deformation gradient; of small_strain,
+                                       ///< the symmetric part of the displacement gradient's mean
+};
+
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
 /// displacement.
 struct Solution {
@@ -33,7 +51,8 @@ struct Solution {
   Outcome outcome = Outcome::unknown;
   std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   std::vector<double> cell_volume;           ///< deformed volume of each cell of the body's mesh, mm³
-  /// Set where several ranks have these two together: then here are those of sharing->here() alone.
+  std::optional<Fields> fields;              ///< when the case asks for them: Case::has_fields
+  /// Set where several ranks have these three together: then here are those of sharing->here() alone.
   std::shared_ptr<const Sharing> sharing{};
   std::size_t unknowns = 0; ///< free degrees of freedom
   double residual = 0;      ///< |imbalance on free degrees of freedom| / |applied load|

@@ -9,7 +9,7 @@
 
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::cases::PointField, name, values)
+SPRINGPROOF_FIELDS(springproof::cases::PointField, name, values, unit)
 SPRINGPROOF_FIELDS(springproof::cases::PointCloud, points, is_single_precision, fields)
 
 } // namespace cereal

@@ -26,6 +26,9 @@ struct Share {
 };
 Share share_of(const HexMesh& mesh, int rank, int n_ranks);
 
+/// A range that holds the vertices of these cells.
+Range vertices_of(const HexMesh& mesh, const Range& cells);
+
 /// A rank's part of n things.
 inline Range part_of(std::size_t n, int rank, int n_ranks) {
   return {n * index(rank) / index(n_ranks), n * (index(rank) + 1) / index(n_ranks)};
@@ -57,6 +60,8 @@ class Sharing {
   /// @return of here().nodes, or of here().cells
   virtual std::vector<Eigen::Vector3d> deal(std::vector<Numbered<Eigen::Vector3d>> of_nodes) const = 0;
   virtual std::vector<double> deal(std::vector<Numbered<double>> of_cells) const = 0;
+  /// Adds up what ranks give of a node, in the ranks' order.  @return of here().nodes
+  virtual std::vector<Eigen::Vector3d> add_up(std::vector<Numbered<Eigen::Vector3d>> of_nodes) const = 0;
 
   /// Values of all nodes, or of all cells, on every rank.
   virtual std::vector<Eigen::Vector3d> gather(const std::vector<Eigen::Vector3d>& of_nodes) const = 0;
@@ -65,6 +70,33 @@ class Sharing {
  private:
   Share here_;
 };
+
+/// deal() and gather() of cells that have several numbers each, one number after the other.
+template<std::size_t N>
+std::vector<std::array<double, N>> deal(const Sharing& sharing,
+                                        const std::vector<Numbered<std::array<double, N>>>& of_cells) {
+  std::vector<std::array<double, N>> here(sharing.here().cells.size());
+  for (std::size_t n = 0; n < N; ++n) {
+    std::vector<Numbered<double>> one;
+    for (const auto& [number, values] : of_cells) one.push_back({number, values[n]});
+    const std::vector<double> dealt = sharing.deal(std::move(one));
+    for (std::size_t c = 0; c < here.size(); ++c) here[c][n] = dealt[c];
+  }
+  return here;
+}
+template<std::size_t N>
+std::vector<std::array<double, N>> gather(const Sharing& sharing,
+                                          const std::vector<std::array<double, N>>& of_cells) {
+  std::vector<std::array<double, N>> all;
+  for (std::size_t n = 0; n < N; ++n) {
+    std::vector<double> one;
+    for (const auto& values : of_cells) one.push_back(values[n]);
+    const std::vector<double> gathered = sharing.gather(one);
+    all.resize(gathered.size());
+    for (std::size_t c = 0; c < all.size(); ++c) all[c][n] = gathered[c];
+  }
+  return all;
+}
 
 /// What is here of an answer: all of it, where nobody shares it.
 inline Share share_here(const HexMesh& mesh, const Sharing* sharing) {

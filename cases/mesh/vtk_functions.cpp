@@ -8,6 +8,8 @@
 #include <vtkAlgorithm.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -51,30 +53,36 @@ vtkStandardNewMacro(FirstError)
   if (!error->text.empty()) throw std::runtime_error(error->text);
 }
 
-/// An array of numbers or vectors.
+/// An array of numbers, vectors or symmetric tensors, its components named as ParaView shows them.
 template<class Value>
-vtkNew<vtkDoubleArray> array_of(const std::string& name, const std::vector<Value>& values) {
+vtkNew<vtkDoubleArray> array_of(const NamedValues<Value>& field) {
+  constexpr int n = sizeof(Value) / sizeof(double);
   vtkNew<vtkDoubleArray> array;
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(sizeof(Value) / sizeof(double));
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(Value));
+  array->SetName(field.name.c_str());
+  array->SetNumberOfComponents(n);
+  const std::array<const char*, 3> of_vector{"X", "Y", "Z"};
+  const std::array<const char*, 6> of_tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  for (std::size_t c = 0; c < n && n > 1; ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), n == 3 ? of_vector[c] : of_tensor[c]);
+  if (!field.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.unit.c_str());
+  array->SetNumberOfTuples(static_cast<vtkIdType>(field.values.size()));
+  std::memcpy(array->GetPointer(0), field.values.data(), field.values.size() * sizeof(Value));
   return array;
 }
 
 vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& nodes) {
   vtkNew<vtkPoints> points;
-  points->SetData(array_of("rest position", nodes));
+  points->SetData(array_of(PointField{"rest position", nodes}));
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
   return grid;
 }
 
-std::string write(vtkUnstructuredGrid& grid, const std::vector<PointField>& point_fields,
-                  const std::vector<CellField>& cell_fields) {
-  for (const PointField& field : point_fields)
-    grid.GetPointData()->AddArray(array_of(field.name, field.values));
-  for (const CellField& field : cell_fields) grid.GetCellData()->AddArray(array_of(field.name, field.values));
+std::string write(vtkUnstructuredGrid& grid, const GridFields& fields) {
+  for (const auto& field : fields.point_vectors) grid.GetPointData()->AddArray(array_of(field));
+  for (const auto& field : fields.point_numbers) grid.GetPointData()->AddArray(array_of(field));
+  for (const auto& field : fields.cell_numbers) grid.GetCellData()->AddArray(array_of(field));
+  for (const auto& field : fields.cell_tensors) grid.GetCellData()->AddArray(array_of(field));
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
@@ -86,8 +94,7 @@ std::string write(vtkUnstructuredGrid& grid, const std::vector<PointField>& poin
   return writer->GetOutputString();
 }
 
-std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<PointField>& point_fields,
-                                    const std::vector<CellField>& cell_fields) {
+std::string write_unstructured_grid(const HexMesh& mesh, const GridFields& fields) {
   const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
   grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
   for (const std::array<int, 8>& cell : mesh.cells) {
@@ -95,21 +102,20 @@ std::string write_unstructured_grid(const HexMesh& mesh, const std::vector<Point
     for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
     grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
   }
-  return write(*grid, point_fields, cell_fields);
+  return write(*grid, fields);
 }
 
 std::string write_lines(const std::vector<Eigen::Vector3d>& points,
-                        const std::vector<std::array<int, 2>>& lines,
-                        const std::vector<PointField>& point_fields,
-                        const std::vector<CellField>& cell_fields) {
+                        const std::vector<std::array<int, 2>>& lines, const GridFields& fields) {
   const vtkNew<vtkUnstructuredGrid> grid = grid_of(points);
   grid->AllocateEstimate(static_cast<vtkIdType>(lines.size()), 2);
-  for (const std::array<int, 2>& line : lines) {
-    const std::array<vtkIdType, 2> ends{line[0], line[1]};
+  for (const auto& [i, j] : lines) {
+    const std::array<vtkIdType, 2> ends{i, j};
     grid->InsertNextCell(VTK_LINE, 2, ends.data());
   }
-  return write(*grid, point_fields, cell_fields);
+  return write(*grid, fields);
 }
+
 std::vector<Eigen::Vector3d> vectors_of(vtkDataArray& array) {
   std::vector<Eigen::Vector3d> vectors(static_cast<std::size_t>(array.GetNumberOfTuples()));
   for (std::size_t p = 0; p < vectors.size(); ++p)

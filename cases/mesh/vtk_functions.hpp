@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/solution.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
@@ -13,9 +14,17 @@ template<class Value>
 struct NamedValues {
   std::string name;
   std::vector<Value> values;
+  std::string unit{}; ///< VTK's UNITS_LABEL; empty: none
 };
 using PointField = NamedValues<Eigen::Vector3d>;
-using CellField = NamedValues<double>;
+
+/// What a grid carries.
+struct GridFields {
+  std::vector<PointField> point_vectors{};
+  std::vector<NamedValues<double>> point_numbers{};
+  std::vector<NamedValues<double>> cell_numbers{};
+  std::vector<NamedValues<SymmetricTensor>> cell_tensors{};
+};
 
 /// The points of an unstructured grid and their vectors in a file's order; a point that several pieces share
 /// occurs several times.
@@ -28,12 +37,10 @@ struct PointCloud {
 /// The functions of the shared object springproof_vtk. They throw std::runtime_error with VTK's message.
 struct VtkFunctions {
   /// Content of a .vtu: doubles, appended raw.
-  std::string (*write_unstructured_grid)(const HexMesh&, const std::vector<PointField>&,
-                                         const std::vector<CellField>&);
+  std::string (*write_unstructured_grid)(const HexMesh&, const GridFields&);
   /// The same of lines between points, which are its cells.
   std::string (*write_lines)(const std::vector<Eigen::Vector3d>& points,
-                             const std::vector<std::array<int, 2>>& lines, const std::vector<PointField>&,
-                             const std::vector<CellField>&);
+                             const std::vector<std::array<int, 2>>& lines, const GridFields&);
   PointCloud (*read_unstructured_grid)(const std::string& content);
   /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
   Surface (*read_triangles)(const std::string& path);

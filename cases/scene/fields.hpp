@@ -56,7 +56,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poiss
                    axis_stiffness, uniform_stiffness, volume_stiffness, network, paths, weights, strain_range,
                    has_volume_term, accepted, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
-                   centre, where)
+                   centre, region, point, tensor_component, point_where, where)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
                    ends_where)
 SPRINGPROOF_FIELDS(springproof::cases::ExpectedOutcome, model, side, design, outcome, load_reached,
@@ -68,9 +68,9 @@ SPRINGPROOF_FIELDS(springproof::cases::Stress, is_heavy, start, amplitude, seed,
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Case& definition) {
   auto& [name, description, file, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-         measures, expectations, stress] = definition;
+         measures, expectations, stress, has_fields] = definition;
   archive(name, description, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-          measures, expectations, stress);
+          measures, expectations, stress, has_fields);
   if constexpr (has_places<Archive>) archive(file);
 }
 
@@ -81,13 +81,16 @@ SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_leng
 SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,
                    network)
 
+SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
+                   strain)
+
 /// Who shares it is for the reader to know.
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Solution& solution) {
-  auto& [status, message, outcome, displacement, cell_volume, sharing, unknowns, residual, load_reached,
-         newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
-         lowest_eigenvalue, negative_eigenvalues, inverted_cells] = solution;
-  archive(status, message, outcome, displacement, cell_volume, unknowns, residual, load_reached,
+  auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,
+         load_reached, newton_iterations, linear_iterations, relaxation_iterations, force_evaluations,
+         factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells] = solution;
+  archive(status, message, outcome, displacement, cell_volume, fields, unknowns, residual, load_reached,
           newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
           lowest_eigenvalue, negative_eigenvalues, inverted_cells);
 }

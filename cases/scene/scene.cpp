@@ -1,5 +1,6 @@
 #include "cases/scene/scene.hpp"
 
+#include "cases/mesh/cells_at.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/regions.hpp"
@@ -199,6 +200,42 @@ HexMesh make_mesh(const Body& body) {
   return read_mesh(std::get<MeshFile>(body));
 }
 
+/// Whether a support acts on some node of a region, in a component or (norm) in any.
+bool has_support(const Scene& scene, const Region& region, Component component) {
+  const std::vector<int> nodes = select(scene.mesh, region).nodes;
+  const auto is_there = [&](const Scene::ConstrainedNodes& support) {
+    const auto& acts = support.components;
+    const bool is_along = component == Component::norm ? acts[0] || acts[1] || acts[2]
+                                                       : acts[static_cast<std::size_t>(component)];
+    return is_along && std::any_of(nodes.begin(), nodes.end(), [&](int node) {
+             return std::binary_search(support.selection.nodes.begin(), support.selection.nodes.end(), node);
+           });
+  };
+  return std::any_of(scene.constrained.begin(), scene.constrained.end(), is_there);
+}
+
+/// A reaction is measured where something is supported, stress and strain inside the body, and stress where
+/// springs belong to cells.
+void check_fields(const Scene& scene) {
+  for (const Measure& measure : scene.definition.measures) {
+    if (measure.kind == MeasureKind::reaction && !has_support(scene, measure.region, measure.component))
+      throw InputError(measure.region.where,
+                       fmt::format("selects no node that is fixed or moved{}; must be a region of "
+                                   "[[fixed]], [[symmetry]] or [[moved]], whose force is measured",
+                                   measure.component == Component::norm
+                                       ? ""
+                                       : " in component " + name_of(measure.component)));
+    if (measure.kind == MeasureKind::stress && scene.definition.msm.design == Design::network)
+      throw InputError(measure.where, "kind is \"stress\", must be another one beside design = \"network\": "
+                                      "the springs of a network belong to no cell, and a cell has no stress");
+    const bool is_of_point = measure.kind == MeasureKind::stress || measure.kind == MeasureKind::strain;
+    if (is_of_point && cells_at(scene.mesh, measure.point).empty())
+      throw InputError(measure.point_where,
+                       fmt::format("is [{}, {}, {}], must be a point of the body at rest (mm)",
+                                   measure.point.x(), measure.point.y(), measure.point.z()));
+  }
+}
+
 } // namespace
 
 Selection select(const HexMesh& mesh, const Region& region) {
@@ -273,6 +310,7 @@ Scene make_scene(const Case& definition) {
   for (const Measure& measure : definition.measures) // every region that one names is one node
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
       if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
+  check_fields(scene);
   return scene;
 }
 
@@ -317,6 +355,13 @@ std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
 Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& point, double polar_moment) {
   if (applied.load.kind == LoadKind::traction) return applied.load.value;
   return applied.load.moment / polar_moment * applied.load.axis.cross(point - applied.load.centre);
+}
+
+double area(const HexMesh& mesh, const Selection& selection) {
+  double sum = 0;
+  integrate(mesh, selection,
+            [&](const auto&, const Vector3d&, const auto&, double weight) { sum += weight; });
+  return sum;
 }
 
 double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {

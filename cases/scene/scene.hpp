@@ -68,6 +68,9 @@ struct NodeVector {
 /// torques integrated with bilinear shape functions on the rest faces.
 std::vector<NodeVector> loaded_nodes(const Scene& scene);
 
+/// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.
+double area(const HexMesh& mesh, const Selection& selection);
+
 /// The point forces (nodal_force, total_force) alone.
 std::vector<NodeVector> nodes_with_point_forces(const Scene& scene);
 

@@ -101,6 +101,8 @@ int run(const RunOptions& options) {
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions =
       read_questions(options.files, options.settings, {only, options.meshes, options.peer});
+  if (!options.out.empty()) // for the .vtu
+    for (Question& question : questions) question.scene.definition.has_fields = true;
   check_memory(questions);
   const auto external = read_external(questions, options.displacements);
   const FinishedCases finished(options.out, questions);

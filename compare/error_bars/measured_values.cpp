@@ -36,7 +36,7 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
   std::vector<MeasuredValue> values;
   for (const cases::Measure& measure : scene.definition.measures) {
     const auto value_by = [&](const Answer& answer) -> std::optional<double> {
-      if (!answer.converged()) return std::nullopt;
+      if (!answer.converged() || !can_evaluate(measure, answer.solution)) return std::nullopt;
       return evaluate(measure, scene, answer.solution);
     };
     MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm), {}};

@@ -192,15 +192,16 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
     const std::vector<int> components = constrained(problem, n);
     is_constrained.emplace_back(components[0], components[1], components[2]);
   }
-  const std::string content = cases::vtk().write_lines(lattice.rest, ends,
-                                                       {{"constrained", is_constrained},
-                                                        {"prescribed_displacement", prescribed(problem)},
-                                                        {"force", problem.on_all_points(problem.force)}},
-                                                       {{"kind", kind},
-                                                        {"stiffness", stiffness},
-                                                        {"rest_length", rest_length},
-                                                        {"is_power_log", is_power_log},
-                                                        {"exponent", exponent}});
+  cases::GridFields fields;
+  fields.point_vectors = {{"constrained", is_constrained, "1"},
+                          {"prescribed_displacement", prescribed(problem), "mm"},
+                          {"force", problem.on_all_points(problem.force), "N"}};
+  fields.cell_numbers = {{"kind", kind, "1"},
+                         {"stiffness", stiffness, "N/mm"},
+                         {"rest_length", rest_length, "mm"},
+                         {"is_power_log", is_power_log, "1"},
+                         {"exponent", exponent, "1"}};
+  const std::string content = cases::vtk().write_lines(lattice.rest, ends, fields);
   write_file(folder + "/springs.vtu", [&](std::ostream& out) { out << content; });
   std::vector<std::string> said{
       fmt::format("springs.vtu: {} springs as lines (N/mm, mm)", lattice.links.size())};

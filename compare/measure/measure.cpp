@@ -1,11 +1,14 @@
 #include "compare/measure/measure.hpp"
 
+#include "cases/mesh/cells_at.hpp"
 #include "cases/mesh/sharing.hpp"
+#include "compare/measure/tensor.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace springproof::compare {
 
@@ -45,6 +48,53 @@ double twist(const cases::Measure& measure, const Configuration& at) {
   const Vector3d before = across(at.rest(node) - at.rest(centre));
   const Vector3d after = across(at.deformed(node) - at.deformed(centre));
   return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
+}
+
+/// Sums of every rank's numbers; where nobody shares the solution, they are all.
+template<class Numbers>
+Numbers sum_of_ranks(Numbers here, const cases::Solution& solution) {
+  if (solution.sharing)
+    for (double& number : here) number = solution.sharing->sum(number);
+  return here;
+}
+
+/// Of the cells that hold the measure's point.
+double at_point(const cases::Measure& measure, const Configuration& at,
+                const std::vector<cases::SymmetricTensor>& of_cells) {
+  const cases::Range here = cases::share_here(at.scene.mesh, at.solution.sharing.get()).cells;
+  std::array<double, 7> sums{}; // of the tensors, and the number of them
+  for (const std::size_t cell : cases::cells_at(at.scene.mesh, measure.point, here)) {
+    for (std::size_t i = 0; i < 6; ++i) sums[i] += of_cells[cell - here.begin][i];
+    ++sums[6];
+  }
+  sums = sum_of_ranks(sums, at.solution);
+  cases::SymmetricTensor mean;
+  for (std::size_t i = 0; i < 6; ++i) mean[i] = sums[i] / sums[6];
+  return compare::component_of(mean, measure.tensor_component); // not the one above, of a vector
+}
+
+double reaction(const cases::Measure& measure, const Configuration& at) {
+  const cases::Share here = cases::share_here(at.scene.mesh, at.solution.sharing.get());
+  Vector3d sum = Vector3d::Zero();
+  for (const int node : cases::select(at.scene.mesh, measure.region).nodes)
+    if (here.own_nodes.has(cases::index(node)))
+      sum += at.solution.fields->reaction[cases::index(node) - here.nodes.begin];
+  return component_of(sum_of_ranks(sum, at.solution), measure.component);
+}
+
+/// Lengths of all nodes' reactions, added up.
+double sum_of_reactions(const cases::Scene& scene, const cases::Solution& solution) {
+  const cases::Share here = cases::share_here(scene.mesh, solution.sharing.get());
+  double sum = 0;
+  for (std::size_t n = here.own_nodes.begin; n < here.own_nodes.end; ++n)
+    sum += solution.fields->reaction[n - here.nodes.begin].norm();
+  return solution.sharing ? solution.sharing->sum(sum) : sum;
+}
+
+double largest_norm(const std::vector<cases::SymmetricTensor>& tensors, const cases::Solution& solution) {
+  double largest = 0;
+  for (const cases::SymmetricTensor& tensor : tensors) largest = std::max(largest, tensor_norm(tensor));
+  return solution.sharing ? solution.sharing->largest(largest) : largest;
 }
 
 /// Root of the mean of |u|² over the cells at rest, by 2x2x2 Gauss.  @param field  as of field_norm()
@@ -95,7 +145,14 @@ double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vecto
   return sharing ? sharing->largest(largest) : largest;
 }
 
+bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution) {
+  if (!cases::is_of_fields(measure.kind)) return true;
+  return solution.fields && (solution.fields->has_stress || measure.kind != MeasureKind::stress);
+}
+
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
+  if (!can_evaluate(measure, solution))
+    throw std::logic_error(measure.name + ": a solution without fields has no value of it");
   const Configuration at{scene, solution};
   switch (measure.kind) {
   case MeasureKind::coordinate:
@@ -111,6 +168,14 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
   case MeasureKind::displacement_field_l2:
   case MeasureKind::displacement_field_max:
     return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
+  case MeasureKind::reaction:
+    return reaction(measure, at);
+  case MeasureKind::strain_energy:
+    return solution.fields->total_energy;
+  case MeasureKind::stress:
+    return at_point(measure, at, solution.fields->stress);
+  case MeasureKind::strain:
+    return at_point(measure, at, solution.fields->strain);
   }
   return std::nan(""); // not reached: every kind is above
 }
@@ -136,6 +201,7 @@ std::optional<double> measure_error_percent(const cases::Measure& measure, const
 
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
   constexpr double rounding = 1e-8;
+  if (!can_evaluate(measure, fem)) return 0; // one that failed beside meshes that have a limit
   Eigen::AlignedBox3d body;
   for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
   const double size = body.sizes().norm(), moved = field_norm(MeasureKind::displacement_field_max, scene.mesh,
@@ -148,7 +214,15 @@ double zero_of(const cases::Measure& measure, const cases::Scene& scene, const c
   case MeasureKind::tilt:
   case MeasureKind::twist:
     return rounding * degrees_per_radian * moved / size;
-  default: // volumes are not zero; a norm of the field is it where all displacements are
+  case MeasureKind::reaction:
+    return rounding * sum_of_reactions(scene, fem);
+  case MeasureKind::stress:
+    return rounding * largest_norm(fem.fields->stress, fem);
+  case MeasureKind::strain:
+    return rounding * largest_norm(fem.fields->strain, fem);
+  // volumes are not zero, nor is the energy of what is deformed; a norm of the field is it where all
+  // displacements are
+  default:
     return 0;
   }
 }
@@ -160,6 +234,14 @@ std::string unit_of(const cases::Measure& measure) {
     return "deg";
   case MeasureKind::volume:
     return "mm3";
+  case MeasureKind::reaction:
+    return "N";
+  case MeasureKind::strain_energy:
+    return "N mm";
+  case MeasureKind::stress:
+    return "MPa";
+  case MeasureKind::strain:
+    return "1";
   default:
     return "mm";
   }

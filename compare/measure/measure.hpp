@@ -10,8 +10,15 @@ namespace springproof::compare {
 ///   twist: rotation of the segment from centre to node about the axis against its rest direction, in (-180,
 ///   180]; volume: of all cells of the body's mesh; displacement_field_l2: root of the mean of |u|² over the
 ///   body at rest (trilinear between nodes); displacement_field_max: the largest |u| of a node.
-/// Source: thesis sections 4.3.3 and 5.3.1.3 but for the two norms.
+///   reaction: sum over the region's nodes of the supports' force on the body; strain_energy: of all cells;
+///   stress, strain: of the cell of the body's mesh that holds the point at rest, the mean of several where
+///   they share it; cases::Fields has what they are of a cell.
+/// Source: thesis sections 4.3.3 and 5.3.1.3 but for the two norms and the fields.
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
+
+/// Whether a solution has what a measure is of: a displacement alone, another program's for one, has no
+/// fields.
+bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution);
 
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
@@ -33,12 +40,13 @@ std::optional<double> measure_error_percent(const cases::Measure& measure, const
 /// Whether a measure's error is that of a difference of fields.
 bool is_field_norm(cases::MeasureKind kind);
 
-/// "mm", "deg" or "mm3".
+/// "mm", "deg", "mm3", "N", "N mm", "MPa", or "1" of a strain.
 std::string unit_of(const cases::Measure& measure);
 
 /// Up to which size a value of a measure is zero but for rounding, in its unit: 1e-8 of the body's largest
 /// displacement in the finite elements' solution, for an angle over the body's size, for a coordinate of the
-/// size. A solve leaves 1e-9 of its forces.
+/// size, for a reaction of the sum of all nodes' reactions, for stress and strain of the body's largest. A
+/// solve leaves 1e-9 of its forces.
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem);
 
 /// r = (msm - fem)/fem x 100 %, as in the thesis; nothing when fem is zero, or next to msm, or either is not

@@ -1,6 +1,7 @@
 #include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -29,6 +30,12 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
   if (questions.size() != 1)
     throw cases::InputError(
         fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
+  for (const cases::Measure& measure : questions.front().scene.definition.measures)
+    if (cases::is_of_fields(measure.kind))
+      throw cases::InputError(measure.where,
+                              fmt::format("kind is \"{}\", which displacements alone do not tell: leave it "
+                                          "out beside --msm-displacements",
+                                          cases::name_of(measure.kind)));
   return ExternalDisplacements{path,
                                match_nodes(questions.front().scene.mesh, read_displacements(path), path)};
 }

@@ -136,6 +136,7 @@ Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>
   Ranking ranking{scene.definition.name, fem.resolved, fem.fem};
   ranking.fem.solution.displacement.clear();
   ranking.fem.solution.cell_volume.clear();
+  ranking.fem.solution.fields.reset();
   if (mpi_rank() != 0 || !fem.fem.converged()) return ranking;
   for (const cases::Design design : designs)
     ranking.designs.push_back(rank_one(with_design(scene, design), fem));

@@ -163,6 +163,11 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
       if (refine != own) models.push_back(estimate_fem(refined));
   }
   if (request.asks(cases::Side::msm)) models.push_back(estimate_springs(body));
+  // Fields are made while the model is there still. By their types: FieldSums and Fields of a cell and a
+  // node, and what ranks send each other of them.
+  constexpr double bytes_of_fields = 400;
+  if (body.outline.definition.has_fields)
+    for (Estimate& model : models) model.megabytes += 1e-6 * bytes_of_fields * body.n_cells;
   return models;
 }
 

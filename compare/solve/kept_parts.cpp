@@ -109,6 +109,34 @@ void take(const std::vector<Value>& from, const Range& of, std::vector<Value>& t
   for (std::size_t i = both.begin; i < both.end; ++i) to[i - here.begin] = from[i - of.begin];
 }
 
+/// Takes what a share and the wanted one have in common.
+/// @param is_first  what is in `to` is of another share, and is replaced
+/// @return whether both have the same kinds of values
+bool take(const cases::Solution& from, const Share& of, cases::Solution& to, const Share& wanted,
+          bool is_first) {
+  const auto take_values = [&](const auto& values, Range Share::*part, auto& into) {
+    if (is_first) {
+      into.clear();
+      into.resize((wanted.*part).size());
+    }
+    take(values, of.*part, into, wanted.*part);
+  };
+  if (to.displacement.empty() != from.displacement.empty() ||
+      to.fields.has_value() != from.fields.has_value())
+    return false;
+  if (from.displacement.empty()) return true;
+  take_values(from.displacement, &Share::nodes, to.displacement);
+  take_values(from.cell_volume, &Share::cells, to.cell_volume);
+  if (!from.fields) return true;
+  if (to.fields->has_stress != from.fields->has_stress) return false;
+  take_values(from.fields->reaction, &Share::nodes, to.fields->reaction);
+  take_values(from.fields->strain, &Share::cells, to.fields->strain);
+  if (!from.fields->has_stress) return true;
+  take_values(from.fields->strain_energy, &Share::cells, to.fields->strain_energy);
+  take_values(from.fields->stress, &Share::cells, to.fields->stress);
+  return true;
+}
+
 /// A share of a result that is there in so many parts.  @throws std::runtime_error if it is damaged
 template<class Result>
 std::optional<Read<Result>> read_parts(const std::string& path, const std::string& identity,
@@ -126,16 +154,8 @@ std::optional<Read<Result>> read_parts(const std::string& path, const std::strin
     if (!found) found = *part; // with the values of its share, which are replaced below
     const auto from = solutions_of(part->result), to = solutions_of(found->result);
     if (from.size() != to.size()) return std::nullopt;
-    for (std::size_t s = 0; s < to.size(); ++s) {
-      if (to[s]->displacement.empty() != from[s]->displacement.empty()) return std::nullopt;
-      if (from[s]->displacement.empty()) continue;
-      if (number == 0) {
-        to[s]->displacement.assign(wanted.nodes.size(), Eigen::Vector3d::Zero());
-        to[s]->cell_volume.assign(wanted.cells.size(), 0.);
-      }
-      take(from[s]->displacement, share.nodes, to[s]->displacement, wanted.nodes);
-      take(from[s]->cell_volume, share.cells, to[s]->cell_volume, wanted.cells);
-    }
+    for (std::size_t s = 0; s < to.size(); ++s)
+      if (!take(*from[s], share, *to[s], wanted, number == 0)) return std::nullopt;
   }
   return found;
 }

@@ -31,6 +31,24 @@ std::vector<cases::Numbered<Value>> numbered(const std::vector<Value>& values) {
   return all;
 }
 
+/// @param all  on rank 0; on the others nothing   @param here  gets what is of the rank's share
+void deal_out(const cases::Fields& all, const cases::Sharing& sharing, cases::Fields& here) {
+  here.reaction = sharing.deal(numbered(all.reaction));
+  here.strain = cases::deal(sharing, numbered(all.strain));
+  if (!here.has_stress) return;
+  here.strain_energy = sharing.deal(numbered(all.strain_energy));
+  here.stress = cases::deal(sharing, numbered(all.stress));
+}
+
+cases::Fields gathered(cases::Fields fields, const cases::Sharing& sharing) {
+  fields.reaction = sharing.gather(fields.reaction);
+  fields.strain = cases::gather(sharing, fields.strain);
+  if (!fields.has_stress) return fields;
+  fields.strain_energy = sharing.gather(fields.strain_energy);
+  fields.stress = cases::gather(sharing, fields.stress);
+  return fields;
+}
+
 } // namespace
 
 std::string from_rank_0(std::string text) {
@@ -66,13 +84,17 @@ Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer
   cases::Solution& solution = answer.solution;
   const std::vector<Eigen::Vector3d> displacement = std::move(solution.displacement);
   const std::vector<double> volume = std::move(solution.cell_volume);
+  const cases::Fields fields = solution.fields.value_or(cases::Fields{});
   solution.displacement.clear();
   solution.cell_volume.clear();
+  if (solution.fields)
+    solution.fields = cases::Fields{{}, fields.total_energy, fields.has_stress, {}, {}, {}};
   cases::from_bytes(from_rank_0(mpi_rank() == 0 ? cases::to_bytes(answer) : ""), answer);
   if (!answer.converged()) return answer;
   solution.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
   solution.displacement = solution.sharing->deal(numbered(displacement));
   solution.cell_volume = solution.sharing->deal(numbered(volume));
+  if (solution.fields) deal_out(fields, *solution.sharing, *solution.fields);
   return answer;
 }
 
@@ -80,6 +102,7 @@ cases::Solution gathered(cases::Solution solution) {
   if (!solution.sharing) return solution;
   solution.displacement = solution.sharing->gather(solution.displacement);
   solution.cell_volume = solution.sharing->gather(solution.cell_volume);
+  if (solution.fields) solution.fields = gathered(std::move(*solution.fields), *solution.sharing);
   solution.sharing.reset();
   return solution;
 }

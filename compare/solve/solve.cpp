@@ -22,9 +22,10 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
     return *design;
   };
   return solve_side(designed, [&](const msm::DesignResult& found) {
-    if (found.terms)
-      return msm::solve_lattice_by_snes(scene, assembled_lattice(scene, found), MPI_COMM_WORLD);
-    return msm::solve_by_snes(scene, stiffness_of_cells(found), MPI_COMM_WORLD);
+    return with_fields(
+        scene, found,
+        found.terms ? msm::solve_lattice_by_snes(scene, assembled_lattice(scene, found), MPI_COMM_WORLD)
+                    : msm::solve_by_snes(scene, stiffness_of_cells(found), MPI_COMM_WORLD));
   });
 }
 
@@ -68,7 +69,12 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   return {solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-                     [&](fem_reference::Model& model) { return model.solve(settings); }),
+                     [&](fem_reference::Model& model) {
+                       cases::Solution solution = model.solve(settings);
+                       if (scene.definition.has_fields)
+                         solution.fields = model.fields(solution.sharing.get());
+                       return solution;
+                     }),
           scene.definition.fem,
           {},
           {}};

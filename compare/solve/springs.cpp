@@ -2,6 +2,7 @@
 
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
+#include "msm/fields.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -136,6 +137,12 @@ msm::DesignResult stiffened(const cases::Scene& scene, msm::DesignResult design,
   return design;
 }
 
+/// The springs of a hard case are stiffer where it says so.
+msm::DesignResult as_solved(const cases::Scene& scene, const msm::DesignResult& design) {
+  const auto& stress = scene.definition.stress;
+  return stress && stress->stiffer ? stiffened(scene, design, *stress->stiffer) : design;
+}
+
 /// Displacements to start from, mm; empty: rest.
 msm::Points start_points(const cases::Stress& stress, const cases::HexMesh& mesh) {
   msm::Points start;
@@ -191,8 +198,9 @@ msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResul
 }
 
 msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design) {
-  return design.terms ? assembled_lattice(scene, design)
-                      : msm::make_lattice(scene.mesh, stiffness_of_cells(design));
+  const msm::DesignResult solved = as_solved(scene, design);
+  return solved.terms ? assembled_lattice(scene, solved)
+                      : msm::make_lattice(scene.mesh, stiffness_of_cells(solved));
 }
 
 msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
@@ -214,18 +222,31 @@ mechanics::EquilibriumSettings limited(const cases::Case& definition,
   return settings;
 }
 
+cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
+                            cases::Solution solution) {
+  if (!scene.definition.has_fields) return solution;
+  if (scene.definition.msm.design == cases::Design::network)
+    solution.fields = msm::network_fields(scene, assembled_lattice(scene, design), solution);
+  else if (design.terms)
+    solution.fields = msm::fields(scene, *design.terms, solution);
+  else
+    solution.fields = msm::fields(scene, stiffness_of_cells(design), solution);
+  return solution;
+}
+
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
+  msm::DesignResult springs;
   return solve_side(
       [&] {
         design = design_for(scene);
-        return make_model(scene,
-                          stress && stress->stiffer ? stiffened(scene, *design, *stress->stiffer) : *design,
-                          {msm::Path::automatic, n_threads});
+        springs = as_solved(scene, *design);
+        return make_model(scene, springs, {msm::Path::automatic, n_threads});
       },
       [&](msm::Model& model) {
-        return model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{});
+        return with_fields(scene, springs,
+                           model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
       });
 }
 

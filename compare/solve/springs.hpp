@@ -27,7 +27,7 @@ std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& desi
 /// The lattice of a design that is_assembled(): of cells of terms, or the scene's network.
 msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design);
 
-/// All springs of a scene as they are solved.
+/// All springs of a scene as they are solved: a hard case's stiffer where it says so.
 /// @param design  design_for() of the scene
 msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design);
 
@@ -39,6 +39,12 @@ msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design
 /// another case they stay as they are.
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
                                        mechanics::EquilibriumSettings settings = {});
+
+/// The springs' solution under the full load, with its fields where the case asks for them. Collective where
+/// ranks share the solution.
+/// @param design  of the springs that were solved
+cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
+                            cases::Solution solution);
 
 /// Designs the springs of a scene and solves them in this process, which needs no finite elements: those of a
 /// hard case stiffer where it says so and from where it starts.

@@ -166,6 +166,12 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
     throw cases::InputError(definition.file +
                             ": msm.law: a sweep solves every design with the springs that are its own, so it "
                             "must be left out");
+  for (const cases::Measure& measure : definition.measures)
+    if (cases::is_of_fields(measure.kind))
+      throw cases::InputError(measure.where,
+                              fmt::format("kind is \"{}\", must be one of the displacement: a sweep "
+                                          "compares displacements interpolated between grids",
+                                          cases::name_of(measure.kind)));
   Plan plan;
   plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
   for (std::size_t level = plan.levels.size() - 3; level < plan.levels.size(); ++level)

@@ -66,6 +66,22 @@ std::string with_bar(const std::optional<double>& value, const char* format,
   return number(value, format) + (bar ? fmt::format(" +- {:.2g}", *bar) : "");
 }
 
+/// The applied force as a whole, and the areas that loads and motions act on: a patch has those of its faces,
+/// not of its circle.
+void write_loads(std::ostream& out, const cases::Scene& scene) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (const auto& [node, of_node] : cases::loaded_nodes(scene)) force += of_node;
+  print(out, "  applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z());
+  const auto write_areas = [&](const char* list, const auto& conditions) {
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      if (const double area = cases::area(scene.mesh, conditions[i].selection); area > 0)
+        print(out, "; {}[{}] {:.6g} mm2", list, i, area);
+  };
+  write_areas("load", scene.loads);
+  write_areas("moved", scene.moved);
+  print(out, "\n");
+}
+
 /// An error; of a measure whose reference is zero there is none.
 std::string error_text(const MeasuredValue& measure, const std::optional<double>& reference,
                        const std::optional<double>& error, const std::optional<double>& bar = {}) {
@@ -242,6 +258,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   const auto& [scene, answers, measures, gates, mesh_study] = comparison;
   const cases::Case& definition = scene.definition;
   print(out, "{}: {}\n", definition.name, definition.description);
+  write_loads(out, scene);
   write_side(out, "fem",
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
              answers.fem);

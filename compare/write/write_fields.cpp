@@ -5,6 +5,8 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/write/escape.hpp"
+#include "compare/write/grid_fields.hpp"
+#include "compare/write/write_springs.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,45 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is here of both sides' fields.
-struct Fields {
-  std::vector<cases::PointField> of_nodes;
-  std::vector<cases::CellField> of_cells;
-};
-
-Fields fields_of(const Comparison& comparison) {
-  const cases::Solution &fem = comparison.answers.fem.solution, &msm = comparison.answers.msm.solution;
-  Fields fields;
-  const auto add = [&](const std::string& side, const cases::Solution& solution) {
-    if (solution.status != cases::Status::converged) return;
-    fields.of_nodes.push_back({side + "_displacement", solution.displacement});
-    fields.of_cells.push_back({side + "_cell_volume", solution.cell_volume});
-    std::vector<double> inverted;
-    for (const bool is_inverted :
-         cases::inverted_cells(comparison.scene.mesh, solution.displacement, solution.sharing.get()))
-      inverted.push_back(is_inverted ? 1 : 0);
-    fields.of_cells.push_back({side + "_inverted", inverted});
-  };
-  add("fem", fem);
-  add("msm", msm);
-  if (fields.of_nodes.size() == 2) {
-    std::vector<Eigen::Vector3d> difference = msm.displacement;
-    for (std::size_t n = 0; n < difference.size(); ++n) difference[n] -= fem.displacement[n];
-    fields.of_nodes.push_back({"difference", difference});
-  }
-  return fields;
-}
-
-/// Null: all of the answers is here.
-const cases::Sharing* sharing_of(const Comparison& comparison) {
-  const Answers& answers = comparison.answers;
-  const cases::Sharing* const of_fem = answers.fem.solution.sharing.get();
-  return of_fem ? of_fem : answers.msm.solution.sharing.get();
-}
-
 /// A share's cells as a mesh by itself; the fields' values of its nodes take the place of those of all that
 /// are here.
-cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, Fields& fields) {
+cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, cases::GridFields& fields) {
   std::vector<int> number(share.nodes.size(), -1); ///< in the piece, of each node that is here
   for (std::size_t c = share.cells.begin; c < share.cells.end; ++c)
     for (const int node : mesh.cells[c]) number[cases::index(node) - share.nodes.begin] = 0;
@@ -63,9 +29,11 @@ cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, F
     if (number[n] < 0) continue;
     number[n] = static_cast<int>(nodes.size());
     nodes.push_back(mesh.nodes[share.nodes.begin + n]);
-    for (cases::PointField& field : fields.of_nodes) field.values[nodes.size() - 1] = field.values[n];
+    for (auto& field : fields.point_vectors) field.values[nodes.size() - 1] = field.values[n];
+    for (auto& field : fields.point_numbers) field.values[nodes.size() - 1] = field.values[n];
   }
-  for (cases::PointField& field : fields.of_nodes) field.values.resize(nodes.size());
+  for (auto& field : fields.point_vectors) field.values.resize(nodes.size());
+  for (auto& field : fields.point_numbers) field.values.resize(nodes.size());
   std::vector<std::array<int, 8>>& cells = piece.cells.stored();
   for (std::size_t c = share.cells.begin; c < share.cells.end; ++c) {
     cells.push_back(mesh.cells[c]);
@@ -79,6 +47,7 @@ struct Files {
   std::string folder, name;
   std::string whole() const { return folder + "/" + name + ".vtu"; }
   std::string list() const { return folder + "/" + name + ".pvtu"; }
+  std::string springs() const { return folder + "/" + name + "_springs.vtu"; }
   std::string pieces() const { return name + "_pieces"; }
   std::string piece(int rank) const { return fmt::format("{}/{}_{}.vtu", pieces(), name, rank); }
 };
@@ -103,7 +72,7 @@ void remove_pieces(const Files& files, int first_rank) {
 }
 
 /// What ParaView opens: the names of the fields and of the pieces.
-void write_list(std::ostream& out, const Files& files, const Fields& fields, std::size_t n_cells) {
+void write_list(std::ostream& out, const Files& files, const cases::GridFields& fields, std::size_t n_cells) {
   const auto array = [&](const std::string& name, int n_components) {
     out << fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", name,
                        n_components);
@@ -111,9 +80,11 @@ void write_list(std::ostream& out, const Files& files, const Fields& fields, std
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"
          "    <PPointData>\n";
-  for (const cases::PointField& field : fields.of_nodes) array(field.name, 3);
+  for (const auto& field : fields.point_vectors) array(field.name, 3);
+  for (const auto& field : fields.point_numbers) array(field.name, 1);
   out << "    </PPointData>\n    <PCellData>\n";
-  for (const cases::CellField& field : fields.of_cells) array(field.name, 1);
+  for (const auto& field : fields.cell_numbers) array(field.name, 1);
+  for (const auto& field : fields.cell_tensors) array(field.name, 6);
   out << "    </PCellData>\n    <PPoints>\n";
   array("rest position", 3);
   out << "    </PPoints>\n";
@@ -121,6 +92,25 @@ void write_list(std::ostream& out, const Files& files, const Fields& fields, std
     if (cases::part_of(n_cells, rank, n_mpi_ranks()).size() > 0)
       out << fmt::format("    <Piece Source=\"{}\"/>\n", escape(files.piece(rank)));
   out << "  </PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+/// @param displacement  of all nodes; empty: there are no springs to draw
+void write_springs(const Files& files, const Comparison& comparison,
+                   const std::vector<Eigen::Vector3d>& displacement) {
+  std::error_code not_there;
+  if (displacement.empty())
+    fs::remove(files.springs(), not_there); // an earlier run's
+  else
+    write_file(files.springs(), [&](std::ostream& out) { write_springs_vtu(out, comparison, displacement); });
+}
+
+/// The springs' displacement of all nodes, for write_springs(). Collective, since the first rank alone may
+/// know the design.
+std::vector<Eigen::Vector3d> gathered_for_springs(const Comparison& comparison) {
+  const cases::Solution& msm = comparison.answers.msm.solution;
+  const bool are_drawn = !from_rank_0(has_drawn_springs(comparison) ? "yes" : "").empty();
+  if (!are_drawn) return {};
+  return msm.sharing ? msm.sharing->gather(msm.displacement) : msm.displacement;
 }
 
 void write_pieces(const Files& files, const Comparison& comparison, const cases::Share& share) {
@@ -131,18 +121,18 @@ void write_pieces(const Files& files, const Comparison& comparison, const cases:
     fs::remove(files.whole(), not_there);
     claim_subfolder(files.folder, files.pieces());
   });
-  Fields fields;
+  cases::GridFields fields = grid_fields_of(comparison);
+  const std::vector<Eigen::Vector3d> displacement = gathered_for_springs(comparison);
   run_on_all_ranks([&] {
-    fields = fields_of(comparison);
     if (share.cells.size() == 0) return;
     const cases::HexMesh piece = piece_of(comparison.scene.mesh, share, fields);
-    write_file(files.folder + "/" + files.piece(mpi_rank()), [&](std::ostream& out) {
-      out << cases::vtk().write_unstructured_grid(piece, fields.of_nodes, fields.of_cells);
-    });
+    write_file(files.folder + "/" + files.piece(mpi_rank()),
+               [&](std::ostream& out) { out << cases::vtk().write_unstructured_grid(piece, fields); });
   });
   run_on_all_ranks([&] {
     if (mpi_rank() != 0) return;
     remove_pieces(files, n_mpi_ranks());
+    write_springs(files, comparison, displacement);
     write_file(files.list(), [&](std::ostream& out) {
       write_list(out, files, fields, comparison.scene.mesh.cells.size());
     });
@@ -152,12 +142,11 @@ void write_pieces(const Files& files, const Comparison& comparison, const cases:
 } // namespace
 
 void write_vtu(std::ostream& out, const Comparison& comparison) {
-  const Fields fields = fields_of(comparison);
-  out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, fields.of_nodes, fields.of_cells);
+  out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, grid_fields_of(comparison));
 }
 
 void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields) {
-  out << cases::vtk().write_unstructured_grid(mesh, fields, {});
+  out << cases::vtk().write_unstructured_grid(mesh, {fields});
 }
 
 void write_fields(const std::string& folder, const Comparison& comparison) {
@@ -168,6 +157,9 @@ void write_fields(const std::string& folder, const Comparison& comparison) {
   std::error_code not_there;
   fs::remove(files.list(), not_there);
   remove_pieces(files, 0);
+  const bool are_drawn = has_drawn_springs(comparison);
+  write_springs(files, comparison,
+                are_drawn ? comparison.answers.msm.solution.displacement : std::vector<Eigen::Vector3d>());
   write_file(files.whole(), [&](std::ostream& out) { write_vtu(out, comparison); });
 }
 

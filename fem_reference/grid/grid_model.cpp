@@ -138,6 +138,15 @@ struct GridModel::Implementation {
   std::unique_ptr<QuadraticElements> make_quadratic() const;
   std::vector<cases::Numbered<double>> cell_volumes(const cases::Sharing* sharing) const;
   std::vector<cases::Numbered<Eigen::Vector3d>> displacements(const cases::Sharing* sharing) const;
+
+  struct OwnElement {
+    std::size_t cell;        ///< of the body's own mesh
+    std::array<int, 3> part; ///< of the cell
+    std::array<int, 3> at;   ///< of the grid of elements
+    std::size_t entry;       ///< of the elements' layout
+  };
+  template<class Action>
+  void for_each_own_element(const cases::Sharing* sharing, const Action& action) const;
 };
 
 /// @param first_layer  of the grid's layers of cells, the first that the slab holds
@@ -212,17 +221,18 @@ GridModel::Implementation::displacements(const cases::Sharing* sharing) const {
   return own;
 }
 
-/// Of the body's cells, likewise; of each as much as the rank computes.
-std::vector<cases::Numbered<double>>
-GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
-  const std::vector<double> of_entries = equations.cell_volumes(last);
+/// Calls action(OwnElement) for the elements that the rank computes, cell by cell. Where every rank computes
+/// all, for those of the cells that are its own.
+template<class Action>
+void GridModel::Implementation::for_each_own_element(const cases::Sharing* sharing,
+                                                     const Action& action) const {
   const Slab& slab = body.slab;
   const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
   // the rank's elements have layers of their own
   const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
   const int first = quadratic ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
   const cases::Grid& grid = *scene.mesh.grid;
-  std::vector<cases::Numbered<double>> volumes;
+  const int n = cell_factor;
   std::size_t next = 0;
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
@@ -230,19 +240,61 @@ GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
         if (!grid.has(i, j, k)) continue;
         const std::size_t cell = next++;
         if (!slab.is_shared() && sharing && !sharing->here().cells.has(cell)) continue;
-        double volume = 0;
-        bool is_here = false;
-        const int n = cell_factor;
         for (int c = 0; c < n; ++c) {
           const int layer = n * k + c - first;
           if (layer < layers.begin || layer >= layers.end) continue;
-          is_here = true;
           for (int b = 0; b < n; ++b)
-            for (int a = 0; a < n; ++a) volume += of_entries[index(layout.cell(n * i + a, n * j + b, layer))];
+            for (int a = 0; a < n; ++a)
+              action(OwnElement{cell,
+                                {a, b, c},
+                                {n * i + a, n * j + b, n * k + c},
+                                index(layout.cell(n * i + a, n * j + b, layer))});
         }
-        if (is_here) volumes.push_back({static_cast<std::int64_t>(cell), volume});
       }
+}
+
+/// Of the body's cells; of each as much as the rank computes.
+std::vector<cases::Numbered<double>>
+GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
+  const std::vector<double> of_entries = equations.cell_volumes(last);
+  std::vector<cases::Numbered<double>> volumes;
+  for_each_own_element(sharing, [&](const OwnElement& element) {
+    const auto cell = static_cast<std::int64_t>(element.cell);
+    if (volumes.empty() || volumes.back().number != cell) volumes.push_back({cell, 0.});
+    volumes.back().value += of_entries[element.entry];
+  });
   return volumes;
+}
+
+double GridModel::load_factor() const {
+  return implementation_->last_load_factor;
+}
+
+cases::Range GridModel::cells(const cases::Sharing* sharing) const {
+  std::optional<cases::Range> cells;
+  implementation_->for_each_own_element(sharing, [&](const Implementation::OwnElement& element) {
+    if (!cells) cells = cases::Range{element.cell, element.cell}; // they come in ascending order
+    cells->end = element.cell + 1;
+  });
+  return cells.value_or(cases::Range{});
+}
+
+void GridModel::for_each_element(const cases::Sharing* sharing,
+                                 const std::function<void(const Element&)>& action) const {
+  const Implementation& m = *implementation_;
+  const int degree = m.factor / m.cell_factor, n = degree + 1;
+  std::vector<double> displacement(index(3 * n * n * n));
+  m.for_each_own_element(sharing, [&](const Implementation::OwnElement& element) {
+    double* to = displacement.data();
+    for (int a = 0; a < n * n * n; ++a, to += 3) {
+      const Place node(degree * element.at[0] + a % n, degree * element.at[1] + a / n % n,
+                       degree * element.at[2] + a / (n * n));
+      Eigen::Map<Eigen::Vector3d>{to} = m.displacement_at(node);
+    }
+    const double pressure =
+        m.body.has_modes ? m.last[m.equations.n_displacements() + Eigen::Index(element.entry)] : 0;
+    action({element.cell, element.part, m.cell_factor, displacement, pressure});
+  });
 }
 
 bool GridModel::can_leave_rest() {

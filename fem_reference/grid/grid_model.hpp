@@ -1,9 +1,12 @@
 #pragma once
 
 #include "cases/case/solution.hpp"
+#include "cases/mesh/sharing.hpp"
 #include "cases/scene/scene.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <mpi.h>
 
@@ -36,6 +39,22 @@ class GridModel {
     Eigen::Vector3d rest, displacement; ///< mm
   };
   std::vector<NodeValue> node_displacements() const;
+
+  /// An element in the equilibrium last found. A cell of the body is n_parts elements along each edge.
+  struct Element {
+    std::size_t cell;        ///< of the body's own mesh
+    std::array<int, 3> part; ///< 0 to n_parts - 1
+    int n_parts;
+    const std::vector<double>& displacement; ///< mm, [3*a + i], a with x fastest: 8 nodes, or 27
+    double pressure;                         ///< MPa; 0 without one of its own
+  };
+  /// Calls action() for elements, cell by cell: over the ranks that share an answer for each element once.
+  /// @param sharing  of the solution; null: one rank has all
+  void for_each_element(const cases::Sharing* sharing,
+                        const std::function<void(const Element&)>& action) const;
+  /// That hold the cells of these elements.
+  cases::Range cells(const cases::Sharing* sharing) const;
+  double load_factor() const; ///< of the equilibrium last found
 
  private:
   struct Implementation;

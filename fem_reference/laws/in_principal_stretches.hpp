@@ -19,6 +19,11 @@ class InPrincipalStretches : public Principal {
 
   using Principal::Principal;
 
+  double energy(const Matrix3& f) const {
+    const Eigen::SelfAdjointEigenSolver<Matrix3> right(f.transpose() * f, Eigen::EigenvaluesOnly);
+    return Principal::energy(right.eigenvalues().array().log() / 2);
+  }
+
   void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
     // eigenvectors of C are orthonormal to rounding error even when eigenvalues (nearly) coincide
     const Eigen::SelfAdjointEigenSolver<Matrix3> right(f.transpose() * f);

@@ -7,6 +7,8 @@
 
 /// A law as the element's kernel sees it, at one point. A law is a type with
 ///   void stress(F, wanted, PointStress&)       without the pressure, where it has one of its own
+///   double energy(F)                           N mm/mm³ at rest, without that of the pressure
+///   double volume_energy(volume_ratio)         has_pressure alone: the pressure's integral from 1
 ///   ValueAndSlope pressure(volume_ratio)       has_pressure alone: tension-positive mean Cauchy stress, MPa
 ///   ValueAndSlope volume_ratio(pressure)       has_pressure alone: its inverse
 /// and the constants below; P = stress(F) + p(J) cof F with a pressure, P = stress(F) without.

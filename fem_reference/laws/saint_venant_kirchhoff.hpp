@@ -14,6 +14,11 @@ class SaintVenantKirchhoff {
 
   explicit SaintVenantKirchhoff(const Material& material) : moduli_(mechanics::elastic_moduli(material)) {}
 
+  /// lambda/2 tr(E)² + mu E : E
+  double energy(const Matrix3& f) const {
+    const Matrix3 strain = 0.5 * (f.transpose() * f - Matrix3::Identity());
+    return moduli_.lambda / 2 * strain.trace() * strain.trace() + moduli_.mu * strain.squaredNorm();
+  }
   void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
     const auto [lambda, mu, kappa] = moduli_;
     const Matrix3 strain = 0.5 * (f.transpose() * f - Matrix3::Identity());

@@ -22,6 +22,11 @@ class SmallStrain {
         tangent_(4 * i, 4 * j) -= 2 * moduli.mu / 3;
       }
   }
+  double energy(const Matrix3& f) const {
+    const Vector9 gradient = flatten(f - Matrix3::Identity());
+    return 0.5 * gradient.dot(tangent_ * gradient);
+  }
+  double volume_energy(double j) const { return kappa_ / 2 * (j - 1) * (j - 1); }
   void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
     result.stress.noalias() = tangent_ * flatten(f - Matrix3::Identity());
     if (wanted == Wanted::stress_and_tangent) result.tangent = tangent_;

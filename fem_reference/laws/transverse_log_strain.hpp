@@ -2,6 +2,7 @@
 
 #include "fem_reference/laws/log_stretch.hpp"
 #include "fem_reference/laws/transverse_elasticity.hpp"
+#include "mechanics/ramp_integral.hpp"
 
 namespace springproof::fem_reference {
 
@@ -18,6 +19,17 @@ class TransverseLogStrain {
 
   explicit TransverseLogStrain(const Material& material) : elasticity_(material) {}
 
+  /// As of LogStrain, the work on the straight path of logarithmic strain E s, s from 0 to 1, along which U
+  /// keeps its axes: the integral of J^s s E : C' : E.
+  double energy(const Matrix3& f) const {
+    const LogStretch log(f);
+    const Vector9 strain = flatten(log.axes * log.strains.asDiagonal() * log.axes.transpose());
+    return strain.dot(elasticity_.rest() * strain) * mechanics::ramp_integral(log.strains.sum());
+  }
+  double volume_energy(double j) const {
+    const double log = std::log(j);
+    return elasticity_.kappa() * log * log * mechanics::ramp_integral(log);
+  }
   void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
     const LogStretch log(f);
     const Matrix3& n = log.axes;

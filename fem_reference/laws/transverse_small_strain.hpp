@@ -13,6 +13,11 @@ class TransverseSmallStrain {
 
   explicit TransverseSmallStrain(const Material& material) : elasticity_(material) {}
 
+  double energy(const Matrix3& f) const {
+    const Vector9 gradient = flatten(f - Matrix3::Identity());
+    return 0.5 * gradient.dot(elasticity_.rest() * gradient);
+  }
+  double volume_energy(double j) const { return elasticity_.kappa() / 2 * (j - 1) * (j - 1); }
   void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
     result.stress.noalias() = elasticity_.rest() * flatten(f - Matrix3::Identity());
     if (wanted == Wanted::stress_and_tangent) result.tangent = elasticity_.rest();

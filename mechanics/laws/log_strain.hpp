@@ -2,6 +2,7 @@
 
 #include "mechanics/elastic_moduli.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "mechanics/ramp_integral.hpp"
 
 namespace springproof::mechanics {
 
@@ -30,6 +31,17 @@ class LogStrain {
       s.difference(p) = two_mu_j * std::exp(-(a + b)) * ratio / 2;
     }
     return s;
+  }
+  /// There is no energy, so this is the work on the straight path of logarithmic strain x s, s from 0 to 1:
+  /// the integral of J^s 2 mu s dev(x) : dev(x), N mm/mm³.
+  double energy(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d deviator = x.array() - x.mean();
+    return 2 * moduli_.mu * deviator.squaredNorm() * ramp_integral(x.sum());
+  }
+  /// The integral of the pressure kappa ln J over J: kappa (J ln J - J + 1).
+  double volume_energy(double j) const {
+    const double log = std::log(j);
+    return moduli_.kappa * log * log * ramp_integral(log);
   }
   ValueAndSlope pressure(double j) const { return {moduli_.kappa * std::log(j), moduli_.kappa / j}; }
   ValueAndSlope volume_ratio(double p) const {

@@ -2,6 +2,7 @@
 
 #include "mechanics/elastic_moduli.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "mechanics/ramp_integral.hpp"
 
 namespace springproof::mechanics {
 
@@ -42,6 +43,20 @@ class Ogden {
     }
     return s;
   }
+  /// sum 2 mu/alpha² (isochoric stretches^alpha - 3), N mm/mm³. Their logarithms add up to 0, so that what is
+  /// linear in them may be left out.
+  double energy(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d isochoric = x.array() - x.mean();
+    double sum = 0;
+    for (std::size_t term = 0; term < material_.mu.size(); ++term) {
+      const double mu = material_.mu[term], alpha = material_.alpha[term];
+      for (int i = 0; i < 3; ++i)
+        sum += 2 * mu / (alpha * alpha) * exponential_beyond_linear(alpha * isochoric(i));
+    }
+    return sum;
+  }
+  /// kappa/4 (J² - 1 - 2 ln J)
+  double volume_energy(double j) const { return kappa_ / 4 * exponential_beyond_linear(2 * std::log(j)); }
   ValueAndSlope pressure(double j) const {
     return {kappa_ / 2 * (j - 1 / j), kappa_ / 2 * (1 + 1 / (j * j))};
   }

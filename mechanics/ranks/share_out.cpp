@@ -79,6 +79,13 @@ class MpiSharing : public cases::Sharing {
     return held;
   }
 
+  std::vector<Vector3d> add_up(std::vector<Numbered<Vector3d>> of_nodes) const override {
+    std::vector<Vector3d> held(here().nodes.size(), Vector3d::Zero());
+    for (const auto& [number, value] : exchange(std::move(of_nodes), &Share::nodes))
+      held[index(number) - here().nodes.begin] += value;
+    return held;
+  }
+
   std::vector<Vector3d> gather(const std::vector<Vector3d>& of_nodes) const override {
     const std::size_t ghosts = here().own_nodes.begin - here().nodes.begin;
     return gathered(of_nodes.data() + ghosts, &Share::own_nodes);

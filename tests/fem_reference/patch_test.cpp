@@ -1,3 +1,4 @@
+#include "mechanics/elastic_moduli.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
 #include "tests/support/largest.hpp"

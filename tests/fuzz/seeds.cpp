@@ -53,6 +53,12 @@ compare::Answers answers() {
   solution.cell_volume = {1};
   solution.lowest_eigenvalue = 0.1;
   answers.msm = answers.fem;
+  answers.msm.solution.fields = cases::Fields{std::vector<Eigen::Vector3d>(8, {0, 0, 1}),
+                                              0.1,
+                                              true,
+                                              {0.1},
+                                              {{1, 2, 3, 4, 5, 6}},
+                                              {{0, 0, 0, 0, 0, 0}}};
   answers.design = msm::DesignResult{};
   answers.design->warnings = {"a warning"};
   answers.refined = compare::RefinedMeshes{{0, 1}, {solution, solution}, ""};

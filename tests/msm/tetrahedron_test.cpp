@@ -53,6 +53,22 @@ TEST_CASE("biquadratic springs store what a linear St. Venant-Kirchhoff tetrahed
   for (std::size_t v = 0; v < 4; ++v) CHECK((forces[v] - expected[v]).norm() <= 1e-14); // N, of 0.1
 }
 
+TEST_CASE("the tensions of a tetrahedron's edges add up to its forces", "[verification]") {
+  const TetrahedronPositions x = deformed();
+  const auto forces = msm::biquadratic_forces(x, slanted_lengths, slanted_stiffness);
+  const msm::EdgeValues tensions = msm::biquadratic_tensions(x, slanted_lengths, slanted_stiffness);
+  TetrahedronPositions pulls;
+  pulls.fill(Vector3d::Zero());
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto from = static_cast<std::size_t>(msm::tetrahedron_edges[e][0]),
+               to = static_cast<std::size_t>(msm::tetrahedron_edges[e][1]);
+    const Vector3d pull = tensions[static_cast<Eigen::Index>(e)] * (x[to] - x[from]).normalized();
+    pulls[from] += pull;
+    pulls[to] -= pull;
+  }
+  for (std::size_t v = 0; v < 4; ++v) CHECK((forces[v] - pulls[v]).norm() <= 1e-14); // N, of 0.1
+}
+
 TEST_CASE("the stiffness of biquadratic springs depends neither on the order of vertices nor on its sign",
           "[verification]") {
   const TetrahedronPositions turned{slanted[1], slanted[0], slanted[2], slanted[3]}; // inside out

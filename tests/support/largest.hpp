@@ -54,6 +54,32 @@ inline double largest_difference(const cases::Solution& a, const cases::Solution
                             [](const auto& u) { return u.norm(); });
 }
 
+/// Largest difference of a field's values over the field's largest, of the worst field; NaN if a number is,
+/// and where a field is zero.
+/// @param here  what b is of, where ranks share it (part_of()); a is of the whole body
+inline double largest_difference(const cases::Fields& a, const cases::Fields& b,
+                                 const cases::Share& here = {}) {
+  double worst = 0;
+  const auto compare = [&](const auto& whole, const auto& part, std::size_t first) {
+    using Value = std::decay_t<decltype(whole.front())>;
+    const bool is_all = first > 0 || part.size() == whole.size() || here.nodes.size() > 0;
+    if (part.empty() || first + part.size() > whole.size() || !is_all)
+      throw std::invalid_argument("not of one body, or of none");
+    constexpr std::size_t n = sizeof(Value) / sizeof(double);
+    const auto numbers = [](const auto& values) { return reinterpret_cast<const double*>(values.data()); };
+    double largest = 0, difference = 0;
+    for (std::size_t i = 0; i < n * whole.size(); ++i) largest = larger(largest, std::abs(numbers(whole)[i]));
+    for (std::size_t i = 0; i < n * part.size(); ++i)
+      difference = larger(difference, std::abs(numbers(whole)[n * first + i] - numbers(part)[i]));
+    worst = larger(worst, difference / largest);
+  };
+  compare(a.reaction, b.reaction, here.nodes.begin);
+  compare(a.strain_energy, b.strain_energy, here.cells.begin);
+  compare(a.stress, b.stress, here.cells.begin);
+  compare(a.strain, b.strain, here.cells.begin);
+  return larger(worst, std::abs(a.total_energy - b.total_energy) / std::abs(a.total_energy));
+}
+
 /// Largest difference of a cell's volume in two solutions of one body, mm³; NaN if a number is.
 /// @param b  ranks may share it: then of the cells that are here
 inline double largest_volume_difference(const cases::Solution& a, const cases::Solution& b) {

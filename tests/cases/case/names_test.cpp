@@ -30,9 +30,10 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Formulation>(4);
   check_names<Element>(5);
   check_names<Design>(15);
-  check_names<MeasureKind>(7);
+  check_names<MeasureKind>(11);
   check_names<Axis>(3);
   check_names<Component>(4);
+  check_names<TensorComponent>(10);
   check_names<ReferenceKind>(5);
   check_names<Quantity>(3);
   check_names<Status>(3);

@@ -40,6 +40,47 @@ TEST_CASE("a mistake in [[measure]] is refused where it is made") {
   });
 }
 
+TEST_CASE("a mistake in a measure of forces, stress or strain is refused where it is made") {
+  const std::string measure = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
+  check_mistakes({
+      {measure, "kind = 'reaction'\ncomponent = 'x'\n", 26, "measure[0].region", {"is missing"}},
+      {measure, "kind = 'reaction'\nregion = 'z-'\n", 26, "measure[0].component", {"is missing"}},
+      {measure,
+       "kind = 'reaction'\nregion = 'z-'\ncomponent = 'xx'\n",
+       30,
+       "measure[0].component",
+       {"\"norm\""}},
+      {measure, "kind = 'stress'\ncomponent = 'xx'\n", 26, "measure[0].point", {"is missing"}},
+      {measure,
+       "kind = 'stress'\npoint = [5, 5]\ncomponent = 'xx'\n",
+       29,
+       "measure[0].point",
+       {"three finite numbers"}},
+      {measure,
+       "kind = 'stress'\npoint = [5, 5, 5]\ncomponent = 'mises'\n",
+       30,
+       "measure[0].component",
+       {"von_mises", "principal_1"}},
+      {measure,
+       "kind = 'strain'\npoint = [5, 5, 5]\ncomponent = 'von_mises'\n",
+       30,
+       "measure[0].component",
+       {"\"principal_3\""}},
+      {measure, "kind = 'strain_energy'\nregion = 'z-'\n", 29, "measure[0].region", {"is not a key here"}},
+  });
+}
+
+TEST_CASE("a case asks for fields when a measure is of them") {
+  const std::string measure = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
+  CHECK_FALSE(read_text(good_case).has_fields);
+  CHECK_FALSE(read_text(replaced(good_case, measure, "kind = 'volume'\n")).has_fields);
+  for (const char* of_fields :
+       {"kind = 'strain_energy'\n", "kind = 'reaction'\nregion = 'z-'\ncomponent = 'norm'\n",
+        "kind = 'stress'\npoint = [5, 5, 5]\ncomponent = 'von_mises'\n",
+        "kind = 'strain'\npoint = [5, 5, 5]\ncomponent = 'principal_2'\n"})
+    CHECK(read_text(replaced(good_case, measure, of_fields)).has_fields);
+}
+
 TEST_CASE("a mistake in [[expect]] is refused where it is made") {
   check_mistakes({
       {"measure = 'alpha_1'",

@@ -251,3 +251,47 @@ TEST_CASE("a load or a motion that double precision cannot tell from none is ref
   moved.moved[0].angle = 360;
   CHECK_NOTHROW(make_scene(moved));
 }
+
+TEST_CASE("the area of a region is that of its faces, and nodes and edges have none") {
+  const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
+  CHECK(area(mesh, select(mesh, region("z+"))) == Approx(6).epsilon(1e-14));
+  CHECK(area(mesh, select(mesh, region("x-"))) == Approx(12).epsilon(1e-14));
+  CHECK(area(mesh, select(mesh, region("z+ x-"))) == 0);
+  Region patch;
+  patch.name = "patch";
+  patch.near = Vector3d(0.5, 0.5, 4);
+  patch.radius = 1.01; // this face's centre, and those of two neighbours
+  CHECK(area(mesh, select(mesh, patch)) == Approx(5).epsilon(1e-14)); // two more around the edges
+}
+
+TEST_CASE("a reaction is measured where something is held, stress and strain inside the body") {
+  Case definition = box({2, 2, 2}, {2, 2, 2});
+  definition.fixed.front().components = {true, false, true};
+  definition.moved.push_back({region("z+"), {false, false, true}, Vector3d(0, 0, -0.1)});
+  Measure measure;
+  measure.name = "force";
+  measure.kind = MeasureKind::reaction;
+  const auto with = [&](const std::string& where, Component component) {
+    measure.region = region(where);
+    measure.component = component;
+    definition.measures = {measure};
+    return make_scene(definition);
+  };
+  CHECK_NOTHROW(with("z-", Component::norm));
+  CHECK_NOTHROW(with("z+", Component::z));
+  CHECK_NOTHROW(with("x+", Component::z)); // whose edges are held
+  CHECK_THROWS_WITH(with("z-", Component::y), Catch::Contains("in component y"));
+  CHECK_THROWS_WITH(with("z+", Component::x), Catch::Contains("in component x"));
+  definition.moved.clear();
+  CHECK_THROWS_WITH(with("z+", Component::norm), Catch::Contains("no node that is fixed or moved"));
+  measure.kind = MeasureKind::stress;
+  measure.point = {1, 1, 2.1};
+  definition.measures = {measure};
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("[1, 1, 2.1]"));
+  definition.measures.front().point = {1, 1, 2};
+  CHECK_NOTHROW(make_scene(definition));
+  definition.msm.design = Design::network; // whose springs belong to no cell
+  CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("design = \"network\""));
+  definition.measures.front().kind = MeasureKind::strain;
+  CHECK_NOTHROW(make_scene(definition));
+}

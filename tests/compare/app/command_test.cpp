@@ -88,12 +88,19 @@ TEST_CASE(
   REQUIRE(run_program("run " + shear + " --out " + out.string()).status == 0);
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(out)) names.push_back(entry.path().filename());
-  CHECK_THAT(names, Catch::UnorderedEquals<std::string>(
-                        {"results.json", "comparison.csv", "cube-shear-small.vtu", "solved"}));
+  CHECK_THAT(names,
+             Catch::UnorderedEquals<std::string>({"results.json", "comparison.csv", "cube-shear-small.vtu",
+                                                  "cube-shear-small_springs.vtu", "solved"}));
   CHECK(nlohmann::json::parse(content(out / "results.json"))["cases"].size() == 1);
   const std::string vtu = content(out / "cube-shear-small.vtu");
-  for (const char* field : {"fem_displacement", "msm_displacement", "difference", "msm_cell_volume"})
-    CHECK(vtu.find(field) != std::string::npos);
+  for (const char* field :
+       {"fem_displacement", "msm_displacement", "difference", "msm_cell_volume", "fem_stress", "msm_stress",
+        "fem_von_mises", "msm_strain", "fem_strain_energy_density", "msm_reaction", "relative_error",
+        "applied_force", "material"})
+    CHECK(vtu.find("\"" + std::string(field) + "\"") != std::string::npos);
+  const std::string springs = content(out / "cube-shear-small_springs.vtu");
+  for (const char* field : {"stretch", "tension", "msm_displacement"})
+    CHECK(springs.find("\"" + std::string(field) + "\"") != std::string::npos);
 }
 
 TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none") {

@@ -1,5 +1,6 @@
 #include "compare/gates/judge.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/measure/tensor.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -91,6 +92,69 @@ TEST_CASE("a coordinate is a place, a displacement a change, and the volume foll
   displacement.component = cases::Component::x;
   CHECK(compare::evaluate(displacement, scene, stretched) == Approx(-1).epsilon(rounding));
   CHECK(compare::evaluate(measure(MeasureKind::volume), scene, stretched) == Approx(12).epsilon(rounding));
+}
+
+TEST_CASE("a tensor's components, von Mises equivalent and principal values") {
+  using cases::TensorComponent;
+  const cases::SymmetricTensor uniaxial{3, 0, 0, 0, 0, 0}, shear{0, 0, 0, 0, 2, 0}, any{1, 2, 3, 4, 5, 6};
+  CHECK(compare::component_of(any, TensorComponent::zz) == 3);
+  CHECK(compare::component_of(any, TensorComponent::xz) == 6);
+  CHECK(compare::component_of(uniaxial, TensorComponent::von_mises) == Approx(3).epsilon(rounding));
+  CHECK(compare::von_mises(shear) == Approx(2 * std::sqrt(3.0)).epsilon(rounding));
+  CHECK(compare::von_mises({5, 5, 5, 0, 0, 0}) == Approx(0).margin(rounding));
+  CHECK(compare::component_of(shear, TensorComponent::principal_1) == Approx(2).epsilon(rounding));
+  CHECK(compare::component_of(shear, TensorComponent::principal_2) == Approx(0).margin(rounding));
+  CHECK(compare::component_of(shear, TensorComponent::principal_3) == Approx(-2).epsilon(rounding));
+}
+
+TEST_CASE(
+    "forces, energy and stress are read off the fields: a region's sum, all cells' sum, the mean of the "
+    "cells at a point") {
+  const cases::Scene scene = cube();
+  auto fem = moved(scene, [](const Vector3d& x) { return Vector3d(1.1 * x); });
+  const cases::Measure energy = measure(MeasureKind::strain_energy);
+  CHECK_FALSE(compare::can_evaluate(energy, fem));
+  CHECK(compare::can_evaluate(measure(MeasureKind::volume), fem));
+  cases::Fields fields;
+  for (const Vector3d& x : scene.mesh.nodes)
+    fields.reaction.push_back(x.z() < 1e-9 ? Vector3d(1, 2, 2) : Vector3d(0, 0, 0));
+  for (std::size_t c = 0; c < 8; ++c) {
+    fields.strain_energy.push_back(0.5);
+    fields.stress.push_back({double(c), 0, 0, 0, 0, 0});
+    fields.strain.push_back({0, 0, 0.1 * double(c), 0, 0, 0});
+  }
+  fields.total_energy = 4;
+  fem.fields = fields;
+  CHECK(compare::can_evaluate(energy, fem));
+  CHECK(compare::evaluate(energy, scene, fem) == 4);
+  cases::Measure reaction = measure(MeasureKind::reaction);
+  reaction.region = region("z-");
+  CHECK(compare::evaluate(reaction, scene, fem) == Approx(27).epsilon(rounding)); // nine nodes
+  reaction.component = cases::Component::y;
+  CHECK(compare::evaluate(reaction, scene, fem) == 18);
+  cases::Measure stress = measure(MeasureKind::stress), strain = measure(MeasureKind::strain);
+  stress.point = {1.5, 0.5, 0.5};
+  CHECK(compare::evaluate(stress, scene, fem) == 1);
+  stress.point = {1, 1, 1.5}; // the upper four cells
+  CHECK(compare::evaluate(stress, scene, fem) == 5.5);
+  strain.point = stress.point;
+  strain.tensor_component = cases::TensorComponent::zz;
+  CHECK(compare::evaluate(strain, scene, fem) == Approx(0.55).epsilon(rounding));
+  CHECK(compare::unit_of(reaction) == "N");
+  CHECK(compare::unit_of(energy) == "N mm");
+  CHECK(compare::unit_of(stress) == "MPa");
+  CHECK(compare::unit_of(strain) == "1");
+  auto network = fem; // whose springs belong to no cell
+  network.fields->has_stress = false;
+  CHECK_FALSE(compare::can_evaluate(stress, network));
+  CHECK(compare::can_evaluate(energy, network));
+  // what a solve leaves of a stress that is zero has no percentage
+  auto msm = fem;
+  fem.fields->stress[0] = {1, 0, 0, 1e-9, 0, 0};
+  msm.fields->stress[0] = {1, 0, 0, 3e-9, 0, 0};
+  stress.point = {0.5, 0.5, 0.5};
+  stress.tensor_component = cases::TensorComponent::xy;
+  CHECK_FALSE(compare::measure_error_percent(stress, scene, fem, msm));
 }
 
 TEST_CASE("field norms: a stretch along z has the root mean square of a linear field, and errors are of the "

@@ -91,6 +91,33 @@ TEST_CASE("a ranked design has the errors that run prints of it", "[verification
   CHECK(ranking.recommended()->name == "hybrid"); // lloyd's lattice is 14 % too stiff
 }
 
+TEST_CASE("designs are ranked by energy and stress too, whatever their cells consist of",
+          "[verification-long]") {
+  cases::Scene scene = small_shear();
+  cases::Measure energy, stress;
+  energy.name = "energy";
+  energy.kind = cases::MeasureKind::strain_energy;
+  stress.name = "stress";
+  stress.kind = cases::MeasureKind::stress;
+  stress.point = {5, 5, 5};
+  stress.tensor_component = cases::TensorComponent::xz;
+  scene.definition.measures = {energy, stress};
+  scene.definition.has_fields = true;
+  const std::vector<cases::Design> designs{cases::Design::hybrid, cases::Design::lloyd,
+                                           cases::Design::biquadratic, cases::Design::uniform};
+  const compare::Ranking ranking = compare::rank_designs(scene, designs);
+  REQUIRE(ranking.designs.size() == designs.size());
+  CHECK_FALSE(ranking.fem.solution.fields);
+  for (const RankedDesign& ranked : ranking.designs) {
+    CAPTURE(ranked.name, ranked.refusal, ranked.failure);
+    REQUIRE(ranked.measures.size() == 2);
+    // the load is 121 x 0.002 N on 100 mm^2 in every model: 0.00242 MPa, on the middle of the cube nearly so
+    CHECK(*ranked.measures[1].msm == Approx(*ranked.measures[1].fem).epsilon(0.5));
+    CHECK(*ranked.measures[0].msm > 0);
+    CHECK(ranked.worst);
+  }
+}
+
 TEST_CASE("a case without measures cannot be ranked") {
   cases::Scene scene = small_shear();
   scene.definition.measures.clear();

@@ -103,6 +103,18 @@ TEST_CASE("a question's models are those that it asks for, and of every mesh") {
         Approx(models[0].seconds + models[1].seconds + models[2].seconds + models[3].seconds));
 }
 
+TEST_CASE("a case that asks for fields needs memory for them, on both sides") {
+  cases::Case definition = cube(100);
+  const auto without = compare::estimate(body(definition), {});
+  definition.has_fields = true;
+  const auto with = compare::estimate(body(definition), {});
+  REQUIRE(with.size() == without.size());
+  for (std::size_t m = 0; m < with.size(); ++m) {
+    CHECK(with[m].megabytes == Approx(without[m].megabytes + 400)); // a million cells
+    CHECK(with[m].seconds == without[m].seconds);
+  }
+}
+
 TEST_CASE("more memory than there is is refused with unknowns, estimate, limit and what to change") {
   const auto models = compare::estimate(body(cube(100)), {});
   CHECK_NOTHROW(compare::check_memory("cube.toml", models, limit(1e5)));

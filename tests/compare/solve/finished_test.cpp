@@ -48,6 +48,12 @@ Answers answers() {
   answers.msm.solution.displacement.assign(8, {1, 2, 3});
   answers.msm.solution.displacement[1] = {-0.0, 5e-324, 1e308};
   answers.msm.solution.cell_volume = {1.5};
+  answers.msm.solution.fields = cases::Fields{std::vector<Eigen::Vector3d>(8, {0.1, -0.0, 5e-324}),
+                                              0.3,
+                                              true,
+                                              {0.3},
+                                              {{1, 2, 3, 4, 5, 6}},
+                                              {{-1, 0.1, 0, 0, 0, 1e-300}}};
   answers.msm.solution.negative_eigenvalues = 2;
   answers.msm.solve_seconds = 0.1;
   answers.design = msm::DesignResult{};
@@ -89,6 +95,12 @@ TEST_CASE("kept answers come back as they were, to the last bit") {
   CHECK(after.fem.solution.status == cases::Status::skipped);
   CHECK(after.msm.solution.message == before.msm.solution.message);
   CHECK(after.msm.solution.displacement == before.msm.solution.displacement);
+  CHECK(after.msm.solution.fields->reaction == before.msm.solution.fields->reaction);
+  CHECK(after.msm.solution.fields->total_energy == before.msm.solution.fields->total_energy);
+  CHECK(after.msm.solution.fields->strain_energy == before.msm.solution.fields->strain_energy);
+  CHECK(after.msm.solution.fields->stress == before.msm.solution.fields->stress);
+  CHECK(after.msm.solution.fields->strain == before.msm.solution.fields->strain);
+  CHECK_FALSE(after.fem.solution.fields);
   CHECK(std::signbit(after.msm.solution.displacement[1].x()));
   CHECK(after.msm.solution.negative_eigenvalues == 2);
   CHECK_FALSE(after.msm.solution.lowest_eigenvalue);
@@ -128,7 +140,7 @@ TEST_CASE("a kept file with any one bit flipped counts as none") {
 TEST_CASE("a kept file of another format counts as none, and its line says so") {
   const Kept kept;
   std::string other = compare::read_file(kept.file);
-  other.replace(other.find(" 1\n"), 3, " 2\n");
+  other.replace(other.find(" 2\n"), 3, " 1\n");
   CHECK_THAT(find_in(kept, other).message, Catch::Contains("another format"));
   CHECK_THAT(find_in(kept, "as a program before it kept them").message, Catch::Contains("another format"));
 }
@@ -148,6 +160,15 @@ TEST_CASE("a kept file with a sound digest of answers that are none counts as no
   CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
   forged = answers();
   forged.msm.solution.cell_volume.clear();
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.msm.solution.fields->stress.clear();
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.msm.solution.fields->has_stress = false;
+  CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
+  forged = answers();
+  forged.msm.solution.fields->strain[0][2] = std::nan("");
   CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);
   forged = answers();
   forged.refined->refine = {0, 1, 2};

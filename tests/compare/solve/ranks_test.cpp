@@ -1,4 +1,6 @@
 #include "cases/case/error.hpp"
+#include "mechanics/ranks/share_out.hpp"
+#include "msm/fields.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/deal_out.hpp"
 #include "msm/snes/snes.hpp"
@@ -168,6 +170,61 @@ TEST_CASE("a grid's equilibrium and the way to it are the same on any number of 
   CHECK(n_linear == Approx(static_cast<double>(alone.linear_iterations)).epsilon(0.2));
   const cases::Solution assembled = msm::Model(scene, springs, {msm::Path::direct, 1}).solve(to_rounding());
   CHECK(largest_difference(assembled, together) <= 1e-8); // mm
+  // strains are differences of displacements that agree to 1e-9, over a cell's edge
+  CHECK(largest_difference(msm::fields(scene, springs, alone), msm::fields(scene, springs, together),
+                           part_of(alone, together)) <= 1e-7);
+}
+
+TEST_CASE("cells of terms and networks have the same fields on any number of ranks", "[ranks]") {
+  const cases::Scene scene = scene_of(bodies::clamped_box({5, 4, 6}, bodies::tensile(0.004)));
+  const msm::BodyTerms terms{{msm::terms_of(bodies::hybrid_cell)}, {}, msm::Boundary::whole};
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, terms);
+  const auto solved = [&](MPI_Comm communicator) {
+    return msm::solve_lattice_by_snes(scene, lattice, communicator, to_rounding());
+  };
+  const cases::Solution alone = solved(PETSC_COMM_SELF), together = solved(PETSC_COMM_WORLD);
+  const cases::Share here = part_of(alone, together);
+  CHECK(largest_difference(msm::fields(scene, terms, alone), msm::fields(scene, terms, together), here) <=
+        1e-7);
+  msm::Lattice network =
+      lattice; // its springs without the volume terms: not in balance, but that is no matter
+  network.volume_cells.clear();
+  const cases::Fields one = msm::network_fields(scene, network, alone),
+                      part = msm::network_fields(scene, network, together);
+  CHECK(part.total_energy == Approx(one.total_energy).epsilon(1e-7));
+  const auto norm = [](const auto& v) { return v.norm(); };
+  CHECK(largest_difference(one.reaction, part.reaction, here.nodes.begin, norm) <= 1e-9); // N
+  CHECK_FALSE(part.has_stress);
+  CHECK(part.strain.size() == (together.sharing ? here.cells.size() : scene.mesh.cells.size()));
+}
+
+TEST_CASE("ranks add up what they give of nodes, and deal out and gather cells' tensors", "[ranks]") {
+  const cases::HexMesh mesh = cases::make_box_mesh({4, 4, 9}, {4, 4, 9});
+  const auto sharing = mechanics::share_out(mesh, PETSC_COMM_WORLD);
+  REQUIRE((sharing != nullptr) == (n_ranks() > 1));
+  if (!sharing) return;
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const double n = n_ranks();
+  std::vector<cases::Numbered<Eigen::Vector3d>> of_nodes;
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    of_nodes.push_back({std::int64_t(node), {double(node), double(rank), 1}});
+  const auto sums = sharing->add_up(of_nodes);
+  const cases::Share& here = sharing->here();
+  REQUIRE(sums.size() == here.nodes.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    CHECK(sums[i] == Eigen::Vector3d(n * double(here.nodes.begin + i), n * (n - 1) / 2, n));
+  std::vector<cases::SymmetricTensor> tensors;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) tensors.push_back({double(c), 1, 2, 3, 4, -double(c)});
+  std::vector<cases::Numbered<cases::SymmetricTensor>> of_cells; // half of each by the first two ranks
+  for (std::size_t c = 0; c < tensors.size() && rank < 2; ++c) {
+    of_cells.push_back({std::int64_t(c), tensors[c]});
+    for (double& value : of_cells.back().value) value /= 2;
+  }
+  const auto dealt = cases::deal(*sharing, of_cells);
+  REQUIRE(dealt.size() == here.cells.size());
+  for (std::size_t i = 0; i < dealt.size(); ++i) CHECK(dealt[i] == tensors[here.cells.begin + i]);
+  CHECK(cases::gather(*sharing, dealt) == tensors);
 }
 
 TEST_CASE("operators on parts of a grid give what they give on the whole of it", "[ranks]") {

@@ -1,7 +1,9 @@
 #include "compare/write/write.hpp"
+#include "compare/write/write_springs.hpp"
 
 #include "tests/support/temporary_folder.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
@@ -63,6 +65,99 @@ TEST_CASE("a .vtu carries the mesh in VTK's order and the fields of the sides th
   CHECK(read_array<double>(vtu, "msm_cell_volume") == std::vector<double>{1.5});
   CHECK(vtu.find("fem_displacement") == std::string::npos);
   CHECK(vtu.find("difference") == std::string::npos);
+}
+
+TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and materials") {
+  compare::Comparison comparison = one_cell_comparison();
+  cases::Solution &fem = comparison.answers.fem.solution, &msm = comparison.answers.msm.solution;
+  fem.status = cases::Status::converged;
+  fem.displacement.assign(8, {0, 0, -2});
+  fem.displacement[7] = {0, 3, -4};
+  fem.cell_volume = {1};
+  fem.fields = cases::Fields{std::vector<Eigen::Vector3d>(8, {1, 2, 3}),
+                             0.5,
+                             true,
+                             {0.5},
+                             {{3, 0, 0, 0, 0, 0}},
+                             {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}};
+  msm.fields = fem.fields;
+  msm.fields->stress[0] = {4, 0, 0, 0, 0, 0};
+  cases::Load load;
+  load.region.name = "z+";
+  load.kind = cases::LoadKind::traction;
+  load.value = {0, 0, 4};
+  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
+  comparison.scene.material_of_cell = {2};
+  std::ostringstream out;
+  compare::write_vtu(out, comparison);
+  const std::string vtu = out.str();
+  CHECK(read_array<double>(vtu, "fem_stress") == std::vector<double>{3, 0, 0, 0, 0, 0});
+  CHECK(read_array<double>(vtu, "fem_strain") == std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
+  CHECK(read_array<double>(vtu, "fem_von_mises")[0] == Approx(3).epsilon(1e-14));
+  CHECK(read_array<double>(vtu, "msm_von_mises")[0] == Approx(4).epsilon(1e-14));
+  CHECK(read_array<double>(vtu, "von_mises_difference")[0] == Approx(1).epsilon(1e-13));
+  CHECK(read_array<double>(vtu, "fem_strain_energy_density")[0] == Approx(0.5).epsilon(1e-14));
+  CHECK(read_array<double>(vtu, "fem_reaction")[2] == 3);
+  CHECK(read_array<double>(vtu, "error")[0] == Approx(1).epsilon(1e-14));
+  CHECK(read_array<double>(vtu, "relative_error")[0] == Approx(0.2).epsilon(1e-14)); // of 5 mm
+  CHECK(read_array<double>(vtu, "applied_force")[3 * 7 + 2] == Approx(1).epsilon(1e-14));
+  CHECK(read_array<double>(vtu, "material") == std::vector<double>{2});
+  const std::size_t stress = vtu.find("Name=\"fem_stress\"");
+  for (const char* part : {"UNITS_LABEL", "MPa", "ComponentName3=\"XY\""})
+    CHECK(vtu.find(part, stress) < vtu.find("</DataArray>", stress));
+}
+
+TEST_CASE("the text says what force is applied and on what area") {
+  compare::Comparison comparison = one_cell_comparison();
+  cases::Load load;
+  load.region.name = "z+";
+  load.kind = cases::LoadKind::traction;
+  load.value = {0, 0.25, -4};
+  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
+  std::ostringstream out;
+  compare::write_text(out, comparison);
+  CHECK_THAT(out.str(), Catch::Contains("  applied force (0, 0.25, -4) N; load[0] 1 mm2\n"));
+}
+
+TEST_CASE("springs are lines with their stretch and tension, where they are ours") {
+  compare::Comparison comparison = one_cell_comparison();
+  CHECK_FALSE(compare::has_drawn_springs(comparison)); // nobody has designed them
+  msm::DesignResult design;
+  design.stiffness = {0.5, 0, 0, 0}; // edges alone
+  comparison.answers.design = design;
+  auto& displacement = comparison.answers.msm.solution.displacement;
+  displacement.assign(8, {0, 0, 0});
+  for (std::size_t n = 4; n < 8; ++n) displacement[n] = {0, 0, -0.25}; // the upper face
+  REQUIRE(compare::has_drawn_springs(comparison));
+  std::ostringstream out;
+  compare::write_springs_vtu(out, comparison, displacement);
+  const std::string vtu = out.str();
+  CHECK(read_array<std::uint8_t>(vtu, "types") == std::vector<std::uint8_t>(12, 3)); // lines
+  const auto stretch = read_array<double>(vtu, "stretch"), tension = read_array<double>(vtu, "tension");
+  REQUIRE(stretch.size() == 12);
+  int n_pressed = 0;
+  for (std::size_t s = 0; s < 12; ++s) {
+    const bool is_pressed = stretch[s] < 0.9;
+    n_pressed += is_pressed;
+    CHECK(stretch[s] == Approx(is_pressed ? 0.75 : 1).epsilon(1e-14));
+    CHECK(tension[s] == Approx(is_pressed ? -0.125 : 0).margin(1e-15));
+  }
+  CHECK(n_pressed == 4);
+
+  msm::CellTerms cell; // a link and a tetrahedron, of which an edge is pressed
+  cell.springs = {{{0, 1}, 0.5}};
+  cell.tetrahedra = {{{0, 1, 2, 4}, 0.2, 0.1}};
+  comparison.answers.design->terms = msm::BodyTerms{{cell}};
+  std::ostringstream of_terms;
+  compare::write_springs_vtu(of_terms, comparison, displacement);
+  const auto pressed = read_array<double>(of_terms.str(), "stretch");
+  REQUIRE(pressed.size() == 1 + 6);
+  CHECK(std::count_if(pressed.begin(), pressed.end(), [](double q) { return q < 0.76; }) == 1); // 0 to 4
+  const auto tensions = read_array<double>(of_terms.str(), "tension");
+  CHECK(tensions[0] == Approx(0).margin(1e-15)); // the link
+  CHECK(std::any_of(tensions.begin(), tensions.end(), [](double t) { return t < -1e-3; }));
+  comparison.answers.msm_source = "another.vtu";
+  CHECK_FALSE(compare::has_drawn_springs(comparison));
 }
 
 TEST_CASE("a failed side is a failed row with its reason, and its values are null, not numbers") {

@@ -78,6 +78,57 @@ TEST_CASE("the stress tangent is the stress's derivative, where stretches coinci
     }
 }
 
+TEST_CASE("the stress is the derivative of the energy, where there is one", "[verification]") {
+  int n_laws = 0;
+  for (const auto& [name, law] : formulations()) {
+    if (law.symmetry == TangentSymmetry::unsymmetric) continue;
+    ++n_laws;
+    for (const auto& [state, f] : states) {
+      Vector9 differences;
+      const double step = 1e-3; // fourth order: truncation step⁴ times exponents to the fifth over 30 ~ 1e-10
+      for (int k = 0; k < 9; ++k) {
+        const auto energy = [&](double steps) {
+          Matrix3 moved = f;
+          moved(k / 3, k % 3) += steps * step;
+          return law.energy(moved);
+        };
+        differences[k] = (8 * (energy(1) - energy(-1)) - (energy(2) - energy(-2))) / (12 * step);
+      }
+      CAPTURE(name, state);
+      CHECK((whole_stress(law, f) - differences).norm() <= 1e-8 * whole_tangent(law, f).norm());
+    }
+    CHECK(std::abs(law.energy(Matrix3::Identity())) <= 1e-28);
+    if (law.kinematics == Kinematics::finite) CHECK(law.energy(turn(0.8)) <= 1e-14); // rounding
+  }
+  CHECK(n_laws == 6);
+}
+
+TEST_CASE("the energy of log_strain is the work on the straight path of logarithmic strain",
+          "[verification]") {
+  const cases::TransverselyIsotropic fibrous = scenes::fibrous({1, 2, -0.5});
+  const bool has_fibre = GENERATE(false, true);
+  const PointLaw law =
+      has_fibre ? point_law<TransverseLogStrain>(fibrous) : log_strain(scenes::thesis_elastic());
+  const PointLaw hooke = has_fibre ? point_law<TransverseSmallStrain>(fibrous)
+                                   : point_law<SmallStrain>(scenes::thesis_elastic());
+  const Eigen::Vector3d log(0.4, -0.5, 0.2);
+  const auto at = [&](double s) {
+    const Eigen::Vector3d stretch = (s * log).array().exp();
+    return with_stretches(stretch[0], stretch[1], stretch[2]);
+  };
+  double work = 0;
+  const int n = 2000; // midpoint rule: 1/(24 n²) ~ 1e-8 of it
+  for (int i = 0; i < n; ++i) {
+    const double s = (i + 0.5) / n, h = 0.5 / n;
+    const Matrix3 change = at(s + h) - at(s - h);
+    work += whole_stress(law, at(s)).dot(flatten(change));
+  }
+  CHECK(law.energy(at(1)) == Approx(work).epsilon(1e-6));
+  // at small strains that of Hooke's law, with its leading digits
+  const Matrix3 small = Matrix3::Identity() + 1e-7 * Eigen::Vector3d(1, -2, 3).asDiagonal().toDenseMatrix();
+  CHECK(law.energy(small) == Approx(hooke.energy(small)).epsilon(1e-5));
+}
+
 TEST_CASE("the tangent of a material with an energy is symmetric, that of log_strain is not",
           "[verification]") {
   for (const auto& [name, law] : formulations()) {

@@ -20,15 +20,22 @@ using namespace fem_reference;
 /// A law with its type left behind.
 struct PointLaw : LawTraits {
   std::function<void(const Matrix3& f, Wanted wanted, PointStress& result)> stress;
+  std::function<double(const Matrix3& f)> energy;              ///< the pressure's included
   std::function<ValueAndSlope(double)> pressure, volume_ratio; ///< none without a pressure of its own
 };
 
 template<class Law>
 PointLaw point_law(const typename Law::Material& material) {
   const Law l(material);
-  PointLaw result{
-      {Law::traits}, [l](const Matrix3& f, Wanted w, PointStress& p) { l.stress(f, w, p); }, {}, {}};
+  PointLaw result{{Law::traits},
+                  [l](const Matrix3& f, Wanted w, PointStress& p) { l.stress(f, w, p); },
+                  [l](const Matrix3& f) { return l.energy(f); },
+                  {},
+                  {}};
   if constexpr (Law::traits.split == Split::pressure) {
+    result.energy = [l](const Matrix3& f) {
+      return l.energy(f) + l.volume_energy(volume_ratio(Law::traits.kinematics, f));
+    };
     result.pressure = [l](double j) { return l.pressure(j); };
     result.volume_ratio = [l](double p) { return l.volume_ratio(p); };
   }

@@ -1,0 +1,84 @@
+#include "cases/mesh/cells_at.hpp"
+
+#include "mechanics/hexahedron.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace springproof::cases {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double on_boundary = 1e-6; ///< of the unit cube, and of a cell's largest edge
+constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
+
+/// Where the cell's map takes a point of the unit cube, mm.
+Vector3d image(const mechanics::HexahedronVertices& vertices, const Vector3d& at) {
+  Vector3d point = Vector3d::Zero();
+  for (int v = 0; v < 8; ++v) {
+    double shape = 1;
+    for (int a = 0; a < 3; ++a) shape *= (v >> a) & 1 ? at[a] : 1 - at[a];
+    point += shape * vertices[index(v)];
+  }
+  return point;
+}
+
+bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : vertices) box.extend(vertex);
+  const double size = box.sizes().maxCoeff();
+  if (box.exteriorDistance(point) > on_boundary * size) return false;
+  Vector3d at = Vector3d::Constant(0.5);
+  for (int step = 0; step < most_steps; ++step) {
+    const Vector3d missing = point - image(vertices, at);
+    const bool is_inside = (at.array() >= -on_boundary).all() && (at.array() <= 1 + on_boundary).all();
+    if (missing.norm() <= 1e-3 * on_boundary * size) return is_inside;
+    at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);
+    // Far outside the cube the map may fold back; what is in the cell is never looked for there.
+    if (!(at.array().abs() <= 10).all()) return false;
+  }
+  return false;
+}
+
+/// Numbers of the cells of a grid whose cells are all present that touch the point's neighbourhood,
+/// ascending.
+std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
+  const auto place_of = [&](int axis, double aside) {
+    const double at = (point[axis] - grid.origin[axis]) / grid.spacing[axis] + aside;
+    return static_cast<int>(std::clamp(std::floor(at), 0., grid.cells[index(axis)] - 1.));
+  };
+  std::array<int, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    first[index(axis)] = place_of(axis, -2 * on_boundary);
+    last[index(axis)] = place_of(axis, 2 * on_boundary);
+  }
+  std::vector<std::size_t> cells;
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        cells.push_back((index(k) * index(grid.cells[1]) + index(j)) * index(grid.cells[0]) + index(i));
+  return cells;
+}
+
+} // namespace
+
+std::vector<std::size_t> cells_at(const HexMesh& mesh, const Vector3d& point, const Range& among) {
+  std::vector<std::size_t> cells;
+  const auto look_at = [&](std::size_t cell) {
+    if (holds(cell_vertices(mesh, cell), point)) cells.push_back(cell);
+  };
+  const auto [begin, end] = among.common({0, mesh.cells.size()});
+  if (mesh.nodes.rule && mesh.cells.rule && mesh.grid) { // of 10^7 cells a look at eight is enough
+    for (const std::size_t cell : cells_near(*mesh.grid, point))
+      if (among.has(cell)) look_at(cell);
+    return cells;
+  }
+  for (std::size_t cell = begin; cell < end; ++cell) look_at(cell);
+  return cells;
+}
+
+} // namespace springproof::cases

@@ -1,0 +1,87 @@
+#include "compare/write/write_springs.hpp"
+
+#include "cases/mesh/vtk.hpp"
+#include "compare/solve/springs.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace springproof::compare {
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+
+struct Lines {
+  std::vector<std::array<int, 2>> ends;
+  std::vector<double> stretch, tension, stiffness, rest_length;
+
+  void add(int i, int j, double length, double the_rest_length, double the_tension, double the_stiffness) {
+    ends.push_back({i, j});
+    stretch.push_back(length / the_rest_length);
+    tension.push_back(the_tension);
+    stiffness.push_back(the_stiffness);
+    rest_length.push_back(the_rest_length);
+  }
+};
+
+/// An edge of tetrahedra, which may share it.
+struct Edge {
+  double rest_length = 0, tension = 0, stiffness = 0;
+};
+
+Lines lines_of(const msm::Lattice& lattice, const std::vector<Vector3d>& displacement) {
+  const auto along = [&](int i, int j) -> Vector3d {
+    return (lattice.rest[index(j)] - lattice.rest[index(i)]) +
+           (displacement[index(j)] - displacement[index(i)]);
+  };
+  Lines lines;
+  for (const auto& [i, j, spring] : lattice.links) {
+    const double length = along(i, j).norm();
+    lines.add(i, j, length, spring.rest_length, msm::spring_slopes(length, spring).transverse * length,
+              spring.stiffness);
+  }
+  std::map<std::pair<int, int>, Edge> edges;
+  for (const msm::Tetrahedron& t : lattice.tetrahedra) {
+    msm::TetrahedronPositions x;
+    for (std::size_t v = 0; v < 4; ++v) x[v] = along(t.nodes[0], t.nodes[v]);
+    const msm::EdgeValues tensions = msm::biquadratic_tensions(x, t.rest_lengths, t.stiffness);
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto& [v, w] = msm::tetrahedron_edges[e];
+      const int a = t.nodes[index(v)], b = t.nodes[index(w)];
+      const auto at = Eigen::Index(e);
+      Edge& edge = edges[std::minmax({a, b})];
+      edge.rest_length = t.rest_lengths[at];
+      edge.tension += tensions[at];
+      edge.stiffness += 4 * t.stiffness(at, at) * edge.rest_length * edge.rest_length; // dT/d|d| at rest
+    }
+  }
+  for (const auto& [ends, edge] : edges)
+    lines.add(ends.first, ends.second, along(ends.first, ends.second).norm(), edge.rest_length, edge.tension,
+              edge.stiffness);
+  return lines;
+}
+
+} // namespace
+
+bool has_drawn_springs(const Comparison& comparison) {
+  const Answers& answers = comparison.answers;
+  return answers.msm.converged() && answers.design && answers.msm_source.empty() &&
+         comparison.scene.mesh.cells.size() <= most_cells_with_springs;
+}
+
+void write_springs_vtu(std::ostream& out, const Comparison& comparison,
+                       const std::vector<Vector3d>& displacement) {
+  const msm::Lattice lattice = solved_lattice(comparison.scene, *comparison.answers.design);
+  const Lines lines = lines_of(lattice, displacement);
+  cases::GridFields all;
+  all.point_vectors.push_back({"msm_displacement", displacement, "mm"});
+  all.cell_numbers = {{"stretch", lines.stretch, "1"},
+                      {"tension", lines.tension, "N"},
+                      {"stiffness", lines.stiffness, "N/mm"},
+                      {"rest_length", lines.rest_length, "mm"}};
+  out << cases::vtk().write_lines(lattice.rest, lines.ends, all);
+}
+
+} // namespace springproof::compare

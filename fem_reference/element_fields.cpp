@@ -1,0 +1,76 @@
+#include "fem_reference/element_fields.hpp"
+
+namespace springproof::fem_reference {
+
+using cases::index;
+using Eigen::Vector3d;
+
+namespace {
+
+/// The body's cell's trilinear shape functions at a point of its unit cube.
+std::array<double, 8> trilinear_shape(const Vector3d& at) {
+  std::array<double, 8> shape;
+  for (int v = 0; v < 8; ++v) {
+    double product = 1;
+    for (int a = 0; a < 3; ++a) product *= (v >> a) & 1 ? at[a] : 1 - at[a];
+    shape[index(v)] = product;
+  }
+  return shape;
+}
+
+} // namespace
+
+ElementPlace place_of(std::size_t refined_cell, int n_refinements) {
+  ElementPlace place{refined_cell >> (3 * n_refinements), Vector3d::Zero(), 1};
+  for (int level = n_refinements - 1; level >= 0; --level) { // the first refinement's octant comes first
+    const std::size_t octant = refined_cell >> (3 * level) & 7;
+    place.edge /= 2;
+    for (int a = 0; a < 3; ++a)
+      if (octant >> a & 1) place.lower[a] += place.edge;
+  }
+  return place;
+}
+
+ElementFields::ElementFields(const cases::Scene& scene, Kinematics kinematics, std::vector<Vector3d> nodes,
+                             const cases::Range& cells)
+    : scene_(scene), kinematics_(kinematics), nodes_(std::move(nodes)),
+      sums_(cases::vertices_of(scene.mesh, cells), cells) {}
+
+void ElementFields::add(const ElementState& element) {
+  const auto& [place, geometry, displacement, force, volume, energy] = element;
+  const std::array<int, 8> vertices = scene_.mesh.cells[place.cell];
+  const std::array<Vector3d, 8> corners = cases::cell_vertices(scene_.mesh, place.cell);
+  const bool is_linear = kinematics_ == Kinematics::linear; // the virial is that of the body at rest
+  const Vector3d first(displacement);
+  mechanics::CellSums& sum = sums_.cell(place.cell);
+  for (int a = 0; a < geometry.n_nodes; ++a) {
+    const std::array<double, 8> shape = trilinear_shape(place.lower + place.edge * nodes_[index(a)]);
+    const Vector3d f(force[a], force[geometry.n_nodes + a], force[2 * geometry.n_nodes + a]);
+    Vector3d at = is_linear ? Vector3d(0, 0, 0) : Vector3d(Vector3d(displacement + 3 * a) - first);
+    for (std::size_t v = 0; v < 8; ++v) {
+      at += shape[v] * (corners[v] - corners[0]); // forces add up to 0: any origin serves
+      sums_.force(index(vertices[v])) += shape[v] * f;
+    }
+    sum.virial() += f * at.transpose();
+  }
+  double rest_volume = 0;
+  for (int q = 0; q < geometry.n_points; ++q) {
+    rest_volume += geometry.weights[q];
+    for (int j = 0; j < 3; ++j)
+      for (int a = 0; a < geometry.n_nodes; ++a) {
+        const double gradient = geometry.gradients[(3 * q + j) * geometry.n_nodes + a];
+        sum.gradient().col(j) += geometry.weights[q] * gradient * Vector3d(displacement + 3 * a);
+      }
+  }
+  sum.rest_volume() += rest_volume;
+  sum.volume() += is_linear ? rest_volume : volume;
+  sum.energy() += energy;
+}
+
+cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_factor) {
+  return mechanics::fields_of(scene_, std::move(sums_), sharing, load_factor,
+                              kinematics_ == Kinematics::linear ? mechanics::StrainMeasure::linear
+                                                                : mechanics::StrainMeasure::logarithmic);
+}
+
+} // namespace springproof::fem_reference

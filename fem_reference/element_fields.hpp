@@ -1,0 +1,50 @@
+#pragma once
+
+#include "fem_reference/element.hpp"
+#include "mechanics/field_sums.hpp"
+
+namespace springproof::fem_reference {
+
+/// Where an element lies in its cell of the body's mesh: a cube of the cell's unit cube.
+struct ElementPlace {
+  std::size_t cell;
+  Eigen::Vector3d lower; ///< corner
+  double edge;           ///< 1/2 to the number of refinements
+};
+
+/// Place of a cell of the body's mesh refined n times: cases::refine() makes cells 8c .. 8c+7 of cell c, the
+/// number's last three bits being the octant.
+ElementPlace place_of(std::size_t refined_cell, int n_refinements);
+
+/// What one element adds to the fields. Arrays as of CellKernel::evaluate().
+struct ElementState {
+  ElementPlace place;
+  CellGeometry geometry;
+  const double* displacement; ///< mm
+  const double* force;        ///< internal, N: CellResult::plain_force
+  double volume;              ///< deformed, mm³
+  double energy;              ///< N mm
+};
+
+/// Adds elements up to fields on the body's own mesh, refined or not: the forces of the elements' nodes go to
+/// the vertices of the body's cell by its trilinear shape functions, so that the sum over a support is the
+/// support's force on every mesh, and a node's has a limit under refinement.
+class ElementFields {
+ public:
+  /// @param scene  on the body's own mesh    @param nodes  of an element, in its unit cube
+  /// @param cells  that hold those of all elements that are added here
+  ElementFields(const cases::Scene& scene, Kinematics kinematics, std::vector<Eigen::Vector3d> nodes,
+                const cases::Range& cells);
+
+  void add(const ElementState& element);
+  /// Of an equilibrium under the scene's loads times a factor: mechanics::fields_of(). Once.
+  cases::Fields fields(const cases::Sharing* sharing, double load_factor);
+
+ private:
+  const cases::Scene& scene_;
+  Kinematics kinematics_;
+  std::vector<Eigen::Vector3d> nodes_;
+  mechanics::FieldSums sums_;
+};
+
+} // namespace springproof::fem_reference
