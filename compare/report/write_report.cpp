@@ -1,20 +1,17 @@
 #include "compare/report/write_report.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/provenance/whole_file.hpp"
+#include "compare/report/bodies.hpp"
+#include "compare/report/page.hpp"
+#include "compare/solve/springs.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
-#include "compare/write/escape.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 
 namespace springproof::compare {
 
@@ -22,152 +19,143 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double unit_mm = 1e-4;
-
-void append(std::vector<long>& flat, const Eigen::Vector3d& point) {
-  for (const double coordinate : point) flat.push_back(std::lround(coordinate / unit_mm));
-}
-
-/// The part of a mesh that can be seen.
-struct Surface {
-  std::vector<std::size_t> nodes; ///< of the mesh, in the surface's order
-  std::vector<long> rest, faces;
-  bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
-};
-
-Surface surface_of(const cases::HexMesh& mesh) {
-  Surface surface;
-  std::vector<long> number(mesh.nodes.size(), -1);
-  for (const std::array<int, 4>& face : cases::boundary_faces(mesh))
-    for (const int vertex : face) {
-      const auto node = static_cast<std::size_t>(vertex);
-      if (number[node] < 0) {
-        number[node] = static_cast<long>(surface.nodes.size());
-        surface.nodes.push_back(node);
-        append(surface.rest, mesh.nodes[node]);
-      }
-      surface.faces.push_back(number[node]);
-    }
-  return surface;
-}
-
-Json side_to_json(const DeformedBody& body, std::vector<Surface>& bodies) {
-  Surface surface = surface_of(*body.mesh);
-  std::vector<long> displacement;
-  for (const std::size_t node : surface.nodes) append(displacement, (*body.displacement)[node]);
-  const auto known = std::find(bodies.begin(), bodies.end(), surface);
-  const auto index = known - bodies.begin();
-  if (known == bodies.end()) bodies.push_back(std::move(surface));
-  return {{"body", index}, {"displacement", displacement}};
-}
-
-/// How far the slider reaches: small displacements may be drawn tenfold, large ones twofold.
-double largest_scale(const Overlay& overlay) {
-  double largest = 0;
-  for (const DeformedBody* body : {&overlay.fem, &overlay.springs})
-    for (const Eigen::Vector3d& u : *body->displacement) largest = std::max(largest, u.norm());
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& x : overlay.fem.mesh->nodes) box.extend(x);
-  return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 10.0) : 2.0;
-}
-
-std::string base64(const std::string& bytes) {
-  std::string text((bytes.size() + 2) / 3 * 4, '=');
-  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                  reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  return text; // the null that OpenSSL writes behind it is where the text has its own
-}
-
-/// A drawn picture, which is shown where scripts are off and taken to its place by the page's script
-/// elsewhere.
-std::string picture(const std::string& folder, const std::string& name, const std::string& kind,
-                    const std::string& caption) {
-  // Thousands of faces make a vector picture larger than its pixels.
-  const std::string svg = read_file(folder + "/" + name + ".svg");
-  const bool is_small = kind == "figure" && svg.size() < 150'000;
-  return fmt::format("<figure class=\"{}\" id=\"picture-{}\"><img src=\"data:image/{};base64,{}\" "
-                     "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     kind, escape(name), is_small ? "svg+xml" : "png",
-                     base64(is_small ? svg : read_file(folder + "/" + name + ".png")), escape(name),
-                     escape(caption));
-}
-
-Json trace_to_json(const Trace& trace) {
-  return {{"case", trace.case_file}, {"settings", trace.settings}, {"command", trace.command}};
-}
-
 Json computed_to_json(const std::vector<ComputedFigure>& computed) {
   Json list = Json::array();
-  for (const ComputedFigure& c : computed) {
+  for (const ComputedFigure& c : computed)
     list.push_back({{"reference", c.reference},
                     {"value", c.value},
                     {"fem", c.fem},
                     {"msm", c.msm},
-                    {"reason", c.reason}});
-    list.back().update(trace_to_json(c.trace));
-  }
+                    {"reason", c.reason},
+                    {"command", c.trace.command}});
   return list;
+}
+
+/// The entries of tables.json without what "computed_by" says of every reference.
+void add_computed(Json& entries, const ThesisResults& results) {
+  for (std::size_t e = 0; e < results.entries.size(); ++e) {
+    for (const char* key : {"computed", "difference", "reference", "other", "fem", "msm", "reason", "case",
+                            "settings", "command", "other_command"})
+      entries[e].erase(key);
+    entries[e]["computed_by"] = computed_to_json(results.entries[e].computed);
+  }
 }
 
 Json cases_to_json(const ThesisResults& results) {
   Json cases = to_json(results.cases)["cases"];
   for (std::size_t c = 0; c < results.cases.size(); ++c) {
     const cases::Fem& fem = results.cases[c].answers.resolved;
+    for (const char* key : {"measures", "expectations", "doubts"}) cases[c].erase(key);
     cases[c]["reference"] =
         fmt::format("{} {}", cases::name_of(fem.formulation), cases::name_of(fem.element));
-    cases[c].update(trace_to_json(results.volumes[c].trace));
+    cases[c]["case"] = results.volumes[c].trace.case_file;
+    cases[c]["command"] = results.volumes[c].trace.command;
   }
   return cases;
 }
 
-std::string page_file(const std::string& name) {
-  return read_file(SPRINGPROOF_REPORT_DIR "/" + name);
+/// What the page says over bodies of one kind. Given springs were solved with the case file's material, so
+/// that the ratio of figure 4.15 does not stand in its scenes.
+std::string group_of(const cases::Case& definition) {
+  if (definition.name.rfind("bar-", 0) == 0) return "The Ogden bar (figure 5.12)";
+  if (const auto* linear = std::get_if<cases::LinearElastic>(&definition.material))
+    return fmt::format("The linear elastic cube, nu = {:g}", linear->poissons_ratio);
+  return "The Ogden cube (figure 5.9)";
 }
 
-/// page.html with every {{name}} replaced: by its value, or else by the file of that name.
-std::string fill_page(const std::map<std::string, std::string>& values) {
-  const std::string text = page_file("page.html");
-  std::string result;
-  std::size_t from = 0;
-  for (std::size_t open = text.find("{{"); open != std::string::npos; open = text.find("{{", from)) {
-    const std::size_t close = text.find("}}", open);
-    const std::string name = text.substr(open + 2, close - open - 2);
-    const auto value = values.find(name);
-    result += text.substr(from, open - from) + (value == values.end() ? page_file(name) : value->second);
-    from = close + 2;
-  }
-  return result + text.substr(from);
+std::string title_of(const cases::Case& definition) {
+  std::string title = definition.name;
+  std::replace(title.begin(), title.end(), '-', ' ');
+  return title;
 }
 
-/// One view for each case, in their order. The bars' springs all stand against the finest bar's finite
-/// elements.
-std::vector<BodyView> body_views(const ThesisResults& results) {
+/// One view for each case, in their order, and those of figure 4.15. The bars' springs all stand against the
+/// finest bar's finite elements.
+std::vector<BodyView> body_views(const ThesisResults& results, const std::vector<Figure>& figures) {
   std::vector<BodyView> views;
-  for (const Comparison& comparison : results.cases)
-    views.push_back({comparison.scene.definition.name, thesis_overlay(results, comparison, "")});
+  const auto add = [&](const Comparison& comparison, const std::string& id, const std::string& group,
+                       const std::string& command) {
+    const cases::Case& definition = comparison.scene.definition;
+    views.push_back(view_of(comparison, id, thesis_overlay(results, comparison, title_of(definition))));
+    views.back().group = group;
+    views.back().command = command;
+  };
+  for (std::size_t c = 0; c < results.cases.size(); ++c) {
+    const cases::Case& definition = results.cases[c].scene.definition;
+    add(results.cases[c], definition.name, group_of(definition), results.volumes[c].trace.command);
+  }
+  for (const Figure& figure : figures)
+    if (figure.name == "figure_4_15")
+      for (const Comparison& cube : results.figure_4_15)
+        add(cube, figure.name + "-" + cube.scene.definition.name,
+            "The linear elastic cube, nu = 0.25 (figure 4.15)", figure.command);
   return views;
+}
+
+/// Figures of bodies: thousands of faces, which are on the page as bodies to turn.
+bool is_of_bodies(const Figure& figure) {
+  return figure.name == "figure_4_15" || figure.name == "figure_5_9" || figure.name == "figure_5_12";
+}
+
+Json methods_to_json() {
+  Json methods = Json::array();
+  for (const cases::Design design : msm::methods(cases::LinearElastic{})) {
+    const cases::DesignFacts& facts = cases::facts_of(design);
+    methods.push_back(
+        {{"name", cases::name_of(design)}, {"what", facts.what}, {"published_in", facts.published_in}});
+  }
+  return methods;
+}
+
+/// {"METHOD": [[nu, k_e, k_f, k_d over E L0, k_v over E, exponents if any], ...]}: the designs of
+/// four stiffnesses from the least to the largest Poisson's ratio of the advice, without those refused.
+Json designed_to_json(const std::vector<Advice>& advice) {
+  Json designed = Json::object();
+  if (advice.empty()) return designed;
+  const auto [least, largest] =
+      std::minmax_element(advice.begin(), advice.end(), [](const Advice& a, const Advice& b) {
+        return a.poissons_ratio < b.poissons_ratio;
+      });
+  const auto hundredths = [](double ratio) { return static_cast<int>(std::lround(100 * ratio)); };
+  for (const cases::Design design : msm::methods(cases::LinearElastic{})) {
+    if (cases::facts_of(design).cells != cases::DesignCells::four_stiffnesses) continue;
+    Json& rows = designed[cases::name_of(design)] = Json::array();
+    for (int n = hundredths(least->poissons_ratio); n <= hundredths(largest->poissons_ratio); ++n) {
+      cases::Msm options;
+      options.design = design;
+      const double nu = 0.01 * n;
+      try {
+        const msm::CellStiffness k = msm::design(design_request(cases::LinearElastic{1, nu}, msm::cube(1),
+                                                                options, cases::Element::q1))
+                                         .stiffness;
+        Json row{nu, k.edge, k.face_diagonal, k.internal_diagonal, k.volume};
+        if (const auto& p = k.exponents)
+          for (const double exponent : {p->edge, p->face_diagonal, p->internal_diagonal})
+            row.push_back(exponent);
+        for (Json& value : row) value = std::stod(fmt::format("{:.6g}", value.get<double>()));
+        rows.push_back(std::move(row));
+      } catch (const cases::InputError&) { // the advice says why
+      }
+    }
+  }
+  return designed;
 }
 
 } // namespace
 
-Json views_to_json(const std::vector<BodyView>& views) {
-  std::vector<Surface> surfaces;
-  Json list = Json::array(), bodies = Json::array();
-  for (const BodyView& view : views) {
-    Json entry{{"id", view.id}, {"largest_scale", largest_scale(view.overlay)}};
-    if (view.overlay.fem.is_there()) entry["fem"] = side_to_json(view.overlay.fem, surfaces);
-    if (view.overlay.springs.is_there()) entry["springs"] = side_to_json(view.overlay.springs, surfaces);
-    list.push_back(std::move(entry));
-  }
-  for (const Surface& surface : surfaces)
-    bodies.push_back({{"rest", surface.rest}, {"faces", surface.faces}});
-  return {{"unit_mm", unit_mm}, {"bodies", bodies}, {"views", list}};
-}
-
 Json report_to_json(const ThesisResults& results, const std::vector<Figure>& figures) {
   Json document = results_to_json(results);
-  for (std::size_t e = 0; e < results.entries.size(); ++e)
-    document["entries"][e]["computed_by"] = computed_to_json(results.entries[e].computed);
+  const bool has_advice = !results.advice.empty();
+  document["heading"] =
+      has_advice ? "Which springs for your material?" : "The thesis's tables, computed again";
+  document["subheading"] =
+      has_advice ? "Mass-spring models against finite elements: every design's errors on the cube of "
+                   "San-Vicente's thesis, and the springs for your own Young's modulus and Poisson's ratio."
+                 : "Mass-spring models against finite elements.";
+  add_computed(document["entries"], results);
+  for (std::size_t a = 0; a < results.advice.size(); ++a)
+    document["advice"][a]["seconds"] = {{"fem", results.advice[a].fem_seconds},
+                                        {"msm", results.advice[a].msm_seconds}};
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   for (std::size_t g = 0; g < groups.size(); ++g)
     document["summary"]["groups"][g]["command"] = groups[g].trace.command;
@@ -180,36 +168,22 @@ Json report_to_json(const ThesisResults& results, const std::vector<Figure>& fig
         {{"number", f.number}, {"name", f.name}, {"caption", f.caption}, {"command", f.command}});
   for (const PhaseTime& time : results.times)
     document["times"].push_back({{"phase", time.phase}, {"seconds", time.seconds}});
+  document["methods"] = methods_to_json();
+  document["designed"] = designed_to_json(results.advice);
   document["cases"] = cases_to_json(results);
-  document["views"] = views_to_json(body_views(results));
-  document["provenance"] = provenance();
+  document["views"] = views_to_json(body_views(results, figures));
   document["workers"] = results.workers;
-  document["licence"] = page_file("three_licence.txt");
   return document;
-}
-
-std::string embedded(const Json& document) {
-  std::string result;
-  for (const char c : document.dump(-1, ' ', true, Json::error_handler_t::replace))
-    result += c == '<' ? "\\u003c" : std::string(1, c);
-  return result;
 }
 
 void write_report(const std::string& folder, const ThesisResults& results,
                   const std::vector<Figure>& figures) {
-  const std::string drawn = folder + "/figures";
   std::string pictures;
-  for (const BodyView& view : body_views(results)) {
-    plot_bodies(drawn, view.id, {view.overlay}, 1, 300);
-    pictures += picture(drawn, view.id, "view", view.id + ": springs over finite elements");
-  }
   for (const Figure& f : figures)
-    pictures += picture(drawn, f.name, "figure", "Figure " + f.number + ". " + f.caption);
-  const std::string page = fill_page({{"pictures", pictures},
-                                      {"data", embedded(report_to_json(results, figures))},
-                                      {"three", read_file(SPRINGPROOF_THREE_JS)},
-                                      {"controls", read_file(SPRINGPROOF_ORBIT_CONTROLS_JS)}});
-  write_file(folder + "/report.html", [&](std::ostream& out) { out << page; });
+    if (!is_of_bodies(f))
+      pictures += picture(folder + "/figures", f.name, "Figure " + f.number + ". " + f.caption);
+  write_page(folder + "/report.html", "springproof: which springs for a material, how wrong, how fast",
+             report_to_json(results, figures), pictures);
 }
 
 } // namespace springproof::compare

@@ -64,6 +64,13 @@ Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   advice.is_designed = design.has_value();
   if (design && !design->terms) advice.stiffness = over_modulus_and_edge(design->stiffness, msm.scene);
   advice.cube = cube_errors(solves);
+  std::vector<double> fem_seconds, msm_seconds;
+  for (const auto& [fem, springs] : solves) {
+    if (fem.answers.fem.converged()) fem_seconds.push_back(fem.answers.fem.seconds());
+    if (springs.answers.msm.converged()) msm_seconds.push_back(springs.answers.msm.seconds());
+  }
+  advice.fem_seconds = median(fem_seconds).value_or(0);
+  advice.msm_seconds = median(msm_seconds).value_or(0);
   const auto trace_of_worst = [&](const LoadSetErrors& errors) {
     return errors.worst ? trace_of(jobs[errors.worst_test]) : Trace{};
   };

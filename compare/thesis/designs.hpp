@@ -43,8 +43,10 @@ struct Advice {
   std::string design;
   std::optional<msm::CellStiffness> stiffness{}; ///< over E L0 (volume: over E), no unit; absent when
                                                  ///< refused, and where the cells are not of four stiffnesses
-  bool is_designed = false; ///< not refused
+  bool is_designed = false;                      ///< not refused
   CubeErrors cube{};
+  /// Medians of the six tests that converged: setup and solve; 0 without any. They differ from run to run.
+  double fem_seconds = 0, msm_seconds = 0;
   Trace small_trace{}, large_trace{}; ///< give the worst error under either load set
   bool is_recommended = false;        ///< one at most for each Poisson's ratio
   Trace trace{};                      ///< gives the stiffnesses

@@ -27,7 +27,7 @@ struct ThesisResults {
   std::vector<CellVolumeChange> cell_volume_changes; ///< with table 5.2
   std::vector<DesignRow> designs;
   std::vector<Advice> advice;
-  std::vector<PhaseTime> times; ///< the only part that differs from run to run
+  std::vector<PhaseTime> times; ///< differ from run to run, as the advice's seconds do
   std::string workers;          ///< "2", or "2 shards"
 };
 

@@ -1,4 +1,4 @@
-"""The report in a real browser: no console errors, every table is there, every view draws both models, turns and scales.
+"""The report in a real browser: no console errors, every table is there, every body draws both models, turns and scales.
 
 usage: browser_test.py SPRINGPROOF FOLDER
 
@@ -7,40 +7,26 @@ FOLDER receives the whole report and the screenshots, to be looked at. Only Pyth
 
 import json
 import re
-import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 import zlib
 from pathlib import Path
 
+from chromium import examine, find_chromium, run_chromium
+
 TABLES = ["4.1", "4.2", "4.3", "4.5", "4.6", "4.7", "5.1", "5.2", "5.3", "5.4", "5.12"]
-SECTIONS = ["summary", "designs", "advice", "volumes", "machine", "cases"]
-VIEWS = 15  # cube: three tests, two load sets, two materials; three bars
+SECTIONS = ["summary", "advice-0.45", "stiffnesses", "designs-4.5", "volumes", "cases"]
+VIEWS = 21  # cube: three tests, two load sets, two materials, and figure 4.15's; three bars
 WIDTH = 1280
 SCALE = 0.5  # of the screenshots: reading them takes Python longer than Chromium takes to make them
-
-
-def run_chromium(chromium, page, *options):
-    """Standard output of a headless browser on a page that it may not leave; console messages are failures."""
-    with tempfile.TemporaryDirectory() as profile:
-        command = [chromium, "--headless", "--no-sandbox",  # the page is our own, and containers have neither users nor namespaces
-                   "--user-data-dir=" + profile, "--no-first-run", "--disable-extensions",
-                   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-quic",
-                   "--host-resolver-rules=MAP * ~NOTFOUND",  # nothing may be fetched
-                   "--use-angle=swiftshader", "--enable-unsafe-swiftshader",  # WebGL without a graphics card
-                   "--enable-logging=stderr", "--hide-scrollbars", f"--force-device-scale-factor={SCALE}", *options, page.as_uri()]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-    messages = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    assert done.returncode == 0, done.stderr[-2000:]
-    assert not messages, "\n".join(messages)
-    return done.stdout
+AT_SCALE = f"--force-device-scale-factor={SCALE}"
+LARGEST = 3e6  # bytes of a page
 
 
 def views_alone(report, folder):
     """A copy of the report that shows nothing but the views."""
-    style = "<style>header, footer, section:not(#views, #pictures), #pictures figure:not(.view) { display: none }</style>"
+    style = "<style>header, footer, section:not(#bodies), nav { display: none }</style>"
     copy = folder / "views_alone.html"
     copy.write_text(report.read_text().replace("</head>", style + "</head>"))
     return copy
@@ -50,18 +36,6 @@ def without_scripts(page, folder):
     """What a browser whose scripts are off makes of a page. (Headless Chromium takes no screenshot in that mode.)"""
     copy = folder / "without_scripts.html"
     copy.write_text(re.sub(r"<script.*?</script>", "", page.read_text(), flags=re.S))
-    return copy
-
-
-def instrumented(page, folder):
-    """A copy of a page that examines itself."""
-    text = page.read_text()
-    catch = ("<script>window.errors = []; window.addEventListener('error', (e) => errors.push(e.message));"
-             "window.addEventListener('unhandledrejection', (e) => errors.push(String(e.reason)));</script>")
-    check = "<script>" + (Path(__file__).parent / "check_page.js").read_text() + "</script>"
-    assert text.count("<head>") == 1 and text.count("</body>") == 1
-    copy = folder / "examined.html"
-    copy.write_text(text.replace("<head>", "<head>" + catch).replace("</body>", check + "</body>"))
     return copy
 
 
@@ -108,74 +82,98 @@ def share_of_ink(rows, box):
     return 1 - max(counts.values()) / sum(counts.values())
 
 
-def share_of_colour(rows, colour):
-    near = sum(max(abs(a - b) for a, b in zip(pixel, colour)) <= 3 for row in rows for pixel in row)
-    return near / sum(map(len, rows))
-
-
 def check_views(found):
     assert len(found["views"]) == VIEWS, [view["id"] for view in found["views"]]
     for view in found["views"]:
-        name, painted, alone = view["id"], view["painted"], view["springs_alone"]
+        name, painted, alone, coloured = view["id"], view["painted"], view["springs_alone"], view["coloured"]
         # A body fills a good part of its picture: a tenth of the springs' lines' pixels would be an empty frame.
         assert painted["bluish"] > 0.02 * painted["all"], (name, painted)
         assert painted["orange"] > 0.005 * painted["all"], (name, painted)
         assert alone["bluish"] == 0 and alone["orange"] > 0, (name, alone)
-        for deed in ("slider_moves", "slider_returns", "mouse_turns"):
+        # Both ends of the scale of errors are seen: a held node has none, and the largest is on the surface, whichever side it has.
+        assert view["has_errors"] and coloured["lowest"] > 0 and painted["lowest"] == 0, (name, coloured)
+        for deed in ("slider_moves", "slider_returns", "mouse_turns_all", "keys_turn_all", "reset_returns"):
             assert view[deed], (name, deed)
+    assert sum(view["coloured"]["highest"] > 0 for view in found["views"]) > VIEWS / 3, [view["coloured"] for view in found["views"]]
+    assert found["outline_when_held"] == "none", found["outline_when_held"]
 
 
-def check_calculator(said, advice):
-    """For E = 50 kPa, nu = 0.45 and cells of 1 mm the page names the recommended design, its stiffnesses and its errors."""
+def near(a, b, relative):
+    return abs(a - b) <= relative * abs(b)
+
+
+def check_calculator(found, advice, springproof):
+    """For E = 50 kPa, nu = 0.45 and cells of 1 mm the page names the recommended design, its stiffnesses and its errors; between two
+    tabulated ratios its stiffnesses are close to those of the design itself."""
+    said = found["tabulated"]
     best, = (row for row in advice if row["poissons_ratio"] == 0.45 and row["recommended"])
-    assert said.startswith(best["design"] + ": "), said
-    for symbol, over in zip("efd", best["stiffness_per_E_L0"]):
-        number = float(re.search(rf"k_{symbol} = ([-.e0-9]+)", said).group(1))  # N/m; E L0 is 50 N/m
-        assert abs(number - 50 * over) < 1e-3 * abs(number), (said, best)
-    named = re.search(r"of exponents ([-.0-9, ]+)\.", said)
-    assert (named is not None) == ("exponents" in best), (said, best)
-    for number, exponent in zip(named.group(1).split(",") if named else (), best.get("exponents", ())):
+    assert said["design"] == best["design"], said
+    wanted = [50 * over for over in best["stiffness_per_E_L0"]] + [0.05 * best["volume_stiffness_per_E"]]  # N/m; MPa
+    assert all(near(*pair, 1e-3) for pair in zip(said["stiffness"], wanted)), (said, wanted)
+    assert (said["exponents"] is not None) == ("exponents" in best), (said, best)
+    for number, exponent in zip((said["exponents"] or "").split(", "), best.get("exponents", ())):
         assert abs(float(number) - exponent) < 6e-4, (said, best)
-    worst = re.search(r"up to ([.0-9]+) % under the\s+small loads, ([.0-9]+) % under the\s+large", said)
-    for number, load_set in zip(worst.groups(), ("small", "large")):
-        assert abs(float(number) - best[load_set]["worst_error_percent"]) < 0.06, (said, best)
+    volume = max(best[load_set]["worst_volume_error_percent"] for load_set in ("small", "large"))
+    errors = [best["small"]["worst_error_percent"], best["large"]["worst_error_percent"], volume]
+    for tile, error in zip(said["tiles"], errors):
+        assert abs(float(re.fullmatch(r"≤ ([.0-9]+) %", tile).group(1)) - error) < 0.06, (said, best)
+    assert "errors of the thesis’s cube" in said["text"] and "Interpolated" not in said["text"], said
+
+    for said in found["between"]:
+        assert "tabulated at ν = 0.45 and 0.49" in said["text"], said
+        design = json.loads(subprocess.run([springproof, "design", "--young", "0.05", "--poisson", "0.475", "--edge", "1", "--method",
+                                            said["design"], "--json"], check=True, capture_output=True, text=True).stdout)
+        wanted = design["stiffness_N_per_m"] + [design["volume_stiffness_MPa"]]
+        assert all(near(*pair, 2e-3) for pair in zip(said["stiffness"], wanted)), (said, wanted)
+
+    assert found["outside"]["design"] is None and "between 0.2 and 0.49" in found["outside"]["text"], found["outside"]
+
+
+def check_chart(found, advice):
+    assert len(found["chart"]) == len({row["design"] for row in advice}), found["chart"]
+    for line in found["chart"]:
+        rows = [row for row in advice if row["design"].replace("_", " ") == line["label"]]
+        errors = [[row[load_set]["worst_error_percent"] for load_set in ("small", "large")] for row in rows]
+        assert [point["y"] for point in line["values"]] == [None if None in pair else max(pair) for pair in errors], line
+    tooltip = found["tooltip"]
+    assert tooltip["opacity"] > 0 and tooltip["title"] == ["ν = 0.2"] and len(tooltip["lines"]) > 5, tooltip
 
 
 def main():
     springproof, folder = sys.argv[1], Path(sys.argv[2]).resolve()
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
-    if not chromium:
+    if not find_chromium():
         print("no Chromium here: nothing was compared")
         return
     subprocess.run([springproof, "tables", "--out", folder], check=True, stdout=subprocess.DEVNULL)
     report = folder / "report.html"
     text = report.read_text()
+    assert report.stat().st_size < LARGEST, report.stat().st_size
     assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", text), "the page refers to something outside itself"
-
     assert "need scripts" in text.split("<script")[0], "nothing says that the page needs scripts"
 
-    views = views_alone(report, folder)
-    page = instrumented(views, folder)
-    size = f"--window-size={WIDTH},1000"
-    dom = run_chromium(chromium, page, size, "--dump-dom", "--virtual-time-budget=10000")
-    match = re.search(r'<script type="application/json" id="found">(.*?)</script>', dom, re.S)
-    assert match, "the page's own scripts did not come to their end"
-    found = json.loads(match.group(1))
-    assert found["errors"] == [], found["errors"]
+    narrow, found = examine(report, "narrow.html", Path(__file__).parent / "check_page.js", options=("--window-size=400,900", AT_SCALE))
+    assert found["overflow"] <= 0, f"a narrow page scrolls sideways, by {found['overflow']} pixels"
     rows = {table["name"]: table["rows"] for table in found["tables"]}
     for table in TABLES + SECTIONS:
         assert rows.get(table, 0) > 1, (table, rows)
+    assert found["commands_in_cells"] == 0, found["commands_in_cells"]
+    advice = json.loads((folder / "tables.json").read_text())["advice"]
     check_views(found)
-    check_calculator(found["calculator"], json.loads((folder / "tables.json").read_text())["advice"])
+    check_calculator(found, advice, springproof)
+    check_chart(found, advice)
+    narrow.unlink()
 
+    # A screenshot of what a view left on its canvas: the page with its bodies alone.
+    views = views_alone(report, folder)
+    page, found = examine(views, "examined.html", Path(__file__).parent / "check_page.js", options=(f"--window-size={WIDTH},1000", AT_SCALE))
     size = f"--window-size={WIDTH},{found['height']}"
     live, still = folder / "views.png", folder / "without_scripts.png"
-    run_chromium(chromium, page, size, f"--screenshot={live}", "--virtual-time-budget=10000")
+    run_chromium(page, size, AT_SCALE, f"--screenshot={live}", "--virtual-time-budget=10000")
     pixels = read_png(live)
     for view in found["views"]:
         assert share_of_ink(pixels, view["box"]) > 0.02, (view["id"], "is blank in the screenshot")
-    run_chromium(chromium, without_scripts(views, folder), size, f"--screenshot={still}")
-    assert share_of_colour(read_png(still), (220, 236, 246)) > 0.02, "no static pictures where scripts are off"
+    run_chromium(without_scripts(report, folder), f"--window-size={WIDTH},3000", AT_SCALE, f"--screenshot={still}")
+    assert share_of_ink(read_png(still), (0, 300, WIDTH, 2500)) > 0.005, "no pictures where scripts are off"
     print(f"{len(found['views'])} views and {len(rows)} tables are on the page")
 
 
