@@ -52,7 +52,6 @@ std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& 
   if (!lattice.volume_cells.empty())
     all.push_back(fmt::format("the volume terms of {} cells", lattice.volume_cells.size()));
   if (const auto n = n_power_log(lattice); n > 0) all.push_back(fmt::format("{} power-log springs", n));
-  if (problem.supports) all.push_back("moved regions");
   return all;
 }
 
@@ -149,6 +148,12 @@ void write_sofa_json(std::ostream& out, const std::string& name, const msm::Prob
       << ",\n\"units\": \"mm, N, N/mm\"";
   begin_list("positions");
   for (const Vector3d& x : problem.lattice.rest) next(), fmt::print(out, "[{}, {}, {}]", x.x(), x.y(), x.z());
+  out << "]";
+  begin_list("moved"); // node, mm at full load
+  const msm::Points displacement = prescribed(problem);
+  for (std::size_t n = 0; n < displacement.size(); ++n)
+    if (const Vector3d& u = displacement[n]; u != Vector3d::Zero())
+      next(), fmt::print(out, "[{}, {}, {}, {}]", n, u.x(), u.y(), u.z());
   out << "]";
   begin_list("springs"); // node, node, N/mm, mm
   for (const auto& [i, j, spring] : problem.lattice.links)

@@ -8,7 +8,7 @@ the springs at the boundary of a grid the stiffness of those inside, where they 
 
 For SOFA v24.06 or newer, with SofaPython3. Before v24.06 the two components below had the names StiffSpringForceField and
 PartialFixedConstraint. The equilibrium is static, under the full load: StaticSolver makes one Newton iteration a step unless it is told
-otherwise, so animate until nothing moves.
+otherwise, so animate until nothing moves. A motion too large for that is to be given in steps: "moved" has its end, mm.
 """
 
 import json
@@ -31,7 +31,11 @@ def createScene(rootNode):
     body = rootNode.addChild("body")
     body.addObject("StaticSolver")
     body.addObject("SparseLDLSolver", template="CompressedRowSparseMatrixd")
-    body.addObject("MechanicalObject", name="nodes", template="Vec3d", position=model["positions"])
+    # Nodes of moved regions begin where their motion ends: they are among the supports.
+    position = [list(place) for place in model["positions"]]
+    for node, *displacement in model["moved"]:
+        position[node] = [x + u for x, u in zip(position[node], displacement)]
+    body.addObject("MechanicalObject", name="nodes", template="Vec3d", position=position, rest_position=model["positions"])
     # Of each spring its two nodes, stiffness, damping and rest length.
     springs = " ".join(f"{a} {b} {stiffness!r} 0 {rest_length!r}" for a, b, stiffness, rest_length in model["springs"])
     body.addObject(SPRINGS, name="springs", template="Vec3d", spring=springs)

@@ -69,17 +69,20 @@ std::string with_bar(const std::optional<double>& value, const char* format,
 /// The applied force as a whole, and the areas that loads and motions act on: a patch has those of its faces,
 /// not of its circle.
 void write_loads(std::ostream& out, const cases::Scene& scene) {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  for (const auto& [node, of_node] : cases::loaded_nodes(scene)) force += of_node;
-  print(out, "  applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z());
-  const auto write_areas = [&](const char* list, const auto& conditions) {
+  std::vector<std::string> all;
+  if (!scene.loads.empty()) {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (const auto& [node, of_node] : cases::loaded_nodes(scene)) force += of_node;
+    all.push_back(fmt::format("applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z()));
+  }
+  const auto add_areas = [&](const char* list, const auto& conditions) {
     for (std::size_t i = 0; i < conditions.size(); ++i)
       if (const double area = cases::area(scene.mesh, conditions[i].selection); area > 0)
-        print(out, "; {}[{}] {:.6g} mm2", list, i, area);
+        all.push_back(fmt::format("{}[{}] on {:.6g} mm2", list, i, area));
   };
-  write_areas("load", scene.loads);
-  write_areas("moved", scene.moved);
-  print(out, "\n");
+  add_areas("load", scene.loads);
+  add_areas("moved", scene.moved);
+  if (!all.empty()) print(out, "  {}\n", fmt::join(all, "; "));
 }
 
 /// An error; of a measure whose reference is zero there is none.

@@ -2,8 +2,8 @@
 
 rebuild_forces.py FOLDER sofa|csv|vtu STATE
 
-STATE has a line for each node: displacement (mm), internal force of the springs (N), constrained components (0 or 1), applied force (N).
-Fails unless the files in FOLDER give the same forces, supports and loads. Only Python's standard library is used, and nothing of the
+STATE has a line for each node: displacement (mm), internal force of the springs (N), constrained components (0 or 1), applied force (N),
+prescribed displacement (mm). Fails unless the files in FOLDER give the same forces, supports, loads and motions. Only Python's standard library is used, and nothing of the
 program: the formulas are those of docs/designing.md.
 """
 
@@ -100,7 +100,7 @@ def from_csv(folder, displacement):
             add(force, corners[int(e[1])], d, -2 * tension)
     held = [[int(n[f"constrained_{a}"]) for a in "xyz"] for n in nodes]
     loads = [[float(n[f"force_{a}_N"]) for a in "xyz"] for n in nodes]
-    return force, held, loads
+    return force, held, loads, [[float(n[f"displacement_{a}_mm"]) for a in "xyz"] for n in nodes]
 
 
 class Node:
@@ -108,7 +108,7 @@ class Node:
 
     KNOWN = {  # of SOFA v24.06: https://www.sofa-framework.org/api/master/sofa/html
         "RequiredPlugin": {"pluginName"}, "DefaultAnimationLoop": set(), "VisualStyle": {"displayFlags"}, "StaticSolver": set(),
-        "SparseLDLSolver": {"template"}, "MechanicalObject": {"name", "template", "position"},
+        "SparseLDLSolver": {"template"}, "MechanicalObject": {"name", "template", "position", "rest_position"},
         "SpringForceField": {"name", "template", "spring"},
         "PartialFixedProjectiveConstraint": {"name", "template", "indices", "fixedDirections"},
         "ConstantForceField": {"name", "template", "indices", "forces"},
@@ -134,7 +134,8 @@ def from_sofa(folder, displacement):
     scene.createScene(Node(objects))
     of = lambda component: [data for name, data in objects if name == component]
     (state,), (springs,) = of("MechanicalObject"), of("SpringForceField")
-    x = [[p + d for p, d in zip(place, u)] for place, u in zip(state["position"], displacement)]
+    x = [[p + d for p, d in zip(place, u)] for place, u in zip(state["rest_position"], displacement)]
+    motion = [minus(place, rest) for place, rest in zip(state["position"], state["rest_position"])]
     force = [[0.0] * 3 for _ in x]
     values = springs["spring"].split()
     for n in range(0, len(values), 5):
@@ -147,7 +148,7 @@ def from_sofa(folder, displacement):
     for load in of("ConstantForceField"):
         for node, f in zip(load["indices"], load["forces"]):
             loads[node] = f
-    return force, held, loads
+    return force, held, loads, motion
 
 
 def from_vtu(folder, displacement):
@@ -173,13 +174,13 @@ def from_vtu(folder, displacement):
         spring_force(force, x, ends[2 * s], ends[2 * s + 1], k, rest_length, p if is_power_log else None)
         crossed = sum(a != b for a, b in zip(*(arrays["rest position"][ends[2 * s + e]] for e in range(2))))
         assert kind == crossed, (s, kind)  # on a box: 1 an edge, 2 a face diagonal, 3 an internal diagonal
-    return force, [[int(c) for c in held] for held in arrays["constrained"]], arrays["force"]
+    return force, [[int(c) for c in held] for held in arrays["constrained"]], arrays["force"], arrays["prescribed_displacement"]
 
 
 def main():
     folder, target, state = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     lines = [[float(word) for word in line.split(",")] for line in state.read_text().splitlines()]
-    force, held, loads = {"csv": from_csv, "sofa": from_sofa, "vtu": from_vtu}[target](folder, [line[:3] for line in lines])
+    force, held, loads, motion = {"csv": from_csv, "sofa": from_sofa, "vtu": from_vtu}[target](folder, [line[:3] for line in lines])
     assert len(force) == len(lines)
     largest = max(abs(f) for line in lines for f in line[3:6])
     difference = max(abs(f - g) for line, node in zip(lines, force) for f, g in zip(line[3:6], node))
@@ -187,6 +188,7 @@ def main():
     assert difference <= TOLERANCE * largest
     assert [[int(c) for c in line[6:9]] for line in lines] == held, "other supports"
     assert [line[9:12] for line in lines] == loads, "other loads"
+    assert all(abs(u - v) <= 1e-14 * max(1, abs(u)) for line, node in zip(lines, motion) for u, v in zip(line[12:15], node)), "other motions"
 
 
 main()

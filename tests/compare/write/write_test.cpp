@@ -116,7 +116,7 @@ TEST_CASE("the text says what force is applied and on what area") {
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   std::ostringstream out;
   compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains("  applied force (0, 0.25, -4) N; load[0] 1 mm2\n"));
+  CHECK_THAT(out.str(), Catch::Contains("  applied force (0, 0.25, -4) N; load[0] on 1 mm2\n"));
 }
 
 TEST_CASE("springs are lines with their stretch and tension, where they are ours") {
