@@ -4,17 +4,44 @@
 #include "cases/mesh/fields.hpp"
 #include "cases/mesh/vtk.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 namespace cereal {
 
 SPRINGPROOF_FIELDS(springproof::cases::PointField, name, values, unit)
-SPRINGPROOF_FIELDS(springproof::cases::PointCloud, points, is_single_precision, fields)
+SPRINGPROOF_FIELDS(springproof::cases::PointCloud, points, is_single_precision, fields, others)
+SPRINGPROOF_FIELDS(springproof::cases::Interpolation, first, points, weights, outside)
+SPRINGPROOF_FIELDS(springproof::cases::CellCloud, cloud, to_nodes, from_nodes)
 
 } // namespace cereal
 
 namespace springproof::cases {
+
+namespace {
+
+void check(const PointCloud& cloud) {
+  for (const PointField& field : cloud.fields)
+    if (field.values.size() != cloud.points.size())
+      throw std::runtime_error("'" + field.name + "' has not as many values as there are points");
+}
+
+void check(const Interpolation& interpolation, std::size_t n_points, std::size_t n_positions) {
+  const auto& [first, points, weights, outside] = interpolation;
+  const bool is_sound =
+      outside.size() == n_positions && first.size() == n_positions + 1 && first.front() == 0 &&
+      std::is_sorted(first.begin(), first.end()) && first.back() == points.size() &&
+      points.size() == weights.size() &&
+      std::all_of(points.begin(), points.end(), [&](int p) { return p >= 0 && index(p) < n_points; }) &&
+      std::all_of(weights.begin(), weights.end(), [](double weight) { return std::isfinite(weight); }) &&
+      std::all_of(outside.begin(), outside.end(),
+                  [](double distance) { return std::isfinite(distance) && distance >= 0; });
+  if (!is_sound) throw std::runtime_error("has cells that do not interpolate");
+}
+
+} // namespace
 
 Surface read_triangles(const std::string& path) {
   std::error_code error;
@@ -25,8 +52,15 @@ Surface read_triangles(const std::string& path) {
 }
 
 PointCloud read_point_cloud(const std::string& content) {
-  return point_cloud_from(run_confined([&] { return bytes_of(vtk().read_unstructured_grid(content)); },
-                                       limits_to_read(content.size())));
+  return point_cloud_from(
+      run_confined([&] { return bytes_of(vtk().read_points(content)); }, limits_to_read(content.size())));
+}
+
+CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh) {
+  constexpr std::uint64_t per_node = 100; // bytes of a file with as much work
+  return cell_cloud_from(run_confined([&] { return bytes_of(vtk().read_cells(content, mesh)); },
+                                      limits_to_read(content.size() + per_node * mesh.nodes.size())),
+                         mesh.nodes.size());
 }
 
 Surface surface_from(const std::string& bytes) {
@@ -42,9 +76,16 @@ Surface surface_from(const std::string& bytes) {
 PointCloud point_cloud_from(const std::string& bytes) {
   PointCloud cloud;
   from_bytes(bytes, cloud);
-  for (const PointField& field : cloud.fields)
-    if (field.values.size() != cloud.points.size())
-      throw std::runtime_error("'" + field.name + "' has not as many values as there are points");
+  check(cloud);
+  return cloud;
+}
+
+CellCloud cell_cloud_from(const std::string& bytes, std::size_t n_nodes) {
+  CellCloud cloud;
+  from_bytes(bytes, cloud);
+  check(cloud.cloud);
+  check(cloud.to_nodes, cloud.cloud.points.size(), n_nodes);
+  check(cloud.from_nodes, n_nodes, cloud.cloud.points.size());
   return cloud;
 }
 
@@ -53,6 +94,10 @@ std::string bytes_of(const Surface& surface) {
 }
 
 std::string bytes_of(const PointCloud& cloud) {
+  return to_bytes(cloud);
+}
+
+std::string bytes_of(const CellCloud& cloud) {
   return to_bytes(cloud);
 }
 

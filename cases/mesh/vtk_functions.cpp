@@ -1,82 +1,25 @@
 #include "cases/mesh/vtk_functions.hpp"
 
+#include "cases/mesh/vtk_clouds.hpp"
+#include "cases/mesh/vtk_grid.hpp"
+#include "cases/mesh/vtk_run.hpp"
+
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <vtkAlgorithm.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
 #include <vtkStaticPointLocator.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 namespace springproof::cases {
 
 namespace {
-
-/// Keeps the first of VTK's errors, without the place in VTK's source.
-class FirstError : public vtkOutputWindow {
- public:
-  static FirstError* New();
-  /// @param message  "ERROR: In FILE, line N\nCLASS (ADDRESS): TEXT\n\n"
-  void DisplayErrorText(const char* message) override {
-    if (!text.empty()) return;
-    text = message;
-    const std::size_t address = text.find("): ");
-    if (address != std::string::npos) text.erase(0, address + 3);
-    text.erase(text.find_last_not_of(" \n") + 1);
-  }
-  void DisplayText(const char*) override {} // warnings
-  std::string text;
-};
-vtkStandardNewMacro(FirstError)
-
-    /// Runs a reader or writer, which prints nothing.
-    /// @throws std::runtime_error with its first error
-    void run(vtkAlgorithm& algorithm) {
-  const vtkNew<FirstError> error;
-  vtkOutputWindow::SetInstance(error);
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  algorithm.Update();
-  if (!error->text.empty()) throw std::runtime_error(error->text);
-}
-
-/// An array of numbers, vectors or symmetric tensors, its components named as ParaView shows them.
-template<class Value>
-vtkNew<vtkDoubleArray> array_of(const NamedValues<Value>& field) {
-  constexpr int n = sizeof(Value) / sizeof(double);
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(field.name.c_str());
-  array->SetNumberOfComponents(n);
-  const std::array<const char*, 3> of_vector{"X", "Y", "Z"};
-  const std::array<const char*, 6> of_tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-  for (std::size_t c = 0; c < n && n > 1; ++c)
-    array->SetComponentName(static_cast<vtkIdType>(c), n == 3 ? of_vector[c] : of_tensor[c]);
-  if (!field.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.unit.c_str());
-  array->SetNumberOfTuples(static_cast<vtkIdType>(field.values.size()));
-  std::memcpy(array->GetPointer(0), field.values.data(), field.values.size() * sizeof(Value));
-  return array;
-}
-
-vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& nodes) {
-  vtkNew<vtkPoints> points;
-  points->SetData(array_of(PointField{"rest position", nodes}));
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  return grid;
-}
 
 std::string write(vtkUnstructuredGrid& grid, const GridFields& fields) {
   for (const auto& field : fields.point_vectors) grid.GetPointData()->AddArray(array_of(field));
@@ -95,14 +38,7 @@ std::string write(vtkUnstructuredGrid& grid, const GridFields& fields) {
 }
 
 std::string write_unstructured_grid(const HexMesh& mesh, const GridFields& fields) {
-  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
-  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    std::array<vtkIdType, 8> nodes;
-    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
-  }
-  return write(*grid, fields);
+  return write(*grid_of(mesh), fields);
 }
 
 std::string write_lines(const std::vector<Eigen::Vector3d>& points,
@@ -114,32 +50,6 @@ std::string write_lines(const std::vector<Eigen::Vector3d>& points,
     grid->InsertNextCell(VTK_LINE, 2, ends.data());
   }
   return write(*grid, fields);
-}
-
-std::vector<Eigen::Vector3d> vectors_of(vtkDataArray& array) {
-  std::vector<Eigen::Vector3d> vectors(static_cast<std::size_t>(array.GetNumberOfTuples()));
-  for (std::size_t p = 0; p < vectors.size(); ++p)
-    array.GetTuple(static_cast<vtkIdType>(p), vectors[p].data());
-  return vectors;
-}
-
-PointCloud read_unstructured_grid(const std::string& content) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(content);
-  run(*reader);
-  vtkUnstructuredGrid& grid = *reader->GetOutput();
-  PointCloud cloud;
-  if (!grid.GetPoints()) return cloud;
-  cloud.points = vectors_of(*grid.GetPoints()->GetData());
-  cloud.is_single_precision = grid.GetPoints()->GetDataType() == VTK_FLOAT;
-  for (int a = 0; a < grid.GetPointData()->GetNumberOfArrays(); ++a) {
-    vtkDataArray* const array = grid.GetPointData()->GetArray(a); // null: strings
-    if (array && array->GetNumberOfComponents() == 3 &&
-        (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE))
-      cloud.fields.push_back({array->GetName() ? array->GetName() : "", vectors_of(*array)});
-  }
-  return cloud;
 }
 
 /// The number of triangles that a binary file says that it has.
@@ -183,7 +93,7 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 
 } // namespace
 
-extern "C" const VtkFunctions springproof_vtk{write_unstructured_grid, write_lines, read_unstructured_grid,
-                                              read_triangles, nearest_points};
+extern "C" const VtkFunctions springproof_vtk{write_unstructured_grid, write_lines,   read_points, read_cells,
+                                              read_triangles,          nearest_points};
 
 } // namespace springproof::cases

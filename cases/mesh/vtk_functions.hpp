@@ -2,21 +2,13 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/point_cloud.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
 
 /// A surface of triangles, seen from outside anticlockwise, mm.
 using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
-
-/// Values at every node or of every cell.
-template<class Value>
-struct NamedValues {
-  std::string name;
-  std::vector<Value> values;
-  std::string unit{}; ///< VTK's UNITS_LABEL; empty: none
-};
-using PointField = NamedValues<Eigen::Vector3d>;
 
 /// What a grid carries.
 struct GridFields {
@@ -26,14 +18,6 @@ struct GridFields {
   std::vector<NamedValues<SymmetricTensor>> cell_tensors{};
 };
 
-/// The points of an unstructured grid and their vectors in a file's order; a point that several pieces share
-/// occurs several times.
-struct PointCloud {
-  std::vector<Eigen::Vector3d> points;
-  bool is_single_precision = false; ///< the points, in the file
-  std::vector<PointField> fields;   ///< point data of three components in single or double precision
-};
-
 /// The functions of the shared object springproof_vtk. They throw std::runtime_error with VTK's message.
 struct VtkFunctions {
   /// Content of a .vtu: doubles, appended raw.
@@ -41,7 +25,11 @@ struct VtkFunctions {
   /// The same of lines between points, which are its cells.
   std::string (*write_lines)(const std::vector<Eigen::Vector3d>& points,
                              const std::vector<std::array<int, 2>>& lines, const GridFields&);
-  PointCloud (*read_unstructured_grid)(const std::string& content);
+  /// Content of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk, in any encoding.
+  PointCloud (*read_points)(const std::string& content);
+  /// The same with its cells as interpolation to a mesh and back. A node of the mesh may lie outside of all
+  /// cells by half the diagonal of the closest.
+  CellCloud (*read_cells)(const std::string& content, const HexMesh& mesh);
   /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
   Surface (*read_triangles)(const std::string& path);
   /// The index of the point closest to each position.  @param points  at least one

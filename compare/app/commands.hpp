@@ -31,4 +31,22 @@ inline void add_converge_option(CLI::App& command, int& meshes) {
       ->check(CLI::Range(3, 9));
 }
 
+/// --msm-displacements and --interpolate, of the commands that take another simulator's results.
+struct DisplacementOptions {
+  std::string file; ///< empty: our springs are solved
+  bool interpolate = false;
+};
+
+/// @return the first of the two
+inline CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& options) {
+  CLI::Option* file = command.add_option(
+      "--msm-displacements", options.file,
+      "another simulator's displacements in place of our springs: .csv (x,y,z,ux,uy,uz) or a VTK file");
+  command
+      .add_flag("--interpolate", options.interpolate,
+                "they are on a mesh of their own: interpolate in its cells, and say what that may add")
+      ->needs(file);
+  return file;
+}
+
 } // namespace springproof::compare

@@ -25,7 +25,7 @@ struct GateOptions {
   std::vector<std::string> files;
   std::vector<std::string> settings;
   std::vector<std::string> bless; ///< names of cases
-  std::string displacements;      ///< file of another simulator's, in place of our springs
+  DisplacementOptions displacements;
   std::string junit, out;
   int workers = 0; ///< one per core
   int meshes = 0;  ///< of the finite elements' limit; 0: as the cases' accuracy asks
@@ -36,7 +36,7 @@ struct GateOptions {
 /// Every case is read, and its mesh and regions looked up, before any is solved.
 std::vector<Question> read_all(const GateOptions& options) {
   Request request;
-  if (!options.displacements.empty()) request.only = cases::Side::fem;
+  if (!options.displacements.file.empty()) request.only = cases::Side::fem;
   request.meshes = options.meshes;
   return read_questions(options.files, options.settings, request);
 }
@@ -95,7 +95,9 @@ int gate(const GateOptions& options) {
   std::vector<Question> questions = read_all(options);
   check_blessing(options, questions);
   check_named_file(options.junit);
-  const auto external = read_external(questions, options.displacements);
+  const auto external =
+      read_external(questions, options.displacements.file,
+                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
   if (!options.shards->part.empty())
     return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});
   std::vector<Answers> answers = solved_or_merged(options, questions);
@@ -119,9 +121,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
   command->add_option("case", options->files, "case files (TOML)")->required();
   command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
       ->allow_extra_args(false);
-  command->add_option(
-      "--msm-displacements", options->displacements,
-      "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs");
+  add_displacement_options(*command, options->displacements);
   add_converge_option(*command, options->meshes);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
   CLI::Option* json = command->add_flag("--json", options->json,

@@ -11,7 +11,7 @@ namespace springproof::compare {
 namespace {
 
 constexpr const char* recorded_options[] = {
-    "--set=", "--converge=", "--msm-displacements=", "--trace=", "--quick=", "--budget="};
+    "--set=", "--converge=", "--msm-displacements=", "--interpolate=", "--trace=", "--quick=", "--budget="};
 
 struct MergeOptions {
   std::vector<std::string> folders;

@@ -25,9 +25,9 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;                   ///< of the finite elements' limit; 0: as the case's accuracy asks
-  std::string peer;                 ///< a program that is asked too; empty: none
-  std::string displacements;        ///< file of another simulator's, in place of our springs
+  int meshes = 0;   ///< of the finite elements' limit; 0: as the case's accuracy asks
+  std::string peer; ///< a program that is asked too; empty: none
+  DisplacementOptions displacements;
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
   bool json = false;
 };
@@ -97,14 +97,16 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
 
 int run(const RunOptions& options) {
   const auto only =
-      options.displacements.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
+      options.displacements.file.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions =
       read_questions(options.files, options.settings, {only, options.meshes, options.peer});
   if (!options.out.empty()) // for the .vtu
     for (Question& question : questions) question.scene.definition.has_fields = true;
   check_memory(questions);
-  const auto external = read_external(questions, options.displacements);
+  const auto external =
+      read_external(questions, options.displacements.file,
+                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
   for (const Question& question : questions) line.expect({1, total_seconds(estimate(question))});
@@ -137,11 +139,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
   add_converge_option(*command, options->meshes);
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
-  command
-      ->add_option(
-          "--msm-displacements", options->displacements,
-          "another simulator's displacements (.csv: x,y,z,ux,uy,uz, or .vtu) in place of our springs")
-      ->excludes(only);
+  add_displacement_options(*command, options->displacements)->excludes(only);
   command->add_option(
       "--out", options->out,
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "

@@ -29,6 +29,22 @@ void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, con
       is_field_norm(measure.kind) ? part : part * std::abs(1 + *value.error_percent / 100);
 }
 
+/// By how much the finite elements' value changes on the way to the results' mesh and back.
+void add_interpolation_error(MeasuredValue& value, const cases::Measure& measure, const cases::Scene& scene,
+                             const Answers& answers) {
+  const cases::Solution &fem = answers.fem.solution, &back = answers.interpolated->fem_and_back.solution;
+  if (is_field_norm(measure.kind)) {
+    std::vector<Eigen::Vector3d> change;
+    for (std::size_t n = 0; n < fem.displacement.size(); ++n)
+      change.push_back(back.displacement[n] - fem.displacement[n]);
+    value.interpolation_error = field_norm(measure.kind, scene.mesh, change, fem.sharing.get());
+  } else {
+    value.interpolation_error = std::abs(evaluate(measure, scene, back) - evaluate(measure, scene, fem));
+  }
+  if (const auto percent = measure_error_percent(measure, scene, fem, back))
+    value.interpolation_error_percent = std::abs(*percent);
+}
+
 } // namespace
 
 std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers,
@@ -50,6 +66,8 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
       value.fem_limit = studied->reference;
       hold_against_limit(value, measure, scene, answers, *study);
     }
+    if (answers.interpolated && answers.fem.converged())
+      add_interpolation_error(value, measure, scene, answers);
     values.push_back(value);
   }
   return values;

@@ -19,6 +19,9 @@ struct MeasuredValue {
   std::optional<double> error_same_mesh_percent{};   ///< of the springs, against the finite elements' value
   std::optional<double>
       fem_error_percent{}; ///< of the finite elements' value against the limit; absent without it
+  /// Estimate of what interpolation from another mesh adds to the springs' value, in the unit, and to their
+  /// error, points; of a field norm, the norm of that field. Absent where nothing was interpolated.
+  std::optional<double> interpolation_error{}, interpolation_error_percent{};
 };
 
 /// All measures of a case, in its order.

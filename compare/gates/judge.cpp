@@ -44,15 +44,20 @@ std::optional<double> value_of(const cases::Expectation& expected, const Measure
   return std::nullopt;
 }
 
+/// Of those that there are.
+std::optional<double> sum(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? *a + *b : a ? a : b;
+}
+
 /// Of the value, in the gate's unit. From an error bar of d percent of the finite elements' value f: d f/100
 /// of f itself.
 std::optional<double> uncertainty(const cases::Expectation& expected, const MeasuredValue& measured,
                                   const StudiedMeasure* study) {
   switch (expected.quantity) {
   case Quantity::error_percent:
-    return measured.error_uncertainty_percent;
+    return sum(measured.error_uncertainty_percent, measured.interpolation_error_percent);
   case Quantity::msm:
-    return std::nullopt;
+    return measured.interpolation_error;
   case Quantity::fem:
     if (needs_limit(expected) && measured.fem_limit) return measured.fem_limit->uncertainty;
     if (!study || !study->discretisation_error_percent || !measured.fem) return std::nullopt;
@@ -67,29 +72,33 @@ std::string what_decides(const MeshStudy& study) {
                      study.refine.size() + 1, 8. * static_cast<double>(study.unknowns.back()));
 }
 
-/// Of a converged reference: the interval has to hold for all that the reference may be.
-void judge_with_uncertainty(Gate& gate, const StudiedMeasure* studied, const MeshStudy* study) {
-  if (!gate.value) return;
-  if (!gate.uncertainty) {
-    gate.missed =
-        "there is no converged reference: " + (studied ? studied->no_reference : "no mesh study was made");
-    return;
-  }
+/// The interval has to hold for all that the value may be.
+/// @param decides  what would decide a gate that is open
+void judge_with_uncertainty(Gate& gate, const std::string& decides) {
   const auto& [lower, upper] = gate.expectation.interval;
   const double least = *gate.value - *gate.uncertainty, most = *gate.value + *gate.uncertainty;
   if (lower <= least && most <= upper) return; // met
   gate.is_undecided = least <= upper && lower <= most;
   if (gate.is_undecided)
+    gate.missed = fmt::format("undecided: {:.6g} +- {:.2g} is partly outside [{:.6g}, {:.6g}]; {}",
+                              *gate.value, *gate.uncertainty, lower, upper, decides);
+}
+
+/// Of a converged reference.
+void judge_against_limit(Gate& gate, const StudiedMeasure* studied, const MeshStudy* study) {
+  if (!gate.value) return;
+  if (gate.uncertainty)
+    judge_with_uncertainty(gate, study ? what_decides(*study) : "");
+  else
     gate.missed =
-        fmt::format("undecided: {:.6g} +- {:.2g} is partly outside [{:.6g}, {:.6g}]; {}", *gate.value,
-                    *gate.uncertainty, lower, upper, study ? what_decides(*study) : "");
+        "there is no converged reference: " + (studied ? studied->no_reference : "no mesh study was made");
 }
 
 std::string warning_of(const Gate& gate) {
   const cases::Expectation& expected = gate.expectation;
   const double width = expected.interval[1] - expected.interval[0];
   if (gate.uncertainty && !(width >= 2 * *gate.uncertainty))
-    return fmt::format("the interval is narrower than the reference's own error bar, +- {:.2g} {}",
+    return fmt::format("the interval is narrower than the {}'s own error bar, +- {:.2g} {}", gate.uncertain,
                        *gate.uncertainty, gate.unit);
   return "";
 }
@@ -125,7 +134,15 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     gate.unit = expected.quantity == Quantity::error_percent ? "%" : measure ? unit_of(*measure) : "";
     if (!gate.met() && !gate.value && measured) gate.cause = why_without_value(answers, expected.quantity);
     if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied);
-    if (needs_limit(expected)) judge_with_uncertainty(gate, studied, study);
+    const bool is_interpolated = answers.interpolated && expected.quantity != Quantity::fem;
+    if (is_interpolated && measured && measured->interpolation_error)
+      gate.uncertain = measured->error_uncertainty_percent && expected.quantity == Quantity::error_percent
+                           ? "reference and interpolation"
+                           : "interpolation";
+    if (needs_limit(expected))
+      judge_against_limit(gate, studied, study);
+    else if (is_interpolated && gate.value && gate.uncertainty)
+      judge_with_uncertainty(gate, "results on the case's own mesh, or on finer meshes, decide it");
     gate.warning = warning_of(gate);
     gates.push_back(gate);
   }

@@ -14,11 +14,13 @@ struct Gate {
   std::string unit{};   ///< of the interval and the value: "%", "mm", "deg", "mm3"
   /// Half the width of the reference's own error bar from its mesh study, in the unit. A gate against a
   /// converged reference is met when all of value -+ uncertainty is inside; for others it is shown alone.
-  /// Absent where there is none, and for the springs' own value, which has no reference.
+  /// Absent where there is none, and for the springs' own value, which has no reference. Of results that were
+  /// interpolated it has what that may add, and every gate must be met by all of value -+ uncertainty.
   std::optional<double> uncertainty{};
-  bool is_undecided = false; ///< not met, because the interval's end lies within the uncertainty
-  std::string warning{};     ///< such as that the interval is narrower than the error bar; empty: none
-  std::string cause{};       ///< why a measure that is there has no value; empty when it has one
+  std::string uncertain = "reference"; ///< what the uncertainty is of
+  bool is_undecided = false;           ///< not met, because the interval's end lies within the uncertainty
+  std::string warning{}; ///< such as that the interval is narrower than the error bar; empty: none
+  std::string cause{};   ///< why a measure that is there has no value; empty when it has one
   bool met() const { return missed.empty(); }
 };
 

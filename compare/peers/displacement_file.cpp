@@ -4,11 +4,11 @@
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/vtk.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -42,21 +42,22 @@ std::vector<double> numbers_of(const std::string& line) {
 cases::PointCloud points_of(const std::string& text, const std::string& path) try {
   return cases::read_point_cloud(text);
 } catch (const std::exception& error) {
-  refuse(path, std::string("is no complete VTK file of type UnstructuredGrid: ") + error.what());
+  refuse(path, std::string("is no VTK file that can be read: ") + error.what());
 }
 
 /// Finds the displacements by their name, or takes the only vectors.
-const std::vector<Vector3d>& displacements_of(const std::vector<cases::PointField>& fields,
-                                              const std::string& path) {
+const std::vector<Vector3d>& displacements_of(const cases::PointCloud& cloud, const std::string& path) {
   for (const char* wanted : {"msm_displacement", "displacement"})
-    for (const cases::PointField& field : fields)
+    for (const cases::PointField& field : cloud.fields)
       if (field.name == wanted) return field.values;
-  if (fields.size() == 1) return fields.front().values;
-  std::string names;
-  for (const cases::PointField& field : fields) names += " '" + field.name + "'";
-  refuse(path, "must have point data of three components (Float32 or Float64) named msm_displacement or "
-               "displacement, or only one with three components; it has" +
-                   (names.empty() ? " none" : names));
+  if (cloud.fields.size() == 1) return cloud.fields.front().values;
+  std::vector<std::string> names;
+  for (const cases::PointField& field : cloud.fields) names.push_back("'" + field.name + "'");
+  names.insert(names.end(), cloud.others.begin(), cloud.others.end());
+  refuse(path, fmt::format(
+                   "must have point data of three components (Float32 or Float64) named msm_displacement or "
+                   "displacement, or only one with three components; it has {}",
+                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 std::string shown(const Vector3d& point) {
@@ -90,22 +91,36 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
   return nodes;
 }
 
-std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path) {
+std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path) {
   return displacements_in(points_of(text, path), path);
 }
 
+const std::vector<Vector3d>& finite_displacements(const cases::PointCloud& cloud, const std::string& path) {
+  const std::vector<Vector3d>& displacements = displacements_of(cloud, path);
+  for (std::size_t p = 0; p < displacements.size(); ++p)
+    if (!cloud.points[p].allFinite() || !displacements[p].allFinite())
+      refuse(path, fmt::format("is not finite at point {}", p));
+  return displacements;
+}
+
 std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path) {
-  const std::vector<Vector3d>& displacements = displacements_of(cloud.fields, path);
-  const double rounding = cloud.is_single_precision ? std::numeric_limits<float>::epsilon() : 0;
+  const std::vector<Vector3d>& displacements = finite_displacements(cloud, path);
+  // A float in text may have six digits, and be off by five millionths in each component.
+  const double rounding = cloud.is_single_precision ? 1e-5 : 0;
   std::vector<GivenDisplacement> nodes;
   std::set<std::array<double, 6>> known; // pieces have the points between them in common
   for (std::size_t p = 0; p < displacements.size(); ++p) {
     const Vector3d &x = cloud.points[p], &u = displacements[p];
-    if (!x.allFinite() || !u.allFinite()) refuse(path, fmt::format("is not finite at point {}", p));
     if (known.insert({x[0], x[1], x[2], u[0], u[1], u[2]}).second)
-      nodes.push_back({x, u, fmt::format("{}: point {}", path, p), rounding * x.norm()});
+      nodes.push_back({x, u, fmt::format("{}: point {}", path, p), rounding * x.lpNorm<Eigen::Infinity>()});
   }
   return nodes;
+}
+
+double same_place(const cases::HexMesh& mesh) {
+  Eigen::AlignedBox3d body;
+  for (const Vector3d& node : mesh.nodes) body.extend(node);
+  return 1e-6 * body.diagonal().norm();
 }
 
 std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
@@ -114,14 +129,16 @@ std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<
   for (const GivenDisplacement& next : given) positions.push_back(next.position);
   const std::vector<std::size_t> nearest = cases::vtk().nearest_points(mesh.nodes.to_vector(), positions);
   std::vector<const GivenDisplacement*> of_node(mesh.nodes.size(), nullptr);
+  const double nearest_allowed = same_place(mesh);
   for (std::size_t g = 0; g < given.size(); ++g) {
     const GivenDisplacement& next = given[g];
     const Vector3d& node = mesh.nodes[nearest[g]];
-    const double tolerance = same_place + next.rounding;
+    const double tolerance = nearest_allowed + next.rounding;
     if (!((node - next.position).norm() <= tolerance))
-      throw cases::InputError(
-          fmt::format("{}: no node of the case's mesh lies within {:g} mm of {}; the nearest is {}",
-                      next.where, tolerance, shown(next.position), shown(node)));
+      throw cases::InputError(fmt::format("{}: no node of the case's mesh lies within {:.2g} mm of {}; the "
+                                          "nearest is {}. Results on another mesh "
+                                          "need --interpolate",
+                                          next.where, tolerance, shown(next.position), shown(node)));
     if (const GivenDisplacement* known = std::exchange(of_node[nearest[g]], &next))
       throw cases::InputError(fmt::format("{}: the node {} is given twice, first in {}", next.where,
                                           shown(next.position), known->where));

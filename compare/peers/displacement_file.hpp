@@ -1,6 +1,7 @@
 #pragma once
 
-#include "cases/mesh/vtk_functions.hpp"
+#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/point_cloud.hpp"
 
 /// Displacements that another simulator computed, as they stand in a file.
 namespace springproof::compare {
@@ -18,16 +19,23 @@ struct GivenDisplacement {
 /// @throws InputError saying where, what stands there and what is allowed
 std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path);
 
-/// A VTK file in any encoding that VTK reads; among its point data an array of three components, Float32 or
-/// Float64, named msm_displacement or displacement, or the only one with three. Points with the same position
-/// and displacement are one node.
+/// A VTK file (read_point_cloud()); among its point data an array of three components in single or double
+/// precision, named msm_displacement or displacement, or the only one with three. Points with the same
+/// position and displacement are one node.
 /// @throws InputError, likewise
-std::vector<GivenDisplacement> read_displacement_vtu(const std::string& text, const std::string& path);
+std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path);
 /// The same of what VTK has read.
 std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path);
 
-/// How near a given node must lie to the node of the case's mesh that it stands for, mm.
-constexpr double same_place = 1e-6;
+/// Displacements (mm) at the points of a VTK file, in its order.
+/// @throws InputError, likewise
+const std::vector<Eigen::Vector3d>& finite_displacements(const cases::PointCloud& cloud,
+                                                         const std::string& path);
+
+/// How near a given node must lie to the node of the case's mesh that it stands for, mm, besides the rounding
+/// of its own position: 1e-6 of the diagonal of the mesh's bounding box, which six digits of a position that
+/// is no further from the origin keep.
+double same_place(const cases::HexMesh& mesh);
 
 /// Displacements in the order of the mesh's nodes, matched by position.
 /// @throws InputError if a given node lies at no node of the mesh, if one is given twice, or if one is not

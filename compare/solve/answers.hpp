@@ -31,6 +31,17 @@ struct RefinedMeshes {
   std::string reason; ///< why there are none or no more; empty when all that were tried are there
 };
 
+/// How another program's results on a mesh of its own came to the nodes of the case's mesh.
+struct Interpolated {
+  std::size_t n_points = 0; ///< of the results
+  std::size_t n_outside =
+      0; ///< nodes outside of the results' cells, which take the value of the closest place
+  double largest_distance = 0; ///< of these, mm
+  /// The finite elements' displacement, interpolated to the results' points and from there to the nodes: what
+  /// it has lost by two interpolations estimates what the results have lost by one. Skipped where they failed.
+  Answer fem_and_back;
+};
+
 /// All that solving a case has found. Produced whole by solve(), and not changed afterwards.
 struct Answers {
   cases::Fem resolved;              ///< [fem] with what "auto" was found to mean
@@ -40,6 +51,7 @@ struct Answers {
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
   std::optional<RefinedMeshes> refined;    ///< of the finite elements' limit, when asked for
   std::optional<Peer> peer;                ///< when asked for
+  std::optional<Interpolated> interpolated{}; ///< of msm_source, when it was
 
   /// A side that was asked for did not converge.
   bool failed() const {
@@ -52,6 +64,7 @@ struct Answers {
 inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
   std::vector<cases::Solution*> all{&answers.fem.solution, &answers.msm.solution};
   if (answers.peer) all.push_back(&answers.peer->answer.solution);
+  if (answers.interpolated) all.push_back(&answers.interpolated->fem_and_back.solution);
   if (answers.refined)
     for (cases::Solution& solution : answers.refined->solutions) all.push_back(&solution);
   return all;

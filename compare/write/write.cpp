@@ -60,6 +60,27 @@ void write_peer(std::ostream& out, const Peer& peer) {
   print(out, "\n");
 }
 
+/// Where results on another mesh were taken, and what that has cost.
+void write_interpolated(std::ostream& out, const Comparison& comparison) {
+  const Interpolated& from = *comparison.answers.interpolated;
+  print(out, "       interpolated between {} points{}\n", from.n_points,
+        from.n_outside == 0
+            ? std::string()
+            : fmt::format("; {} nodes outside of their cells, by up to {:.2g} mm, take the closest value",
+                          from.n_outside, from.largest_distance));
+  if (!from.fem_and_back.converged()) {
+    print(out, "       the interpolation's error is not known: fem has no displacement to try it on\n");
+    return;
+  }
+  print(out, "       the interpolation adds up to (fem's displacement, interpolated there and back):");
+  const char* comma = "";
+  for (const MeasuredValue& m : comparison.measures)
+    print(out, "{} {} {} {} {}", std::exchange(comma, ";"), m.name, number(m.interpolation_error, "{:.2g}"),
+          m.unit,
+          m.interpolation_error_percent ? fmt::format("({:.2g} %)", *m.interpolation_error_percent) : "");
+  print(out, "\n");
+}
+
 /// "9.23 +- 1.1", or without the error bar; "-" when there is no value.
 std::string with_bar(const std::optional<double>& value, const char* format,
                      const std::optional<double>& bar) {
@@ -193,6 +214,10 @@ Json msm_to_json(const Answers& answers) {
       side[key] = nullptr;
     side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
   }
+  if (answers.interpolated)
+    side["interpolated"] = {{"points", answers.interpolated->n_points},
+                            {"nodes_outside", answers.interpolated->n_outside},
+                            {"largest_distance_outside", answers.interpolated->largest_distance}};
   if (answers.design) {
     side.update(springs_to_json(*answers.design));
     side["warnings"] = answers.design->warnings;
@@ -233,6 +258,10 @@ Json comparison_to_json(const Comparison& comparison) {
                         {"error_same_mesh_percent", m.error_same_mesh_percent},
                         {"fem_error_percent", m.fem_error_percent}});
     if (comparison.answers.peer) measures.back()["peer"] = m.peer;
+    if (comparison.answers.interpolated) {
+      measures.back()["interpolation_error"] = m.interpolation_error;
+      measures.back()["interpolation_error_percent"] = m.interpolation_error_percent;
+    }
   }
   for (const Gate& gate : comparison.gates)
     expectations.push_back({{"measure", gate.expectation.measure},
@@ -272,6 +301,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
     print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source,
           comparison.scene.mesh.nodes.size(),
           msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
+  if (answers.interpolated) write_interpolated(out, comparison);
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);

@@ -39,7 +39,8 @@ std::vector<GateCount> count_by_kind(const std::vector<Comparison>& cases) {
 
 /// The error bar in words, " (reference +- 0.21 %)", or nothing.
 std::string describe_uncertainty(const Gate& gate) {
-  return gate.uncertainty ? fmt::format(" (reference +- {:.2g} {})", *gate.uncertainty, gate.unit) : "";
+  return gate.uncertainty ? fmt::format(" ({} +- {:.2g} {})", gate.uncertain, *gate.uncertainty, gate.unit)
+                          : "";
 }
 
 void write_line(std::ostream& out, bool met, const std::string& kind, const std::string& name,

@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, msh, stl, vtu, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the
+Kinds: case, msh, stl, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the
 program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a
 damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same
 in every run. Only Python's standard library is used.
@@ -12,6 +12,7 @@ import json
 import os
 import random
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -146,7 +147,7 @@ class Stl(Kind):
 
 
 class Displacements(Kind):
-    name = "given.csv"
+    name, options = "given.csv", ()
 
     @property
     def whole(self):
@@ -155,7 +156,7 @@ class Displacements(Kind):
 
     def given(self, content):
         (self.folder / self.name).write_bytes(content)
-        return springproof("run", "--msm-displacements", self.folder / self.name, self.case())
+        return springproof("run", *self.options, "--msm-displacements", self.folder / self.name, self.case())
 
 
 class Vtu(Displacements):
@@ -167,6 +168,41 @@ class Vtu(Displacements):
         if not out.exists():
             assert springproof("run", self.case(), "--out", out).returncode == 0
         return next(path for path in out.glob("*.vtu") if not path.stem.endswith("_springs")).read_bytes()
+
+
+class Cells(Vtu):
+    """The same, to be interpolated in its cells."""
+    options = ("--interpolate",)
+
+
+class Vtk(Displacements):
+    """A legacy file in binary, with hexahedra to be interpolated in."""
+    name, options = "given.vtk", ("--interpolate",)
+
+    @property
+    def whole(self):
+        node = lambda i, j, k: i + 3 * j + 9 * k
+        corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+        cells = [[node(i + a, j + b, k + c) for a, b, c in corners] for k in range(2) for j in range(2) for i in range(2)]
+        nodes = [(i, j, k) for k in range(3) for j in range(3) for i in range(3)]
+        numbers = lambda code, values: struct.pack(f">{len(values)}{code}", *values) + b"\n"
+        return b"".join([
+            b"# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 27 float\n",
+            numbers("f", [x for n in nodes for x in n]), b"CELLS 8 72\n", numbers("i", [v for cell in cells for v in (8, *cell)]),
+            b"CELL_TYPES 8\n", numbers("i", [12] * 8), b"POINT_DATA 27\nVECTORS displacement double\n",
+            numbers("d", [0.01 * x for n in nodes for x in n])])
+
+
+class Vtp(Displacements):
+    name = "given.vtp"
+
+    @property
+    def whole(self):
+        nodes = [f"{i} {j} {k}" for k in range(3) for j in range(3) for i in range(3)]
+        array = '<DataArray type="Float64" Name="u" NumberOfComponents="3" format="ascii">\n' + "\n".join(nodes) + "\n</DataArray>\n"
+        return ('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
+                '<Piece NumberOfPoints="27" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="0">\n'
+                f"<Points>\n{array}</Points>\n<PointData>\n{array}</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n").encode()
 
 
 class Network(Kind):
@@ -211,7 +247,7 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "displacements": Displacements,
+KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp, "displacements": Displacements,
          "network": Network, "curve": Curve, "kept": Kept}
 
 

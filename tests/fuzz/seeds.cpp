@@ -43,6 +43,20 @@ cases::PointCloud cloud() {
   return cloud;
 }
 
+/// Every node takes the value of its own point.
+cases::CellCloud cells() {
+  cases::CellCloud cells{cloud(), {}, {}};
+  for (int p = 0; p < static_cast<int>(cells.cloud.points.size()); ++p) {
+    cells.to_nodes.first.push_back(cases::index(p));
+    cells.to_nodes.points.push_back(p);
+    cells.to_nodes.weights.push_back(1);
+    cells.to_nodes.outside.push_back(0);
+  }
+  cells.to_nodes.first.push_back(cells.cloud.points.size());
+  cells.from_nodes = cells.to_nodes;
+  return cells;
+}
+
 /// To a question on a mesh of one cell.
 compare::Answers answers() {
   compare::Answers answers;
@@ -79,6 +93,7 @@ int main(int, char** argv) {
   write("stl/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 1, 1}, {1, 1, 1}))));
   write("stl/wedge", cases::bytes_of(boundary(wedge())));
   write("vtu/cloud", cases::bytes_of(cloud()));
+  write("vtu/cells", cases::bytes_of(cells()));
   write("kept/answers", cases::to_bytes(answers()));
   write("kept/answer", cases::to_bytes(answers().fem));
 }

@@ -60,6 +60,8 @@ program)
   small=$source/cases/thesis/linear_elastic/cube_shear_small.toml
   for twice in solved kept; do ends 0 run --out out_run --peer ccx "$small" "$source/cases/thesis/ogden/cube_shear_small.toml"; done
   ends 0 run --json --msm-displacements out_run/cube-shear-small.vtu "$small"
+  ends 0 run --json --interpolate --msm-displacements out_run/cube-shear-small.vtu "$small"
+  ends 0 export "$small" --to csv --out out_export
   for template in box layers mesh voxels; do
     ends 0 new of_$template --template $template
     ends 0 run of_$template.toml --set fem.accuracy='"none"'

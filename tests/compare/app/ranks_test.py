@@ -91,6 +91,7 @@ def springproof(*words, ranks=1):
 def solve(folder, case, ranks, *words):
     """A run of a case with fields in folder/RANKS, and its document."""
     file = folder / "block.toml"
+    folder.mkdir(exist_ok=True)
     file.write_text(case)
     out = folder / str(ranks)
     done = springproof("run", file, "--out", out, "--json", *words, ranks=ranks)
@@ -282,6 +283,22 @@ def test_no_list_without_its_pieces(folder):
     failed = springproof("run", folder / "block.toml", "--out", out, ranks=2)
     assert failed.returncode == 2 and failed.stderr.count("block_1.vtu") == 1, failed
     assert not (out / "block.pvtu").exists()
+
+
+def test_results_on_another_mesh(folder):
+    """results that are interpolated, and what that may add"""
+    _, other, _ = solve(folder, CASE % (BOX % (3, 3, 4), "log_strain", "newton"), 1)
+    results = folder / "results.vtu"
+    results.write_bytes((other / "block.vtu").read_bytes())
+    case = CASE % (BOX % (6, 6, 9), "log_strain", "newton")
+    case = case[:case.index('[[measure]]\nname = "held"')]  # from there on: what displacements alone do not tell
+    words = ("--msm-displacements", results, "--interpolate")
+    alone, _, _ = solve(folder / "whole", case, 1, *words)
+    together, _, _ = solve(folder / "shared", case, 2, *words)
+    assert_same(alone, together, 6)
+    assert alone["measures"][4]["interpolation_error"] > 1e-6, alone["measures"]  # of the mean, mm
+    assert alone["msm"]["interpolated"] == together["msm"]["interpolated"] == {
+        "points": 80, "nodes_outside": 0, "largest_distance_outside": 0}, alone["msm"]
 
 
 def test_shards_on_ranks(folder):

@@ -113,6 +113,27 @@ TEST_CASE(
   CHECK(judged_in(Quantity::msm, 9, 9).met()); // needs no reference
 }
 
+TEST_CASE("a gate on results that were interpolated holds for what that may add") {
+  const auto judged_in = [](Quantity quantity, double lower, double upper) {
+    auto result = comparison({expectation(quantity, {lower, upper})});
+    result.answers.interpolated.emplace();
+    result.measures[0].interpolation_error = 0.2; // mm
+    result.measures[0].interpolation_error_percent = 2;
+    return judged::judge(result).gates[0];
+  };
+  CHECK(judged_in(Quantity::error_percent, -12.1, -7.9).met());
+  CHECK(judged_in(Quantity::error_percent, -11, -7.9).is_undecided);
+  CHECK(judged_in(Quantity::error_percent, -9, 0).is_undecided);
+  CHECK_FALSE(judged_in(Quantity::error_percent, -7, 0).met());
+  CHECK(judged_in(Quantity::msm, 8.7, 9.3).met());
+  const auto open = judged_in(Quantity::msm, 8.9, 9.3);
+  CHECK_FALSE(open.met());
+  CHECK_THAT(describe(open),
+             Catch::Contains("undecided: 9 +- 0.2") && Catch::Contains("the case's own mesh"));
+  CHECK(open.uncertain == "interpolation");
+  CHECK(judged_in(Quantity::fem, 10, 10).met()); // nothing of the finite elements was interpolated
+}
+
 TEST_CASE("without a limit nothing is met against a converged reference, and the reason is told") {
   const auto expected = expectation(Quantity::error_percent, {-11, -9}, ReferenceKind::converged);
   auto without = judged::studied(comparison({expected}), 2);

@@ -12,7 +12,7 @@
 using namespace springproof;
 
 using compare::read_displacement_csv;
-using compare::read_displacement_vtu;
+using compare::read_displacement_vtk;
 
 namespace {
 
@@ -64,7 +64,7 @@ TEST_CASE(
   for (const std::string& data :
        {vectors("U", moves), vectors("force", two_points) + vectors("displacement", moves),
         vectors("fem_displacement", two_points) + vectors("msm_displacement", moves)}) {
-    const auto nodes = read_displacement_vtu(ascii_vtu(two_points, data), "a.vtu");
+    const auto nodes = read_displacement_vtk(ascii_vtu(two_points, data), "a.vtu");
     REQUIRE(nodes.size() == 2);
     CHECK(nodes[1].position == Eigen::Vector3d(1, 2.5, -0.3));
     CHECK(nodes[1].displacement == Eigen::Vector3d(0, 0.5, 0));
@@ -77,14 +77,14 @@ TEST_CASE("the .vtu that this program writes is read back to the last bit") {
   for (const Eigen::Vector3d& x : mesh.nodes) moved.emplace_back(0.1 * x.y(), x.z() / 3, -1e-300);
   std::ostringstream out;
   compare::write_vtu(out, mesh, {{"msm_displacement", moved}, {"other", mesh.nodes.to_vector()}});
-  const auto nodes = read_displacement_vtu(out.str(), "a.vtu");
+  const auto nodes = read_displacement_vtk(out.str(), "a.vtu");
   REQUIRE(nodes.size() == mesh.nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     CHECK(nodes[n].position == mesh.nodes[n]);
     CHECK(nodes[n].displacement == moved[n]);
   }
   const std::string cut = out.str().substr(0, out.str().size() - 500); // never beyond the end
-  CHECK_THROWS_AS(read_displacement_vtu(cut, "a.vtu"), cases::InputError);
+  CHECK_THROWS_AS(read_displacement_vtk(cut, "a.vtu"), cases::InputError);
 }
 
 TEST_CASE("a displacement that is not finite is refused with its point") {
@@ -93,7 +93,7 @@ TEST_CASE("a displacement that is not finite is refused with its point") {
   moved[5].y() = std::numeric_limits<double>::quiet_NaN();
   std::ostringstream out;
   compare::write_vtu(out, mesh, {{"displacement", moved}});
-  CHECK_THROWS_WITH(read_displacement_vtu(out.str(), "a.vtu"), "a.vtu: is not finite at point 5");
+  CHECK_THROWS_WITH(read_displacement_vtk(out.str(), "a.vtu"), "a.vtu: is not finite at point 5");
 }
 
 TEST_CASE("a .vtu by VTK's writer as it comes, compressed and in single precision, matches the nodes that it "
@@ -115,18 +115,18 @@ TEST_CASE("points that several pieces have in common are one node, if they move 
   const std::size_t begin = text.find("<Piece"), end = text.find("</UnstructuredGrid>");
   const std::string piece = text.substr(begin, end - begin);
   const auto with = [&](const std::string& other) { return text.substr(0, end) + other + text.substr(end); };
-  CHECK(read_displacement_vtu(with(piece), "a.vtu").size() == 2);
-  CHECK(read_displacement_vtu(with(case_text::replaced(piece, moves, two_points)), "a.vtu").size() == 4);
+  CHECK(read_displacement_vtk(with(piece), "a.vtu").size() == 2);
+  CHECK(read_displacement_vtk(with(case_text::replaced(piece, moves, two_points)), "a.vtu").size() == 4);
 }
 
 TEST_CASE("a .vtu that cannot be used is refused with the reason") {
   const auto [text, message] = GENERATE(table<std::string, std::string>({
-      {"", "is no complete VTK file of type UnstructuredGrid"},
-      {"<VTKFile type=\"PolyData\"></VTKFile>", "is no complete VTK file of type UnstructuredGrid"},
+      {"", "is no VTK file that can be read: it has neither the first line of a .vtk file nor a tag"},
+      {"<VTKFile type=\"PolyData\"></VTKFile>", "Cannot find PolyData element"},
       {"<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"2\">", "no element found"},
       {case_text::replaced(one_array, "NumberOfPoints=\"2\"", "NumberOfPoints=\"-2\""),
        "\"a\" from PointData"},
-      {ascii_vtu(two_points, vectors("a", moves) + vectors("b", moves)), "it has 'a' 'b'"},
+      {ascii_vtu(two_points, vectors("a", moves) + vectors("b", moves)), "it has 'a', 'b'"},
       {ascii_vtu(two_points, ""), "it has none"},
       {ascii_vtu(two_points, vectors("a", "0 0 0")), "\"a\" from PointData in piece 0"},
       {ascii_vtu(two_points, vectors("a", "0 0 0 0 0 x")), "\"a\" from PointData in piece 0"},
@@ -138,7 +138,7 @@ TEST_CASE("a .vtu that cannot be used is refused with the reason") {
                              "format=\"ascii\">0 0 1 0 1 0</DataArray>"),
        "(Float32 or Float64)"},
   }));
-  CHECK_THROWS_WITH(read_displacement_vtu(text, "a.vtu"),
+  CHECK_THROWS_WITH(read_displacement_vtk(text, "a.vtu"),
                     Catch::Contains(message) && Catch::StartsWith("a.vtu: "));
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("a VTK file that VTK's reader crashes on is refused") {
       case_text::replaced(text, "</UnstructuredGrid>\n",
                           "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" +
                               std::string("\x88\2\0\0", 4) + std::string(648, '\0') + "\n</AppendedData>\n");
-  CHECK_THROWS_WITH(read_displacement_vtu(text, "a.vtu"), Catch::StartsWith("a.vtu: "));
+  CHECK_THROWS_WITH(read_displacement_vtk(text, "a.vtu"), Catch::StartsWith("a.vtu: "));
 }
 
 TEST_CASE("a file of another kind, and one that is not there, are refused by their names") {

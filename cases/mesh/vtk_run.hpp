@@ -1,0 +1,11 @@
+#pragma once
+
+class vtkAlgorithm;
+
+namespace springproof::cases {
+
+/// Runs a reader or writer of VTK's, which prints nothing.
+/// @throws std::runtime_error with its first error, without the place in VTK's source
+void run(vtkAlgorithm& algorithm);
+
+} // namespace springproof::cases
