@@ -1,10 +1,10 @@
 #include "compare/export/export_springs.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/mesh/vtk.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
+#include "compare/write/write_springs.hpp"
 
 #include <fmt/ostream.h>
 #include <map>
@@ -182,13 +182,11 @@ std::vector<std::string> write_sofa_files(const std::string& folder, const std::
 
 std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Problem& problem) {
   const msm::Lattice& lattice = problem.lattice;
-  std::vector<std::array<int, 2>> ends;
-  std::vector<double> stiffness, rest_length, kind, is_power_log, exponent;
+  SpringLines lines;
+  std::vector<double> kind, is_power_log, exponent;
   for (const int number : kinds_of_links(problem.mesh, lattice.links)) kind.push_back(number);
   for (const auto& [i, j, spring] : lattice.links) {
-    ends.push_back({i, j});
-    stiffness.push_back(spring.stiffness);
-    rest_length.push_back(spring.rest_length);
+    lines.add(i, j, spring);
     is_power_log.push_back(spring.exponent ? 1 : 0);
     exponent.push_back(spring.exponent.value_or(0));
   }
@@ -201,12 +199,9 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
   fields.point_vectors = {{"constrained", is_constrained, "1"},
                           {"prescribed_displacement", prescribed(problem), "mm"},
                           {"force", problem.on_all_points(problem.force), "N"}};
-  fields.cell_numbers = {{"kind", kind, "1"},
-                         {"stiffness", stiffness, "N/mm"},
-                         {"rest_length", rest_length, "mm"},
-                         {"is_power_log", is_power_log, "1"},
-                         {"exponent", exponent, "1"}};
-  const std::string content = cases::vtk().write_lines(lattice.rest, ends, fields);
+  fields.cell_numbers = {
+      {"kind", kind, "1"}, {"is_power_log", is_power_log, "1"}, {"exponent", exponent, "1"}};
+  const std::string content = vtu_of_lines(lattice.rest, lines, std::move(fields));
   write_file(folder + "/springs.vtu", [&](std::ostream& out) { out << content; });
   std::vector<std::string> said{
       fmt::format("springs.vtu: {} springs as lines (N/mm, mm)", lattice.links.size())};

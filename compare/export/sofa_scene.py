@@ -7,8 +7,9 @@ Every spring is in one list, with its own stiffness and rest length. SOFA's Regu
 the springs at the boundary of a grid the stiffness of those inside, where they belong to half as many cells, or a quarter.
 
 For SOFA v24.06 or newer, with SofaPython3. Before v24.06 the two components below had the names StiffSpringForceField and
-PartialFixedConstraint. The equilibrium is static, under the full load: StaticSolver makes one Newton iteration a step unless it is told
-otherwise, so animate until nothing moves. A motion too large for that is to be given in steps: "moved" has its end, mm.
+PartialFixedConstraint. The equilibrium is static, under the full load: StaticSolver may make as few as one Newton iteration a step unless
+it is told otherwise (newton_iterations; in later versions a NewtonRaphsonSolver beside it), so animate until nothing moves. A motion too
+large for that is to be given in steps: "moved" has its end, mm.
 """
 
 import json

@@ -13,16 +13,15 @@ namespace {
 using cases::index;
 using Eigen::Vector3d;
 
+/// Of a deformed state.
 struct Lines {
-  std::vector<std::array<int, 2>> ends;
-  std::vector<double> stretch, tension, stiffness, rest_length;
+  SpringLines at_rest;
+  std::vector<double> stretch, tension;
 
-  void add(int i, int j, double length, double the_rest_length, double the_tension, double the_stiffness) {
-    ends.push_back({i, j});
-    stretch.push_back(length / the_rest_length);
+  void add(int i, int j, double length, double the_tension, const msm::Spring& spring) {
+    at_rest.add(i, j, spring);
+    stretch.push_back(length / spring.rest_length);
     tension.push_back(the_tension);
-    stiffness.push_back(the_stiffness);
-    rest_length.push_back(the_rest_length);
   }
 };
 
@@ -39,8 +38,7 @@ Lines lines_of(const msm::Lattice& lattice, const std::vector<Vector3d>& displac
   Lines lines;
   for (const auto& [i, j, spring] : lattice.links) {
     const double length = along(i, j).norm();
-    lines.add(i, j, length, spring.rest_length, msm::spring_slopes(length, spring).transverse * length,
-              spring.stiffness);
+    lines.add(i, j, length, msm::spring_slopes(length, spring).transverse * length, spring);
   }
   std::map<std::pair<int, int>, Edge> edges;
   for (const msm::Tetrahedron& t : lattice.tetrahedra) {
@@ -58,12 +56,19 @@ Lines lines_of(const msm::Lattice& lattice, const std::vector<Vector3d>& displac
     }
   }
   for (const auto& [ends, edge] : edges)
-    lines.add(ends.first, ends.second, along(ends.first, ends.second).norm(), edge.rest_length, edge.tension,
-              edge.stiffness);
+    lines.add(ends.first, ends.second, along(ends.first, ends.second).norm(), edge.tension,
+              {edge.stiffness, edge.rest_length});
   return lines;
 }
 
 } // namespace
+
+std::string vtu_of_lines(const std::vector<Vector3d>& points, const SpringLines& lines,
+                         cases::GridFields others) {
+  others.cell_numbers.push_back({"stiffness", lines.stiffness, "N/mm"});
+  others.cell_numbers.push_back({"rest_length", lines.rest_length, "mm"});
+  return cases::vtk().write_lines(points, lines.ends, others);
+}
 
 bool has_drawn_springs(const Comparison& comparison) {
   const Answers& answers = comparison.answers;
@@ -77,11 +82,8 @@ void write_springs_vtu(std::ostream& out, const Comparison& comparison,
   const Lines lines = lines_of(lattice, displacement);
   cases::GridFields all;
   all.point_vectors.push_back({"msm_displacement", displacement, "mm"});
-  all.cell_numbers = {{"stretch", lines.stretch, "1"},
-                      {"tension", lines.tension, "N"},
-                      {"stiffness", lines.stiffness, "N/mm"},
-                      {"rest_length", lines.rest_length, "mm"}};
-  out << cases::vtk().write_lines(lattice.rest, lines.ends, all);
+  all.cell_numbers = {{"stretch", lines.stretch, "1"}, {"tension", lines.tension, "N"}};
+  out << vtu_of_lines(lattice.rest, lines.at_rest, std::move(all));
 }
 
 } // namespace springproof::compare
