@@ -6,13 +6,16 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/ranking/ranking.hpp"
+#include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/thesis/table_jobs.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iostream>
 #include <memory>
 
@@ -29,6 +32,7 @@ struct RunOptions {
   std::string peer; ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
+  bool report = false;              ///< a page of each case, in `out`
   bool json = false;
 };
 
@@ -95,6 +99,40 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   return answers;
 }
 
+/// The words of a run of one case that makes its page again.
+std::vector<std::string> command_of(const RunOptions& options, const std::string& file) {
+  std::vector<std::string> words{"run", file};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  for (const std::string& setting : options.settings) add("--set", setting);
+  if (options.only != "both") add("--only", options.only);
+  if (options.meshes > 0) words.push_back(fmt::format("--converge={}", options.meshes));
+  if (!options.peer.empty()) add("--peer", options.peer);
+  if (!options.displacements.file.empty()) add("--msm-displacements", options.displacements.file);
+  if (options.displacements.interpolate) words.push_back("--interpolate");
+  if (!options.designs.empty()) add("--designs", fmt::format("{}", fmt::join(options.designs, ",")));
+  add("--out", options.out);
+  words.push_back("--report");
+  return words;
+}
+
+/// The page of a case that is solved, with its designs ranked when asked. Collective.
+void write_page_of(const RunOptions& options, const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  Answers answers = gathered(comparison.answers);
+  std::optional<Ranking> ranking;
+  if (!options.designs.empty())
+    ranking = rank_designs(comparison.scene, designs_of(options, definition), answers);
+  run_on_all_ranks([&] {
+    if (mpi_rank() != 0) return;
+    Comparison whole = comparison;
+    whole.answers = std::move(answers);
+    write_case_page(options.out, whole, ranking ? &*ranking : nullptr,
+                    {shell_command(command_of(options, definition.file))});
+  });
+}
+
 int run(const RunOptions& options) {
   const auto only =
       options.displacements.file.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
@@ -119,6 +157,7 @@ int run(const RunOptions& options) {
     failed = failed || !done.back().is_sound();
     if (!options.json && mpi_rank() == 0) write_text(std::cout, done.back());
     if (!options.out.empty()) write_results(options.out, done);
+    if (options.report) write_page_of(options, done.back());
   }
   if (mpi_rank() == 0 && options.json) std::cout << json_text(to_json(done));
   return failed ? 1 : 0;
@@ -140,10 +179,15 @@ void add_run_command(CLI::App& program, Action& chosen) {
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
   add_displacement_options(*command, options->displacements)->excludes(only);
-  command->add_option(
+  CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "
       "that it holds already are not solved again");
+  CLI::Option* report = command->add_flag("--report", options->report,
+                                          "a page of each case, CASE.html, and its bodies drawn, "
+                                          "CASE_bodies.png and .svg, in the folder of --out; with "
+                                          "--designs they are on it");
+  report->needs(out);
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   std::vector<std::string> names = cases::all_names<cases::Design>();
   names.insert(names.begin(), "all");
@@ -157,10 +201,14 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->check(CLI::IsMember(names))
       ->excludes("--only")
       ->excludes("--peer")
-      ->excludes("--msm-displacements")
-      ->excludes("--out");
-  command->callback([options, &chosen] {
-    chosen = [options] { return options->designs.empty() ? run(*options) : run_designs(*options); };
+      ->excludes("--msm-displacements");
+  command->callback([options, out, &chosen] {
+    if (!options->designs.empty() && *out && !options->report)
+      throw CLI::ValidationError("--designs",
+                                 "goes with --out for a page alone: add --report, or leave --out out");
+    chosen = [options] {
+      return options->designs.empty() || options->report ? run(*options) : run_designs(*options);
+    };
   });
 }
 

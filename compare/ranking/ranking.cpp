@@ -82,6 +82,13 @@ std::string worst_text(const RankedDesign& ranked) {
   return two_digits(ranked.worst) + (ranked.worst_bar ? fmt::format(" +- {:.2g}", *ranked.worst_bar) : "");
 }
 
+void check_measures(const cases::Scene& scene) {
+  if (scene.definition.measures.empty())
+    throw cases::InputError(scene.definition.file +
+                            ": --designs ranks by the errors of measures, and the case "
+                            "has no [[measure]]");
+}
+
 /// What the errors are against.
 std::string reference_text(const Ranking& ranking) {
   const bool has_limit = std::any_of(ranking.designs.begin(), ranking.designs.end(),
@@ -128,11 +135,13 @@ void sort_by_error(std::vector<RankedDesign>& designs) {
 }
 
 Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs, int meshes) {
-  if (scene.definition.measures.empty())
-    throw cases::InputError(scene.definition.file +
-                            ": --designs ranks by the errors of measures, and the case "
-                            "has no [[measure]]");
-  const Answers fem = gathered(solve(scene, {cases::Side::fem, meshes}, solve_fem));
+  check_measures(scene);
+  return rank_designs(scene, designs, gathered(solve(scene, {cases::Side::fem, meshes}, solve_fem)));
+}
+
+Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs,
+                     const Answers& fem) {
+  check_measures(scene);
   Ranking ranking{scene.definition.name, fem.resolved, fem.fem};
   ranking.fem.solution.displacement.clear();
   ranking.fem.solution.cell_volume.clear();
@@ -142,6 +151,29 @@ Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>
     ranking.designs.push_back(rank_one(with_design(scene, design), fem));
   sort_by_error(ranking.designs);
   return ranking;
+}
+
+std::string verdict_of(const Comparison& comparison) {
+  const Answers& answers = comparison.answers;
+  for (const auto& [name, side] :
+       {std::pair("finite elements", &answers.fem), std::pair("springs", &answers.msm)}) {
+    if (side->solution.status == cases::Status::failed)
+      return "There is nothing to compare: " + side->solution.message; // which names the model
+    if (side->solution.status == cases::Status::skipped)
+      return fmt::format("There is nothing to compare: the {} were not solved.", name);
+  }
+  if (comparison.measures.empty()) return "Both models are in equilibrium; the case has no measure.";
+  RankedDesign own{cases::name_of(comparison.scene.definition.msm.design)};
+  own.measures = comparison.measures;
+  add_errors(own, comparison);
+  if (!own.worst) return "Both models are in equilibrium; " + own.failure + ".";
+  const std::optional<double> fem_error = worst_of_fem(own);
+  return fmt::format(
+      "The springs err by up to {} % ({}){} against {}{}.", worst_text(own), own.worst_at,
+      own.worst_volume ? fmt::format(", in volume by up to {} %", two_digits(own.worst_volume)) : "",
+      own.worst_bar ? "the limit of the finite elements" : "finite elements on the same mesh",
+      fem_error ? fmt::format(", which themselves err by up to {} % on this mesh", two_digits(fem_error))
+                : "");
 }
 
 std::string advice_of(const Ranking& ranking) {

@@ -41,11 +41,19 @@ struct Ranking {
 /// @throws InputError when the case has no measure
 Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs, int meshes = 0);
 
+/// The same with finite elements that were solved before; all of them must be here.
+Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs,
+                     const Answers& fem);
+
 /// Puts designs into the order of a ranking.
 void sort_by_error(std::vector<RankedDesign>& designs);
 
 /// A table, and a sentence that names the design to use.
 void write_ranking_text(std::ostream& out, const Ranking& ranking);
+
+/// What a case's own springs come to, in a sentence: their worst errors, with the reference's uncertainty,
+/// and the finite elements' own; or why there is nothing to compare.
+std::string verdict_of(const Comparison& comparison);
 
 /// The sentence. Of designs that the reference's uncertainty does not tell apart from the best it says so.
 std::string advice_of(const Ranking& ranking);

@@ -67,14 +67,15 @@ Json body_side_to_json(const DeformedBody& body, std::vector<Surface>& bodies) {
   return {{"body", index}, {"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
 }
 
-/// How far the slider reaches: small displacements may be drawn tenfold, large ones twofold.
+/// How far the slider reaches: to where the largest displacement is half the body, but twofold at least and a
+/// hundredfold at most.
 double largest_scale(const Overlay& overlay) {
   double largest = 0;
   for (const DeformedBody* body : {&overlay.fem, &overlay.springs})
     for (const Eigen::Vector3d& u : *body->displacement) largest = std::max(largest, u.norm());
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : overlay.fem.mesh->nodes) box.extend(x);
-  return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 10.0) : 2.0;
+  return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 100.0) : 2.0;
 }
 
 Json measures_to_json(const std::vector<MeasuredValue>& measures) {
@@ -93,11 +94,8 @@ Json measures_to_json(const std::vector<MeasuredValue>& measures) {
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay) {
   const auto& [scene, answers, measures, gates, study] = comparison;
   BodyView view{id, std::move(overlay), "", scene.definition.description, "", measures};
-  const std::pair<const char*, const Answer*> sides[] = {{"finite elements", &answers.fem},
-                                                         {"springs", &answers.msm}};
-  for (const auto& [name, side] : sides)
-    if (side->solution.status == cases::Status::failed)
-      view.failures.push_back(std::string(name) + ": " + side->solution.message);
+  for (const Answer* side : {&answers.fem, &answers.msm})
+    if (side->solution.status == cases::Status::failed) view.failures.push_back(side->solution.message);
   return view;
 }
 

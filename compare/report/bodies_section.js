@@ -55,7 +55,7 @@ function body_figure(record) {
   return make("figure", { class: "view", id: "view-" + record.id }, make("canvas", { role: "img", tabindex: 0,
     "aria-label": `${record.title}: springs over finite elements, deformed. The arrow keys turn it.` }),
   make("div", { class: "scale quiet" }), legend_of(record), make("figcaption", null, title, make("p", null, record.description),
-    record.failures.map((text) => make("p", { class: "problem" }, words(text))), record.measures.length > 0 &&
+    record.failures.map((text) => make("p", { class: "problem" }, solver_words(text))), record.measures.length > 0 &&
     make("table", null, make("thead", null, row([text_head("measure"), head("FEM"), head("springs"), head("error")])),
       measure_rows(record.measures)), record.command && folded("Command", code(record.command))));
 }
@@ -63,8 +63,9 @@ function body_figure(record) {
 function bodies() {
   if (view_records.size === 0) return null;
   const groups = [...new Set([...view_records.values()].map((record) => record.group))];
-  const section = make("div", null, make("p", null, "Drag a body, or use the arrow keys: all turn with it. Both models are drawn over each " +
-    "other; colours are the distance between them."), body_controls(), groups.map((group) => [group && make("h3", null, typeset(group)),
+  const section = make("div", null, make("p", null, "Drag a body, or use the arrow keys: all turn with it. Both models are drawn over " +
+    "each other; colours are the distance between them."), body_controls(), groups.map((group) => [
+    group && make("h3", null, typeset(group)),
     make("div", { class: "views" }, [...view_records.values()].filter((record) => record.group === group).map(body_figure))]));
   section.draw = () => {
     const watcher = new IntersectionObserver((entries) => {
@@ -74,8 +75,8 @@ function bodies() {
         renderer();
       } catch (error) {
         watcher.disconnect();
-        section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the bodies to turn. Drawn pictures " +
-          "of them are beside this page (.png, .svg)."));
+        section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the bodies to turn. Drawn " +
+          "pictures of them are beside this page (.png, .svg)."));
         return;
       }
       for (const entry of seen) show_body(entry.target.id.replace(/^view-/, ""));

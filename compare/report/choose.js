@@ -91,11 +91,12 @@ function calculator() {
         tile("springs’ time", duration(best.msm_seconds), `finite elements: ${duration(best.fem_seconds)}`)),
       make("dl", null, stiffness("e", "edges", e, "N/m"), stiffness("f", "faces", f, "N/m"),
         stiffness("d", "diagonals", d, "N/m"), stiffness("v", "volume", young * volume, "MPa"),
-        exponents.length > 0 && make("div", null, make("dt", null, "exponents of their power law"), make("dd", { "data-symbol": "exponents" },
-          exponents.map((p) => number(p, 3)).join(", ")))),
+        exponents.length > 0 && make("div", null, make("dt", null, "exponents of their power law"), make("dd", {
+          "data-symbol": "exponents" }, exponents.map((p) => number(p, 3)).join(", ")))),
       make("p", { class: "quiet" }, lower === upper ? "" : make("strong", null, `Interpolated: errors are tabulated at ν = ${lower} ` +
         `and ${upper}, and the larger of both is given; stiffnesses are designed for every hundredth of ν. `), "These are the errors of " +
-        "the thesis’s cube: 10 × 10 × 10 cells in tension, shear and torsion, at equal strains whatever E is. Another body has its own: ", code("run CASE --designs all"), " tells them."));
+        "the thesis’s cube: 10 × 10 × 10 cells in tension, shear and torsion, at equal strains whatever E is. Another " +
+        "body has its own: ", code("run CASE --designs all"), " tells them."));
   };
   form.addEventListener("input", answer);
   form.addEventListener("submit", (event) => event.preventDefault());

@@ -4,7 +4,7 @@
 
 // How a design did in its tests, where that is not "stable".
 function state_of(a) {
-  if (a.reason) return [...words(a.reason.replace(/springs: /g, ""))];
+  if (a.reason) return typeset(in_words(a.reason).replace(/springs: /g, ""));
   const unstable = ["small", "large"].filter((set) => !a[set].stable);
   return unstable.length > 0 ? [`unstable under ${unstable.join(" and ")} loads`] : null;
 }
@@ -44,8 +44,8 @@ function designs() {
   if (advice.length === 0) return null;
   return [make("p", null, "Errors against finite elements (", words("log_strain q1_bbar"), ") on the same mesh, over all measures but " +
     "volumes. The best has the smallest worst error under both load sets among the designs that stay stable in every test. Time: median " +
-    "of the six tests, setup and solve, on the machine named below, ", `as this page was made (solves side by side: ${report.workers}); finite ` +
-    `elements take ${duration(advice[0].seconds.fem)}.`),
+    "of the six tests, setup and solve, on the machine named below, ", `as this page was made (solves side by side: ${report.workers}); ` +
+    `finite elements take ${duration(advice[0].seconds.fem)}.`),
   make("div", { class: "side-by-side" }, ratios.map(errors_at)),
   folded("What each design is", make("dl", { class: "methods" }, report.methods.map((m) => [make("dt", null, in_words(m.name), " ",
     code(`design = "${m.name}"`)), make("dd", null, words(m.what), ". ", make("span", { class: "quiet" }, m.published_in))]))),
@@ -58,7 +58,7 @@ function reasons_in_words(reasons) {
   for (const reason of reasons) {
     const found = reason.match(/no equilibrium was found beyond this load \(reached: ([.\d]+) of the load\)/);
     if (found) reached.push(Math.round(100 * found[1]));
-    else others.add(in_words(reason.replace(/springs: /, "")));
+    else others.add(in_words(reason).replace(/springs: /, ""));
   }
   const low = Math.min(...reached), high = Math.max(...reached);
   return [...(reached.length > 0 ? [`no equilibrium beyond ${low === high ? low : `${low} to ${high}`} % of the load`] : []),
@@ -72,7 +72,7 @@ function loads_in(sheet) {
 }
 
 function designs_in_tables() {
-  if (report.designs.length === 0) return [];
+  if (!report.designs || report.designs.length === 0) return [];
   return report.sheets.filter((sheet) => report.designs.some((d) => d.table === sheet.table)).map((sheet) => {
     const commands = new Commands("designs-" + sheet.table);
     const rows = report.designs.filter((d) => d.table === sheet.table).map((d) => {
@@ -90,7 +90,7 @@ function designs_in_tables() {
 }
 
 function volumes() {
-  if (report.volumes.length === 0) return null;
+  if (!report.volumes || report.volumes.length === 0) return null;
   const commands = new Commands("volumes");
   const rows = report.volumes.flatMap((v) => [["finite elements", v.fem], ["springs", v.msm]].map(([model, of], i) => row([
     i === 0 && row_head(commands.traced(in_words(v.case.replace(/-/g, " ")), v.case, v.command), { rowspan: 2 }), text_cell(model),
@@ -106,7 +106,7 @@ function volumes() {
 }
 
 function cases() {
-  if (report.cases.length === 0) return null;
+  if (!report.cases || report.cases.length === 0) return null;
   const commands = new Commands("cases");
   const outcome = (side) => (side.status !== "converged" ? make("td", { class: "long", colspan: 3 }, words(side.message))
     : [cell(side.unknowns.toLocaleString("en")), cell(side.residual.toExponential(0).replace("-", "−")),

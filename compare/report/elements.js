@@ -39,13 +39,15 @@ function typeset(text) {
 }
 const formulations = { log_strain: "logarithmic strain", small_strain: "small strain", q1_bbar: "Q1 B-bar", q1_p0: "Q1/P0",
   q2_p1: "Q2/P1", q1: "Q1", q2: "Q2", saint_venant_kirchhoff: "St. Venant–Kirchhoff" };
-// Names of case files in words, and what solvers say in a sentence that says as much.
-const in_words = (text) => text.replace(/\b(log_strain|small_strain|saint_venant_kirchhoff|q[12](_\w+)?)\b/g,
-  (name) => formulations[name] || name)
-  .replace(/\b(fem|msm)_/g, (_, side) => side.toUpperCase() + " ").replace(/mass-spring equilibrium: /g, "")
+// What solvers say, in fewer words.
+const solver_words = (text) => text.replace(/(springs: )?mass-spring equilibrium: /g, "springs: ")
   .replace(/no equilibrium was found beyond this load \(reached: ([.\d]+) of the load\)/g,
-    (_, reached) => `no equilibrium beyond ${Math.round(100 * reached)} % of the load`)
-  .replace(/\b(?!(?:alpha|beta|L|k|C)_(?:[a-z]|\d+)\b)([A-Za-z]\w*)\b/g, (name) => name.replace(/_/g, " "));
+    (_, reached) => `no equilibrium beyond ${Math.round(100 * reached)} % of the load`);
+// The program's own names in words; names of files stay.
+const in_words = (text) => solver_words(text).replace(/\b(log_strain|small_strain|saint_venant_kirchhoff|q[12](_\w+)?)\b/g,
+  (name) => formulations[name] || name)
+  .replace(/\b(fem|msm)_/g, (_, side) => side.toUpperCase() + " ")
+  .replace(/\b(?!(?:alpha|beta|L|k|C)_(?:[a-z]|\d+)\b)([A-Za-z]\w*)\b(?!\.\w)/g, (name) => name.replace(/_/g, " "));
 const words = (text) => typeset(in_words(text));
 
 const cell = (content, kind) => make("td", { class: kind }, content);

@@ -11,13 +11,14 @@ function about() {
     report.licences.map((text) => make("pre", null, text)))];
 }
 
-const page_sections = [["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
-  ["tables", "Tables", tables], ["thesis", "The thesis, reproduced", thesis], ["about", "About this page", about]];
+const page_sections = [["verdict", "Verdict", verdict], ["measures", "Measures", measures], ["choose", "Which springs", choose],
+  ["designs", "Designs", designs], ["bodies", "Bodies", bodies], ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
+  ["thesis", "The thesis, reproduced", thesis], ["repeat", "Make it again", repeat], ["about", "About this page", about]];
 
 (function () {
   const main = document.querySelector("main"), nav = document.querySelector("nav"), links = new Map();
   const pictures = document.getElementById("pictures");
-  document.querySelector("header").append(make("h1", null, report.heading), make("p", null, typeset(report.subheading)));
+  document.querySelector("header").append(make("h1", null, report.heading), make("p", null, report.subheading));
   for (const [id, heading, section] of page_sections) {
     const content = section();
     if (!content || content.length === 0) continue;
@@ -31,7 +32,8 @@ const page_sections = [["choose", "Which springs", choose], ["designs", "Designs
   const watcher = new IntersectionObserver((seen) => {
     for (const { target, isIntersecting } of seen) if (isIntersecting) for (const [id, link] of links)
       if (id === target.id) link.setAttribute("aria-current", "true"); else link.removeAttribute("aria-current");
-  }, { rootMargin: "-20% 0px -75% 0px" });
+  }, { rootMargin: "-10% 0px -85% 0px" });
+  links.values().next().value.setAttribute("aria-current", "true");
   for (const id of links.keys()) watcher.observe(document.getElementById(id));
 
   // A number's link leads into a closed list: open it.

@@ -7,7 +7,7 @@ const decimals = (p) => (p.measure.includes("multiplicity") ? 0 : p.test === "ce
 const nearest = (p) => p.computed_by.find((c) => c.reference === p.nearest);
 
 function reproduced() {
-  const groups = report.summary.groups;
+  const groups = report.summary ? report.summary.groups : [];
   if (groups.length === 0) return null;
   const commands = new Commands("summary");
   const counts = (group) => body(group.within.map((w, i) => row([
@@ -80,11 +80,11 @@ function sheet({ table: id, name, subject }) {
   return make("div", { class: "beside" }, columns.length === 1 ? flat() : table(id, title, heads, bodies()), commands.list());
 }
 
-const published_tables = () => report.sheets.length > 0 && [make("h3", null, "Its tables, computed again"),
+const published_tables = () => report.sheets && report.sheets.length > 0 && [make("h3", null, "Its tables, computed again"),
   make("p", null, "An error is ", make("i", null, "r"), " = (springs − finite elements)/finite elements × 100 %. Where two " +
     "finite-element references were computed, the declared one stands first and * marks the one closer to the published value, from " +
-    "which the difference is taken. Differences in points of percent or mm³: ● within 0.1, ◕ 0.5, ◑ 1, ◔ 2, ○ more. An exclamation " +
-    "mark: something is known about the published value. A number links to its command."),
+    "which the difference is taken. Differences in points of percent or mm³: ● within 0.1, ◕ 0.5, ◑ 1, ◔ 2, ○ more. An " +
+    "exclamation mark: something is known about the published value. A number links to its command."),
   make("div", { class: "side-by-side" }, report.sheets.map(sheet))];
 
 // The drawn pictures stand in the page as long as scripts have not taken them to their place.
@@ -92,13 +92,14 @@ const drawing = (name) => {
   const found = document.getElementById("picture-" + name);
   return found && found.querySelector("img");
 };
-const figures = () => report.figures.length > 0 && [make("h3", null, "Its figures, drawn again"), make("div", { class: "figures" },
+const figures = () => report.figures && report.figures.length > 0 && [make("h3", null, "Its figures, drawn again"),
+  make("div", { class: "figures" },
   report.figures.map((f) => make("figure", { id: f.name }, drawing(f.name) || make("p", null, make("a", { href: "#bodies" },
     "These are bodies to turn, above.")), make("figcaption", null, make("b", null, `Figure ${f.number}. `), words(f.caption),
     folded("Files and command", make("p", null, `figures/${f.name}.svg, .png, .gp. `, code(f.command)))))))];
 
 const thesis = () => {
   const parts = [reproduced(), published_tables(), figures()].flat().filter(Boolean);
-  return parts.length > 0 ? [make("p", null, "G. San-Vicente, ", make("cite", null, "Designing deformable models of soft tissue for virtual " +
-    "surgery planning and simulation using the Mass-Spring Model"), ", chapters 4 and 5."), parts] : null;
+  return parts.length > 0 ? [make("p", null, "G. San-Vicente, ", make("cite", null, "Designing deformable models of soft tissue for " +
+    "virtual surgery planning and simulation using the Mass-Spring Model"), ", chapters 4 and 5."), parts] : null;
 };

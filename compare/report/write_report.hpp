@@ -17,9 +17,9 @@ void write_report(const std::string& folder, const ThesisResults& results,
                   const std::vector<Figure>& figures);
 
 /// What the page is rendered from: the document of tables.json, and beside it "methods" (what each design
-/// is), "designed" (stiffnesses of every hundredth of Poisson's ratio), "sheets" (a table's number, name and subject), "figures", "cases", "views" (views_to_json()),
-/// "workers" and "times"; an entry has "computed_by", each reference's figure with its command, and an advice
-/// "seconds" of both models.
+/// is), "designed" (stiffnesses of every hundredth of Poisson's ratio), "sheets" (a table's number, name and
+/// subject), "figures", "cases", "views" (views_to_json()), "workers" and "times"; an entry has
+/// "computed_by", each reference's figure with its command, and an advice "seconds" of both models.
 nlohmann::ordered_json report_to_json(const ThesisResults& results, const std::vector<Figure>& figures);
 
 } // namespace springproof::compare

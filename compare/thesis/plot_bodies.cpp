@@ -101,6 +101,13 @@ std::vector<std::pair<std::string, std::vector<Line>>> blocks_of(const Overlay& 
           {panel.title + " - at rest", edges_of(visible_faces(*panel.springs.mesh, {}, view), Edges::sharp)}};
 }
 
+/// Of coordinates: four, and more for a body smaller than 1 mm.
+int decimals_of(const cases::HexMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : mesh.nodes) box.extend(x);
+  return 4 + std::max(0, -static_cast<int>(std::floor(std::log10(box.sizes().maxCoeff()))));
+}
+
 } // namespace
 
 Overlay overlay_of(const Comparison& comparison, const std::string& title) {
@@ -113,6 +120,7 @@ Overlay overlay_of(const Comparison& comparison, const std::string& title) {
 void plot_bodies(const std::string& folder, const std::string& name, const std::vector<Overlay>& panels,
                  int columns, int size) {
   const Eigen::Matrix3d view = oblique_view();
+  const int n_decimals = decimals_of(*panels.front().fem.mesh);
   Eigen::AlignedBox2d box; // holds all panels, so that they have one scale
   std::vector<std::string> titles;
   write_file(folder + "/" + name + ".csv", [&](std::ostream& out) {
@@ -124,7 +132,8 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
           for (const Eigen::Vector3d& x : line) {
             const Eigen::Vector2d seen = view.topRows<2>() * x;
             box.extend(seen);
-            fmt::print(out, "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", x.x(), x.y(), x.z(), seen.x(), seen.y());
+            fmt::print(out, "{1:.{0}f},{2:.{0}f},{3:.{0}f},{4:.{0}f},{5:.{0}f}\n", n_decimals, x.x(), x.y(),
+                       x.z(), seen.x(), seen.y());
           }
           fmt::print(out, "\n");
         }
@@ -133,6 +142,7 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
       }
     }
   });
+  const double margin = 0.03 * box.sizes().maxCoeff();
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   draw(folder, name, "bodies",
        {{"titles", titles},
@@ -140,10 +150,10 @@ void plot_bodies(const std::string& folder, const std::string& name, const std::
         {"columns", 1. * columns},
         {"width", 1. * size * columns},
         {"height", 1. * size * rows + 90},
-        {"left", box.min().x() - 0.5},
-        {"right", box.max().x() + 0.5},
-        {"bottom", box.min().y() - 0.5},
-        {"top", box.max().y() + 0.5}});
+        {"left", box.min().x() - margin},
+        {"right", box.max().x() + margin},
+        {"bottom", box.min().y() - margin},
+        {"top", box.max().y() + margin}});
 }
 
 } // namespace springproof::compare

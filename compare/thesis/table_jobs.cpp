@@ -89,8 +89,12 @@ Trace trace_of(const JobPair& jobs) {
 std::string shell_command(const std::vector<std::string>& words) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
   std::string line = "build/springproof";
-  for (const std::string& word : words)
-    line += word.find_first_not_of(plain) == std::string::npos ? " " + word : " '" + word + "'";
+  for (const std::string& word : words) {
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
+    line += is_plain ? " " + word : " '" + quoted + "'";
+  }
   return line;
 }
 

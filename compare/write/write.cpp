@@ -238,7 +238,9 @@ Json peer_to_json(const Peer& peer) {
           {"largest_difference", peer.largest_difference}};
 }
 
-Json comparison_to_json(const Comparison& comparison) {
+} // namespace
+
+Json to_json(const Comparison& comparison) {
   Json measures = Json::array(), expectations = Json::array();
   for (const MeasuredValue& m : comparison.measures) {
     const std::optional<Limit>& limit = m.fem_limit;
@@ -283,8 +285,6 @@ Json comparison_to_json(const Comparison& comparison) {
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);
   return document;
 }
-
-} // namespace
 
 void write_text(std::ostream& out, const Comparison& comparison) {
   const auto& [scene, answers, measures, gates, mesh_study] = comparison;
@@ -350,8 +350,7 @@ Json provenance() {
 Json to_json(const std::vector<Comparison>& comparisons) {
   Json document = provenance();
   document["cases"] = Json::array();
-  for (const Comparison& comparison : comparisons)
-    document["cases"].push_back(comparison_to_json(comparison));
+  for (const Comparison& comparison : comparisons) document["cases"].push_back(to_json(comparison));
   return document;
 }
 

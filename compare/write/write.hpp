@@ -18,6 +18,9 @@ nlohmann::ordered_json provenance();
 /// The solution of one side and what it took.
 nlohmann::ordered_json side_to_json(const Answer& side);
 
+/// One of its cases.
+nlohmann::ordered_json to_json(const Comparison& comparison);
+
 /// The document of `run --json`: schema, program, machine and the cases. Keys stay in the order written.
 nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
 

@@ -10,7 +10,7 @@ set xrange [left:right]
 set yrange [bottom:top]
 set key noautotitle at screen 0.5,screen 8.0/height center bottom
 do for [i=1:|titles|] {
-  set title titles[i]
+  set title titles[i] noenhanced
   if (i > 1) { unset key }
   plot data index 3*i-3 using 4:5 with filledcurves closed fc rgb '#dcecf6' fs solid border lt 1 lw 0.8, \
     '' index 3*i-2 using 4:5 with lines lt 2 lw 1 dt solid, '' index 3*i-1 using 4:5 with lines lt 7 lw 0.8, \

@@ -81,6 +81,18 @@ TEST_CASE("a region that selects nothing is refused before any solve, with its p
   CHECK(outcome.error.find("no node within") != std::string::npos);
 }
 
+TEST_CASE("run --report needs a folder, and a folder with --designs needs --report") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  const ProgramRun without_folder = run_program("run " + shear + " --report");
+  CHECK(without_folder.status == 2);
+  CHECK(without_folder.error.find("--out") != std::string::npos);
+  const ProgramRun without_report = run_program("run " + shear + " --designs hybrid --out " + out);
+  CHECK(without_report.status == 2);
+  CHECK(without_report.error.find("--report") != std::string::npos);
+  CHECK_FALSE(fs::exists(out));
+}
+
 TEST_CASE(
     "run --out leaves results, a comparison, both models' fields and what is solved, and nothing temporary") {
   const TemporaryFolder folder;

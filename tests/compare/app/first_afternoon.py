@@ -17,6 +17,9 @@ import xml.etree.ElementTree as xml
 import zlib
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
+from chromium import DARK, find_chromium, run_chromium  # noqa: E402
+
 AS_IT_IS = ("--set", "fem.accuracy=none")  # the limit of this case takes 10 s each time
 PROGRAM, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 
@@ -192,6 +195,20 @@ def export():
     springproof("export", "liver.toml", "--to", "csv", "--out", "csv")
 
 
+def open_the_page():
+    """The case's page, with its designs, as wide and narrow screens show it by day and by night."""
+    springproof("run", "liver.toml", "--converge=3", "--out", "out", "--report", "--designs", "hybrid,matched")
+    page = FOLDER / "out" / "liver.html"
+    assert (FOLDER / "out" / "liver_bodies.png").stat().st_size > 1000
+    if not find_chromium():
+        return
+    for width in (1400, 400):
+        for name, options in (("light", ()), ("dark", (DARK,))):
+            picture = FOLDER / f"page_{width}_{name}.png"
+            run_chromium(page, f"--window-size={width},1000", f"--screenshot={picture}", "--virtual-time-budget=5000", *options)
+            assert picture.stat().st_size > 10_000, picture
+
+
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
@@ -201,6 +218,7 @@ def main():
     make_the_gate()
     foreign_result(measures)
     export()
+    open_the_page()
 
 
 main()

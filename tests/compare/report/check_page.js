@@ -91,6 +91,10 @@
     const box = document.getElementById("view-" + one.id).querySelector("canvas").getBoundingClientRect();
     one.box = [box.left + scrollX, box.top + scrollY, box.width, box.height].map(Math.round);
   }
+  const errors = document.querySelector(".measures canvas");
+  if (errors) found.measures = Chart.getChart(errors).data.datasets.map((set) => ({ label: set.label, values: set.data }));
+  Object.assign(found, { title: document.title, heading: document.querySelector("h1").textContent,
+    subheading: document.querySelector("header p").textContent, images: document.querySelectorAll("main img").length });
   found.height = document.documentElement.scrollHeight;
   found.overflow = document.documentElement.scrollWidth - window.innerWidth;
   const result = document.createElement("script");

@@ -1,0 +1,88 @@
+// The page of one's own case: the verdict, measures with their uncertainty, designs ranked by their worst error, the commands.
+"use strict";
+const one_case = report.case;
+const seconds_of = (side) => (missing(side.seconds.solve) ? null : side.seconds.setup + side.seconds.solve);
+
+function verdict() {
+  if (!one_case) return null;
+  const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
+    make("small", null, more));
+  const side = (name, of, what) => {
+    if (of.status !== "converged") return tile(name, of.status, solver_words(of.message));
+    const unknowns = missing(of.unknowns) ? "" : `; ${of.unknowns.toLocaleString("en")} unknowns`;
+    return tile(name, missing(seconds_of(of)) ? "given" : duration(seconds_of(of)), [what, unknowns]);
+  };
+  const met = one_case.expectations.filter((one) => one.met).length;
+  return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replace("+-", "±"))),
+    make("div", { class: "tiles" }, side("finite elements", one_case.fem, words(one_case.formulation)),
+      side("springs", one_case.msm, one_case.msm.source ? `displacements of ${one_case.msm.source}` : in_words(one_case.design)),
+      one_case.expectations.length > 0 &&
+      tile("expectations met", `${met} of ${one_case.expectations.length}`)),
+    one_case.doubts.map((text) => make("p", { class: "problem" }, text)),
+    (one_case.msm.warnings || []).map((text) => make("p", { class: "problem" }, text))];
+}
+
+// Errors as dots with bars of the reference's uncertainty, the finite elements' own beside them.
+function measure_chart(measures) {
+  const names = measures.map((m) => m.name), [springs, fem] = [palette[0], palette[1]];
+  const bars = { type: "bar", label: "uncertainty of the reference", backgroundColor: springs + "66", barPercentage: 0.35, grouped: false,
+    data: measures.map((m) => (missing(m.error_uncertainty_percent) ? null : [m.error_percent - m.error_uncertainty_percent,
+      m.error_percent + m.error_uncertainty_percent])) };
+  const dots = (label, colour, pointStyle, of) => ({ type: "line", showLine: false, label, borderColor: colour, backgroundColor: colour,
+    pointStyle, pointRadius: 6, data: measures.map((m) => ({ x: of(m), y: m.name })) });
+  const sets = [dots("springs", springs, "circle", (m) => m.error_percent)];
+  if (measures.some((m) => !missing(m.fem_error_percent)))
+    sets.push(dots("finite elements on this mesh", fem, "rectRot", (m) => m.fem_error_percent));
+  if (bars.data.some((bar) => bar !== null)) sets.push(bars);
+  const label = "Error of every measure; the table below has the same values. The arrow keys go from measure to measure.";
+  const frame = chart(label, "measures", {
+    type: "bar", data: { labels: names, datasets: sets }, options: { animation: false, maintainAspectRatio: false, indexAxis: "y",
+      interaction: { mode: "index", axis: "y", intersect: false },
+      scales: { y: axis("", { type: "category", labels: names, offset: true }), x: axis("error, %", { type: "linear", grace: "10%" }) },
+      plugins: { legend: { position: "bottom", labels: { usePointStyle: true } }, tooltip: { callbacks: {
+        label: (item) => (Array.isArray(item.raw) ? `± ${general(measures[item.dataIndex].error_uncertainty_percent, 2)} points`
+          : `${item.dataset.label}: ${signed(item.parsed.x, 2)} %`) } } } } });
+  frame.style.height = `${8 + 2.6 * names.length}rem`;
+  return frame;
+}
+
+function measures() {
+  if (!one_case || one_case.measures.length === 0) return null;
+  const found = one_case.measures.filter((m) => !missing(m.error_percent));
+  const with_bar = (value, bar, decimals) => (missing(value) ? "–" : [decimals === undefined ? general(value) : signed(value, decimals),
+    missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
+  const expectation = (name) => one_case.expectations.filter((one) => one.measure === name).map((one) => make("div", null,
+    `${in_words(one.quantity)} in [${one.interval.map((end) => general(end)).join(", ")}]: `, one.met ? "met" : make("strong", null,
+      one.undecided ? "undecided" : "missed"), !one.met && one.reason ? ` (${one.reason})` : ""));
+  const expects = one_case.expectations.length > 0;
+  const heads = ["finite elements", "their limit", "springs", "error, %", "error of finite elements, %"].map((text) => head(text));
+  const line = (m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]), cell(missing(m.fem) ? "–" : general(m.fem)),
+    cell(with_bar(m.fem_limit, m.fem_limit_uncertainty)), cell(missing(m.msm) ? "–" : general(m.msm)),
+    cell(with_bar(m.error_percent, m.error_uncertainty_percent, 2)),
+    cell(missing(m.fem_error_percent) ? "–" : signed(m.fem_error_percent)),
+    expects ? cell(expectation(m.name), "long") : []].flat());
+  const note = one_case.measures.some((m) => m.reference === "limit")
+    ? "Errors are against the limit of the finite elements under refinement where it is known; ± is what its uncertainty leaves."
+    : "Errors are against the finite elements on the same mesh, whose own error is not known here: accuracy = \"auto\" in [fem] of " +
+      "the case, or the option --converge, finds it.";
+  return [found.length > 0 && measure_chart(found), table("measures", "Measures of both models", row([text_head("measure"), heads,
+    expects ? text_head("expected") : []].flat()), body(one_case.measures.map(line))),
+  found.length > 0 && make("p", { class: "quiet" }, note)];
+}
+
+function ranked() {
+  if (!report.ranking) return null;
+  const { designs: all, recommended, advice: sentence, reference } = report.ranking;
+  const name = (d) => (d.design === recommended ? make("strong", null, in_words(d.design), " (best)") : in_words(d.design));
+  const reason = (d) => (d.refused ? "refused: " + d.refused : d.failed ? "failed: " + solver_words(d.failed) : null);
+  const with_bar = (value, bar) => (missing(value) ? "–" : number(value) + (missing(bar) ? "" : ` ± ${general(bar, 2)}`));
+  const line = (d) => row([row_head([name(d), reason(d) && make("small", { class: "reason" }, reason(d))]),
+    cell(with_bar(d.worst_error_percent, d.worst_error_uncertainty_percent)), text_cell(d.worst_at ? typeset(d.worst_at) : "–"),
+    cell(number(d.worst_volume_error_percent)), text_cell(missing(d.stable) || d.failed ? "–" : d.stable ? "stable" : "unstable"),
+    cell(missing(d.milliseconds) ? "–" : general(d.milliseconds, 3))], d.design === recommended ? "recommended" : undefined);
+  return [make("p", { class: "answer" }, typeset(sentence.replace("+-", "±"))),
+    table("ranking", ["Designs by their worst error against ", words(reference)], row([text_head("design"), head("worst |error|, %"),
+      text_head("of"), head("volume, %"), text_head("equilibrium"), head("time, ms")]), body(all.map(line)))];
+}
+
+const repeat = () => (report.commands ? report.commands.map((text) => make("pre", { class: "command" }, text)) : null);

@@ -1,0 +1,83 @@
+#include "compare/report/case_page.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace springproof;
+
+using Catch::Contains;
+
+namespace {
+
+cases::Case small_cube() {
+  cases::Case definition = cases::read_case(SPRINGPROOF_SOURCE_DIR "/cases/gates/sheared_cube.toml");
+  std::get<cases::Box>(definition.body).cells = {2, 2, 2};
+  definition.expectations.clear();
+  return definition;
+}
+
+/// The data of a written page.
+nlohmann::json data_of(const std::string& page) {
+  const std::string begin = "id=\"report-data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+} // namespace
+
+TEST_CASE("a case's page has its verdict, its measures, both bodies and the designs' ranking") {
+  const compare::Comparison comparison = compare::compare_case(small_cube());
+  const compare::Ranking ranking = compare::rank_designs(
+      comparison.scene, {cases::Design::moduli, cases::Design::hybrid}, comparison.answers);
+  const auto page =
+      compare::case_page_to_json(comparison, &ranking, {"build/springproof run x.toml --report"});
+  CHECK(page["verdict"] == compare::verdict_of(comparison));
+  REQUIRE(page["case"]["measures"].size() == 2);
+  CHECK(page["case"]["measures"][0]["error_percent"] == *comparison.measures[0].error_percent);
+  CHECK(page["views"]["views"][0].contains("fem"));
+  CHECK(page["views"]["views"][0].contains("springs"));
+  CHECK(page["ranking"]["designs"].size() == 2);
+  CHECK(page["commands"][0] == "build/springproof run x.toml --report");
+}
+
+TEST_CASE("a verdict names the worst measure, or why there is nothing to compare") {
+  const cases::Case definition = small_cube();
+  const compare::Comparison both = compare::compare_case(definition);
+  double worst = 0;
+  for (const compare::MeasuredValue& m : both.measures) worst = std::max(worst, std::abs(*m.error_percent));
+  CHECK_THAT(compare::verdict_of(both), Contains(fmt::format("up to {:.2f} % (alpha_2)", worst)) &&
+                                            Contains("finite elements on the same mesh"));
+  CHECK_THAT(compare::verdict_of(compare::compare_case(definition, {cases::Side::msm})),
+             Contains("the finite elements were not solved"));
+  compare::Comparison failed = both;
+  failed.answers.msm.solution.status = cases::Status::failed;
+  failed.answers.msm.solution.message = "springs: no equilibrium";
+  CHECK(compare::verdict_of(failed) == "There is nothing to compare: springs: no equilibrium");
+}
+
+TEST_CASE("texts of a case are data of its page: none becomes markup or script") {
+  cases::Case definition = small_cube();
+  definition.name = "a<b>&'c' --x";
+  definition.description =
+      "</script><script>document.title='owned'</script><!-- <img src=x onerror=alert(1)>";
+  definition.measures[0].name = "<b>alpha</b>";
+  const TemporaryFolder folder;
+  const std::string out = folder.path.string();
+  compare::write_case_page(out, compare::compare_case(definition), nullptr, {"springproof run '<i>'"});
+  const std::string page = compare::read_file(out + "/" + definition.name + ".html");
+  CHECK_THAT(page, Contains("<title>a&lt;b&gt;&amp;&#39;c&#39; --x: springs"));
+  CHECK_THAT(page, !Contains("owned'</script>") && !Contains("<img src=x") && !Contains("<b>alpha") &&
+                       !Contains("run '<i>'"));
+  const nlohmann::json data = data_of(page);
+  CHECK(data["heading"] == definition.name);
+  CHECK(data["subheading"] == definition.description);
+  CHECK(data["case"]["measures"][0]["name"] == "<b>alpha</b>");
+  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies.png"), Contains("PNG"));
+  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies.svg"),
+             Contains("a&lt;b") && !Contains("a<b"));
+}

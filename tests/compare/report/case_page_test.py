@@ -1,0 +1,68 @@
+"""The page of one's own case in a real browser: hostile texts stay texts, both bodies turn, designs are ranked.
+
+usage: case_page_test.py SPRINGPROOF CASE FOLDER
+
+FOLDER/page.html is the page, for accessibility_test.py too.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from chromium import examine, find_chromium
+
+NAME = "sheared <b>cube's & $(touch x)"
+HOSTILE = "</script><script>document.title = 'owned'</script><img src=x onerror=\\\"document.title='owned'\\\">"
+
+
+def hostile_case(source, folder):
+    """The case under a name and a description that would be markup, a command or a script anywhere but in a text."""
+    text = source.read_text().split("[[expect]]")[0]
+    text = re.sub(r'^name = "sheared-cube"', lambda _: f'name = "{NAME}"', text, flags=re.M)
+    text = re.sub(r'^description = .*', lambda _: f'description = "{HOSTILE}"', text, flags=re.M)
+    text = text.replace("cells = [4, 4, 4]", "cells = [2, 2, 2]")
+    case = folder / "hostile.toml"
+    case.write_text(text)
+    return case
+
+
+def main():
+    springproof, source, folder = sys.argv[1], *map(Path, sys.argv[2:])
+    if not find_chromium():
+        print("no Chromium here: nothing was compared")
+        return
+    folder = folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    case, out = hostile_case(source, folder), folder / "out"
+    done = subprocess.run([springproof, "run", case, "--converge=3", "--out", out, "--report", "--designs", "moduli,hybrid,linear_method", "--json"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout)["cases"][0]
+    page = folder / "page.html"
+    shutil.copy(out / f"{NAME}.html", page)
+    assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", re.sub(r'id="report-data">.*?</script>', "", page.read_text(), flags=re.S))
+
+    copy, found = examine(page, "examined.html", Path(__file__).parent / "check_page.js", options=("--window-size=1280,1000",))
+    copy.unlink()
+    assert "owned" not in found["title"] and found["heading"] == NAME, (found["title"], found["heading"])
+    assert HOSTILE.replace("\\", "") in found["subheading"], found["subheading"]
+    assert found["commands_in_cells"] == 0 and found["images"] == 0, found
+    rows = {table["name"]: table["rows"] for table in found["tables"]}
+    assert rows == {"measures": 3, "ranking": 4}, rows
+    view, = found["views"]
+    assert view["has_errors"] and view["coloured"]["lowest"] > 0 and view["painted"]["orange"] > 0, view
+    for deed in ("slider_moves", "slider_returns", "mouse_turns_all", "keys_turn_all", "reset_returns"):
+        assert view[deed], (view["id"], deed)
+    bars = {line["label"]: line["values"] for line in found["measures"]}
+    for i, measure in enumerate(results["measures"]):
+        assert measure["reference"] == "limit", measure
+        error, bar = measure["error_percent"], measure["error_uncertainty_percent"]
+        assert bars["springs"][i]["x"] == error and bars["uncertainty of the reference"][i] == [error - bar, error + bar], (bars, measure)
+    print("the page of a case is whole")
+
+
+if __name__ == "__main__":
+    main()
