@@ -5,9 +5,12 @@
 #include <array>
 #include <cassert>
 #include <numeric>
-#include <petscsys.h>
 
-#include <petscblaslapack.h>
+/// Of BLAS: C = A B, each as it is ("N") or transposed ("T"), by columns.
+extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* rows, const int* columns,
+                       const int* inner, const double* alpha, const double* a, const int* stride_a,
+                       const double* b, const int* stride_b, const double* beta, double* c,
+                       const int* stride_c);
 
 namespace springproof::fem_reference {
 
@@ -80,11 +83,11 @@ void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
 
 /// K_(i,a)(k,b) = sum over points and J of dN_a/dX_J (w A grad N)_iJ,(k,b): one matrix product per i.
 void CellKernel::add_stiffness(const CellGeometry& g) {
-  const PetscBLASInt columns = 3 * g.n_nodes, rows = g.n_nodes, inner = 3 * g.n_points;
-  const PetscScalar one = 1, zero = 0;
+  const int columns = 3 * g.n_nodes, rows = g.n_nodes, inner = 3 * g.n_points;
+  const double one = 1, zero = 0;
   for (int i = 0; i < 3; ++i) // BLAS counts columns first: it sees the transposes
-    BLASgemm_("N", "T", &columns, &rows, &inner, &one, right_factor_.data() + i * inner * columns, &columns,
-              g.gradients, &rows, &zero, result_.tangent.data() + i * rows * columns, &columns);
+    dgemm_("N", "T", &columns, &rows, &inner, &one, right_factor_.data() + i * inner * columns, &columns,
+           g.gradients, &rows, &zero, result_.tangent.data() + i * rows * columns, &columns);
 }
 
 /// B_m = sum w phi_m cof F . grad N: the gradient of the moments of the cell's volume.

@@ -1,16 +1,11 @@
 #pragma once
 
+#include "fem_reference/backend.hpp"
 #include "fem_reference/discretisation.hpp"
 
 #include <optional>
 
 namespace springproof::fem_reference {
-
-/// Most unknowns that MUMPS factorises by default; above it multigrid-preconditioned Krylov methods run.
-/// Cubes of 26,460 and 86,490 unknowns (compressible, one thread) were measured to take 1.0 and 1.5 times as
-/// long with MUMPS as with multigrid, the larger one 1.3 GB; below the limit the factorisation's indifference
-/// to near incompressibility, and its count of negative eigenvalues, are worth that.
-constexpr long direct_solver_limit = 120000;
 
 /// Newton's linear systems. PETSc's options database overrides every choice under the prefix "fem_".
 class LinearSolver {

@@ -1,15 +1,14 @@
 #include "cases/mesh/read_mesh.hpp"
 
 #include "cases/mesh/confined.hpp"
+#include "cases/mesh/gmsh.hpp"
 #include "cases/mesh/mesh_bytes.hpp"
 
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <gmsh.h>
 #include <numeric>
 #include <unordered_map>
 
@@ -19,41 +18,6 @@ namespace {
 
 /// For gmsh to mesh a geometry, however short its text.
 constexpr Limits limits_to_mesh{600, 8'000'000'000};
-
-using Tags = std::vector<std::size_t>;
-
-/// gmsh's numbers of element types.
-enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
-
-/// Elements of one type on one entity or dimension.
-struct Elements {
-  int type;
-  Tags tags;
-  std::vector<Tags> nodes; ///< of each element
-};
-
-std::vector<Elements> elements_of(int dimension, int entity) {
-  std::vector<int> types;
-  std::vector<Tags> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-  std::vector<Elements> all;
-  for (std::size_t t = 0; t < types.size(); ++t) {
-    if (tags[t].empty()) continue;
-    all.push_back({types[t], tags[t], {}});
-    const auto n = static_cast<std::ptrdiff_t>(nodes[t].size() / tags[t].size());
-    for (auto first = nodes[t].begin(); first != nodes[t].end(); first += n)
-      all.back().nodes.emplace_back(first, first + n);
-  }
-  return all;
-}
-
-std::string type_name(int type) {
-  std::string name;
-  int dimension, order, n_nodes, n_primary;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, n_nodes, local, n_primary);
-  return name;
-}
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw std::runtime_error(reason);
@@ -75,9 +39,9 @@ class Builder {
   /// All three-dimensional elements, their nodes by gmsh's tags for the moment.
   void read_cells() {
     std::vector<std::string> others;
-    for (const Elements& elements : elements_of(3, -1)) {
+    for (const GmshElements& elements : gmsh().elements_of(3, -1)) {
       if (elements.type != hexahedron) {
-        others.push_back(fmt::format("{} of type {}", elements.tags.size(), type_name(elements.type)));
+        others.push_back(fmt::format("{} of type {}", elements.tags.size(), gmsh().type_name(elements.type)));
         continue;
       }
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
@@ -98,9 +62,7 @@ class Builder {
 
   /// The nodes that hexahedra have, in the order of their tags.
   void read_nodes() {
-    Tags tags;
-    std::vector<double> coordinates, parametric;
-    gmsh::model::mesh::getNodes(tags, coordinates, parametric, -1, -1, false, false);
+    const auto [tags, coordinates] = gmsh().nodes();
     std::unordered_map<std::size_t, std::size_t> place;
     for (std::size_t n = 0; n < tags.size(); ++n) place[tags[n]] = n;
     std::vector<int> used;
@@ -156,17 +118,10 @@ class Builder {
         const std::array<int, 4> face = pick(cell, local);
         faces_.emplace(sorted(face), face);
       }
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups);
-    for (const auto& [dimension, tag] : groups) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, tag, name);
-      if (name.empty()) name = std::to_string(tag);
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-      for (const int entity : entities)
-        for (const Elements& elements : elements_of(dimension, entity)) add_to_group(name, elements);
-    }
+    for (const GmshGroup& group : gmsh().groups())
+      for (const int entity : group.entities)
+        for (const GmshElements& elements : gmsh().elements_of(group.dimension, entity))
+          add_to_group(group.name.empty() ? std::to_string(group.number) : group.name, elements);
     for (auto& [name, group] : mesh_.groups) {
       make_set(group.nodes);
       make_set(group.edges);
@@ -174,7 +129,7 @@ class Builder {
     }
   }
 
-  void add_to_group(const std::string& name, const Elements& elements) {
+  void add_to_group(const std::string& name, const GmshElements& elements) {
     Selection& group = mesh_.groups[name];
     for (std::size_t e = 0; e < elements.tags.size(); ++e) {
       std::vector<int> nodes; // -1: of no hexahedron
@@ -198,7 +153,7 @@ class Builder {
         mesh_.group_of_cell[cell_number_.at(elements.tags[e])] = name;
       } else if (elements.type != point) {
         refuse(fmt::format("group '{}' has elements of type {}, which are no part of a hexahedron", name,
-                           type_name(elements.type)));
+                           gmsh().type_name(elements.type)));
       }
       group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
     }
@@ -222,31 +177,13 @@ void check_format(std::istream& stream) {
     refuse(fmt::format("has format {}, must be 4 or 4.1 (gmsh -save -format msh41 rewrites it)", version));
 }
 
-/// The file in gmsh, quiet, without configuration files. gmsh would also run a script NAME.msh.opt beside a
-/// mesh; a mesh is therefore opened by its descriptor, beside which there is none.
-void open_in_gmsh(const std::string& path, bool is_geometry) {
-  gmsh::initialize(0, nullptr, false);
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("General.NumThreads", 1);
-  if (is_geometry) {
-    gmsh::open(path);
-    gmsh::model::mesh::generate(3);
-  } else {
-    gmsh::open(fmt::format("/proc/self/fd/{}", open(path.c_str(), O_RDONLY)));
-  }
-}
-
 /// The mesh of a file, as bytes.
 std::string mesh_bytes(const std::string& path, bool is_geometry) {
   std::ifstream stream(path);
   if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!is_geometry) check_format(stream);
-  try {
-    open_in_gmsh(path, is_geometry);
-    return bytes_of_mesh(Builder().build());
-  } catch (const std::string& reason) { // gmsh throws its messages
-    refuse("gmsh: " + reason);
-  }
+  gmsh().open(path, is_geometry);
+  return bytes_of_mesh(Builder().build());
 }
 
 } // namespace
@@ -256,7 +193,8 @@ HexMesh read_mesh(const MeshFile& file) {
   if (!std::filesystem::is_regular_file(file.path, absent))
     throw InputError(file.where, file.path + ": " + (absent ? absent.message() : "is no regular file"));
   const bool is_geometry = std::filesystem::path(file.path).extension() == ".geo";
-  try { // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
+  try {     // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
+    gmsh(); // loaded before the child is confined
     const Limits limits =
         is_geometry ? limits_to_mesh : limits_to_read(std::filesystem::file_size(file.path));
     return mesh_from(run_confined([&] { return mesh_bytes(file.path, is_geometry); }, limits));

@@ -1,18 +1,13 @@
 #include "cases/mesh/vtk.hpp"
 
-#include <dlfcn.h>
-#include <stdexcept>
+#include "cases/case/installation.hpp"
 
 namespace springproof::cases {
 
 const VtkFunctions& vtk() {
-  static const VtkFunctions& functions = []() -> const VtkFunctions& {
-    void* const library = dlopen(SPRINGPROOF_VTK, RTLD_NOW | RTLD_LOCAL);
-    const void* const symbol = library ? dlsym(library, "springproof_vtk") : nullptr;
-    if (!symbol) throw std::runtime_error(dlerror());
-    return *static_cast<const VtkFunctions*>(symbol);
-  }();
-  return functions;
+  static const auto* const functions =
+      static_cast<const VtkFunctions*>(load_shared_object("springproof_vtk"));
+  return *functions;
 }
 
 } // namespace springproof::cases

@@ -1,9 +1,10 @@
 #include "cases/case/error.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/app/session.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "fem_reference/session.hpp"
+#include "compare/solve/solvers.hpp"
 
 #include <cstdlib>
 #include <iostream>
@@ -21,16 +22,17 @@ const char* const lost_output = "springproof: standard output cannot be written"
 enum class BlasWarning { give, withhold };
 
 int run_action(const compare::Action& action, BlasWarning warning) {
-  const fem_reference::Session session;
-  const bool is_openblas = compare::use_one_blas_thread();
-  if (session.rank() == 0 && warning == BlasWarning::give && !is_openblas)
-    std::cerr
-        << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
-           "(install libopenblas0-pthread)\n";
+  compare::reserve_standard_streams();
   std::string message = lost_output;
   int status = wrong_input;
   try {
-    session.check_options();
+    compare::start_ranks();
+    const bool is_openblas = compare::use_one_blas_thread();
+    if (compare::mpi_rank() == 0 && warning == BlasWarning::give && !is_openblas)
+      std::cerr
+          << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
+             "(install libopenblas0-pthread)\n";
+    compare::check_petsc_options();
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;
@@ -47,7 +49,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     message = std::string("springproof: internal error: ") + error.what();
     status = internal_error;
   }
-  session.give_up(compare::one_line(message), status);
+  compare::give_up(compare::one_line(message), status);
   return status;
 }
 
@@ -71,7 +73,8 @@ int run_usage(const CLI::App& program, const CLI::ParseError& answer) {
 } // namespace
 
 int main(int argc, char** argv) {
-  if (const std::string reason = compare::why_not_to_start(); !reason.empty()) {
+  constexpr double megabytes = 300; // 245 are taken until springs are solved, 134 of them by OpenBLAS
+  if (const std::string reason = compare::why_not_to_start(megabytes); !reason.empty()) {
     std::cerr << "springproof: " << reason << std::endl;
     std::_Exit(wrong_input); // OpenBLAS' threads, which look for memory, would be waited for
   }

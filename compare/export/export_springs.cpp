@@ -1,6 +1,7 @@
 #include "compare/export/export_springs.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/installation.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
@@ -173,7 +174,7 @@ void write_sofa_json(std::ostream& out, const std::string& name, const msm::Prob
 std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
                                           const msm::Problem& problem) {
   write_file(folder + "/scene.json", [&](std::ostream& out) { write_sofa_json(out, name, problem); });
-  const std::string program = read_file(SPRINGPROOF_EXPORT_DIR "/sofa_scene.py");
+  const std::string program = read_file(cases::data_folder("export") + "/sofa_scene.py");
   write_file(folder + "/scene.py", [&](std::ostream& out) { out << program; });
   return {fmt::format("scene.json: {} nodes, {} springs, supports, loads; mm, N, N/mm",
                       problem.lattice.rest.size(), problem.lattice.links.size()),

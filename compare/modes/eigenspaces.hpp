@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "mechanics/petsc/spectrum.hpp"
 #include "msm/design/linear_method.hpp"
 
 #include <Eigen/SparseCore>
@@ -11,22 +12,10 @@
 /// basis that a solver returns inside a multiple eigenvalue.
 namespace springproof::compare {
 
-/// Eigenvalues in ascending order and their orthonormal eigenvectors, a column each. Inside a multiple
-/// eigenvalue the basis is whatever the solver returned.
-struct Spectrum {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;
-};
+using mechanics::petsc::Spectrum;
 
-/// All eigenpairs of a small dense matrix, by LAPACK behind SLEPc's EPS. PETSc must be initialised; every
-/// rank solves all by itself.
-/// @param matrix  only its symmetric part counts    @throws SolveError if SLEPc returns fewer pairs
+/// All eigenpairs of a small dense matrix, and the lowest of a sparse one: mechanics/petsc/spectrum.hpp.
 Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
-
-/// The lowest eigenpairs of a sparse positive semidefinite matrix, by Krylov-Schur on the inverse shifted
-/// just below zero (MUMPS), so that rigid modes do no harm. As full_spectrum() otherwise.
-/// @param matrix    symmetric, both triangles    @param n_pairs  at most the matrix's size
-/// @throws SolveError if fewer pairs converge to 1e-10 relative
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
 
 struct Eigenspace {

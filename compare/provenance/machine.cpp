@@ -1,5 +1,8 @@
 #include "compare/provenance/machine.hpp"
 
+#include "cases/case/installation.hpp"
+#include "mechanics/ranks/share_out.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -55,18 +58,18 @@ std::vector<std::string> control_group_files() {
 
 std::string cases_folder() {
   const char* moved = std::getenv("SPRINGPROOF_CASES");
-  return moved ? moved : SPRINGPROOF_CASES_DIR;
+  return moved ? moved : cases::data_folder("cases");
 }
 
 int mpi_rank() {
   int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (mechanics::is_mpi_started()) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   return rank;
 }
 
 int n_mpi_ranks() {
   int n = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &n);
+  if (mechanics::is_mpi_started()) MPI_Comm_size(MPI_COMM_WORLD, &n);
   return n;
 }
 
@@ -102,8 +105,7 @@ MemoryLimit memory_limit() {
   return least;
 }
 
-std::string why_not_to_start() {
-  constexpr double megabytes = 300; // 245 are taken until the first solve, 134 of them by OpenBLAS
+std::string why_not_to_start(double megabytes) {
   const MemoryLimit limit = memory_limit();
   if (!limit.is_of_a_process || limit.megabytes >= megabytes) return "";
   return fmt::format("{} leaves {:.0f} MB of address space, and the libraries need {:.0f} to start", limit.of,

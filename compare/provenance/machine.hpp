@@ -15,9 +15,9 @@ std::string program_commit();
 /// moves it.
 std::string cases_folder();
 
-/// This process's number in MPI's world; 0 for a process alone. MPI must have been started.
+/// This process's number in MPI's world; 0 for a process alone, which need not have started MPI.
 int mpi_rank();
-int n_mpi_ranks(); ///< of MPI's world
+int n_mpi_ranks(); ///< of MPI's world; 1 for a process alone
 /// Of MPI's world those on this machine, as the launcher tells; all, if it does not.
 int n_mpi_ranks_here();
 
@@ -47,9 +47,10 @@ struct MemoryLimit {
 /// group's, its address space.
 MemoryLimit memory_limit();
 
-/// Why this process has too little address space (ulimit -v) for its libraries to start, as one line; empty
-/// when it has enough. OpenBLAS looks for memory without end where there is none.
-std::string why_not_to_start();
+/// Why this process has too little address space (ulimit -v) for libraries to start, as one line; empty when
+/// it has enough. OpenBLAS looks for memory without end where there is none.
+/// @param megabytes  that they take until the first solve, in units of 10^6 bytes
+std::string why_not_to_start(double megabytes);
 
 /// One thread inside BLAS: cases and MPI ranks are what fills the cores here, and pools multiply. It takes
 /// its work space at once, before solves may leave no room for it.

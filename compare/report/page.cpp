@@ -1,5 +1,6 @@
 #include "compare/report/page.hpp"
 
+#include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/escape.hpp"
 #include "compare/write/write.hpp"
@@ -15,7 +16,11 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 std::string page_file(const std::string& name) {
-  return read_file(SPRINGPROOF_REPORT_DIR "/" + name);
+  return read_file(cases::data_folder("report") + "/" + name);
+}
+
+std::string script(const std::string& name) {
+  return read_file(cases::data_folder("scripts") + "/" + name);
 }
 
 /// page.html with every {{name}} replaced: by its value, or else by the file of that name.
@@ -65,9 +70,9 @@ void write_page(const std::string& file, const std::string& title, Json data, co
   const std::string page = fill_page({{"title", escape(title)},
                                       {"pictures", pictures},
                                       {"data", embedded(data)},
-                                      {"three", read_file(SPRINGPROOF_THREE_JS)},
-                                      {"controls", read_file(SPRINGPROOF_ORBIT_CONTROLS_JS)},
-                                      {"chart", read_file(SPRINGPROOF_CHART_JS)}});
+                                      {"three", script("three.min.js")},
+                                      {"controls", script("OrbitControls.js")},
+                                      {"chart", script("chart.min.js")}});
   write_file(file, [&](std::ostream& out) { out << page; });
 }
 

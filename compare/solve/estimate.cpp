@@ -3,8 +3,9 @@
 #include "cases/case/error.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "compare/solve/progress.hpp"
+#include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "fem_reference/model.hpp"
+#include "fem_reference/backend.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
@@ -237,6 +238,11 @@ cases::Scene make_scene_within_memory(const cases::Case& definition) {
 }
 
 void check_memory(const std::vector<Question>& questions) {
+  // What the solvers' libraries take is no longer left.
+  if (memory_limit().is_of_a_process &&
+      std::any_of(questions.begin(), questions.end(),
+                  [](const Question& question) { return question.request.asks(cases::Side::fem); }))
+    solvers();
   const MemoryLimit limit = memory_limit();
   for (const Question& question : questions)
     check_memory(question.scene.definition.file, estimate(question), limit);

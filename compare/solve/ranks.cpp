@@ -56,6 +56,7 @@ std::string from_rank_0(std::string text) {
 }
 
 bool on_all_ranks(bool here) {
+  if (n_mpi_ranks() == 1) return here;
   int all = here ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
   return all == 1;

@@ -1,9 +1,8 @@
 #include "compare/solve/solve.hpp"
 
 #include "compare/solve/ranks.hpp"
+#include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "fem_reference/model.hpp"
-#include "msm/snes/snes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,15 +16,15 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
   if (scene.definition.msm.solver != cases::Solver::snes)
     return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
+  solvers(); // loading them is no part of the time
   const auto designed = [&] {
     design = design_for(scene);
     return *design;
   };
   return solve_side(designed, [&](const msm::DesignResult& found) {
-    return with_fields(
-        scene, found,
-        found.terms ? msm::solve_lattice_by_snes(scene, assembled_lattice(scene, found), MPI_COMM_WORLD)
-                    : msm::solve_by_snes(scene, stiffness_of_cells(found), MPI_COMM_WORLD));
+    return with_fields(scene, found,
+                       found.terms ? solvers().solve_lattice_by_snes(scene, assembled_lattice(scene, found))
+                                   : solvers().solve_by_snes(scene, stiffness_of_cells(found)));
   });
 }
 
@@ -68,11 +67,12 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
 
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   const auto settings = limited(scene.definition, fem_reference::default_settings());
-  return {solve_side([&] { return fem_reference::Model(scene, MPI_COMM_WORLD); },
-                     [&](fem_reference::Model& model) {
-                       cases::Solution solution = model.solve(settings);
+  solvers(); // loading them is no part of the time
+  return {solve_side([&] { return make_finite_elements(scene); },
+                     [&](const auto& model) {
+                       cases::Solution solution = model->solve(settings);
                        if (scene.definition.has_fields)
-                         solution.fields = model.fields(solution.sharing.get());
+                         solution.fields = model->fields(solution.sharing.get());
                        return solution;
                      }),
           scene.definition.fem,

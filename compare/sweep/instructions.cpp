@@ -1,5 +1,6 @@
 #include "compare/sweep/instructions.hpp"
 
+#include "cases/case/installation.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/write/write.hpp"
 
@@ -27,15 +28,14 @@ constexpr double nodes_of_cube = (cells_of_cube + 1.) * (cells_of_cube + 1.) * (
 /// @return nothing if valgrind is not installed
 std::optional<std::vector<double>> instructions(const std::string& instruction_set) {
   const ScratchFolder scratch("callgrind");
-  // The driver is beside this program; see kernel_calls.cpp for what it takes.
+  // See kernel_calls.cpp for what the driver takes.
   std::vector<std::string> words{"valgrind",
                                  "--tool=callgrind",
                                  "--collect-atstart=no",
                                  "--toggle-collect=springproof_counted_call",
                                  "--dump-after=springproof_counted_call",
                                  "--callgrind-out-file=out",
-                                 fs::read_symlink("/proc/self/exe").parent_path() /
-                                     "springproof_kernel_calls",
+                                 cases::private_file("springproof_kernel_calls"),
                                  std::to_string(cells_of_cube)};
   words.insert(words.end(), std::begin(kernels), std::end(kernels));
   const auto end = call_program({words, scratch.path(), {"SPRINGPROOF_INSTRUCTION_SET=" + instruction_set}});

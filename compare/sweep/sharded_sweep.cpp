@@ -63,7 +63,7 @@ VariantRun kept_run(const std::string& path, const std::string& identity, const 
 /// All ranks go by what rank 0 found.
 bool on_rank_0(bool is_kept) {
   int kept = is_kept ? 1 : 0;
-  MPI_Bcast(&kept, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (n_mpi_ranks() > 1) MPI_Bcast(&kept, 1, MPI_INT, 0, MPI_COMM_WORLD);
   return kept == 1;
 }
 

@@ -6,9 +6,9 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
+#include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/sweep/costs.hpp"
-#include "fem_reference/model.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ Answer springs_before(const cases::Scene& scene, double tolerance) {
 
 /// All ranks go by what rank 0 measured.
 double agreed(double seconds) {
-  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  if (n_mpi_ranks() > 1) MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
   return seconds;
 }
 
@@ -100,24 +100,25 @@ msm::Points on_grid(const std::vector<fem_reference::NodeDisplacement>& nodes, c
 /// A round, as of springs.
 void solve_finite_elements(VariantRun& run, const cases::Scene& scene, const Variant& variant,
                            const TimingRules& rules) {
+  solvers(); // loading them is no part of the time
   Stopwatch stopwatch;
-  fem_reference::Model model(scene, MPI_COMM_WORLD);
+  const auto model = make_finite_elements(scene);
   run.setup_seconds.push_back(stopwatch.lap());
   mechanics::EquilibriumSettings settings = fem_reference::default_settings();
   settings.tolerance = variant.tolerance;
   settings.stability = mechanics::Stability::ignore;
-  if (!solve_timed(run.first, run.first_seconds, [&] { return model.solve(settings); })) return;
+  if (!solve_timed(run.first, run.first_seconds, [&] { return model->solve(settings); })) return;
   run.first = gathered(std::move(run.first));
   if (field_cells(variant) != variant.cells)
-    run.first.displacement = on_grid(model.node_displacements(),
+    run.first.displacement = on_grid(model->node_displacements(),
                                      std::get<cases::Box>(scene.definition.body).size, field_cells(variant));
   if (agreed(run.first_seconds.back()) > rules.budget_seconds) {
     run.again.message = "left out: the first solve took longer than the budget";
     return;
   }
   Times untold;
-  if (solve_timed(run.again, untold, [&] { return model.solve_again(1 - load_change, settings); }))
-    solve_timed(run.again, run.again_seconds, [&] { return model.solve_again(1, settings); });
+  if (solve_timed(run.again, untold, [&] { return model->solve_again(1 - load_change, settings); }))
+    solve_timed(run.again, run.again_seconds, [&] { return model->solve_again(1, settings); });
 }
 
 /// A first round stands for all when the budget does not pay for others, else it is the warm-up.
@@ -266,7 +267,7 @@ Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules
   sweep.definition = definition;
   sweep.plan = plan_sweep(definition, extent);
   sweep.rules = rules;
-  MPI_Comm_size(MPI_COMM_WORLD, &sweep.n_ranks);
+  sweep.n_ranks = n_mpi_ranks();
   if (extent == Extent::quick || sweep.n_ranks > 1 || is_under_mpi_launcher())
     sweep.processes = Processes::this_one;
   if (const auto reason =

@@ -1,6 +1,7 @@
 #include "compare/write/gnuplot.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/installation.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -41,7 +42,7 @@ void write_script(std::ostream& out, const std::string& name, const std::string&
   fmt::print(out, "# gnuplot {0}.gp draws {0}.svg and {0}.png from the data beside it.\n", name);
   for (const auto& [key, value] : values)
     out << std::visit([&name_of = key](const auto& known) { return assignment(name_of, known); }, value);
-  const std::string plots = SPRINGPROOF_PLOTS_DIR "/";
+  const std::string plots = cases::data_folder("plots") + "/";
   for (const char* format : {"svg", "png"})
     fmt::print(out, "\nformat = '{}'\n{}\n{}", format, read_file(plots + "style.gp"),
                read_file(plots + script + ".gp"));

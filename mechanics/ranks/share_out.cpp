@@ -143,7 +143,14 @@ class MpiSharing : public cases::Sharing {
 
 } // namespace
 
+bool is_mpi_started() {
+  int is_started = 0;
+  MPI_Initialized(&is_started);
+  return is_started != 0;
+}
+
 std::shared_ptr<const cases::Sharing> share_out(const cases::HexMesh& mesh, MPI_Comm communicator) {
+  if (!is_mpi_started()) return nullptr;
   int rank = 0, n_ranks = 1;
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &n_ranks);

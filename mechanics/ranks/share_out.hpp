@@ -7,7 +7,11 @@
 
 namespace springproof::mechanics {
 
-/// Answers on a mesh, shared by the ranks of a communicator; null where there is but one. Collective.
+/// A process alone need not start MPI, and then must not ask it anything.
+bool is_mpi_started();
+
+/// Answers on a mesh, shared by the ranks of a communicator; null where there is but one,
+/// or MPI has not been started. Collective.
 std::shared_ptr<const cases::Sharing> share_out(const cases::HexMesh& mesh, MPI_Comm communicator);
 
 } // namespace springproof::mechanics

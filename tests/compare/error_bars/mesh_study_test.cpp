@@ -1,7 +1,7 @@
 #include "compare/error_bars/mesh_study.hpp"
 
 #include "compare/error_bars/auto_fem.hpp"
-#include "fem_reference/model.hpp"
+#include "compare/solve/solvers.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -81,7 +81,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
   definition.measures[0].node = {"", Eigen::Vector3d(1, 1, 2), {}};
   definition.fem.refine = 1;
   const cases::Scene scene = cases::make_scene(definition);
-  const cases::Solution own = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
+  const cases::Solution own = compare::make_finite_elements(scene)->solve();
 
   const MeshStudy study = study_on_three(scene);
   CHECK(study.refine == std::vector<int>{0, 1, 2});
@@ -99,7 +99,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
   CHECK(measure.limit->order < 2.5);
 
   definition.fem.refine = 3;
-  const double finer = x_at(fem_reference::Model(cases::make_scene(definition), MPI_COMM_WORLD).solve());
+  const double finer = x_at(compare::make_finite_elements(cases::make_scene(definition))->solve());
   CHECK(100 * std::abs(finer - measure.values[2]) <=
         measure.limit->index_percent * std::abs(measure.values[2]));
   CHECK(std::abs(finer - measure.limit->extrapolated) < std::abs(finer - measure.values[2]));

@@ -3,7 +3,7 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "fem_reference/model.hpp"
+#include "compare/solve/solvers.hpp"
 #include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
@@ -53,7 +53,7 @@ void check_agrees(const cases::Case& definition) {
   const cases::Scene scene = cases::make_scene(definition);
   const cases::Solution peer = solve_with_calculix(scene);
   REQUIRE(peer.status == cases::Status::converged);
-  const cases::Solution ours = fem_reference::Model(scene, MPI_COMM_WORLD).solve();
+  const cases::Solution ours = compare::make_finite_elements(scene)->solve();
   INFO(definition.name);
   // the bound asked for; CalculiX prints seven digits of each component
   CHECK(largest_relative_difference(ours, peer) <= 1e-5);

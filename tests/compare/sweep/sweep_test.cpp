@@ -2,12 +2,12 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/solvers.hpp"
 #include "compare/sweep/analysis.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "fem_reference/model.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -73,7 +73,8 @@ TEST_CASE("every plan has the designs, both strains and the elements, and says w
     return std::count_if(full.variants.begin(), full.variants.end(),
                          [&](const Variant& v) { return method_name(v) == method; });
   };
-  for (const char* design : {"linear_method", "nonlinear_method", "moduli", "hybrid", "matched", "multi_load"})
+  for (const char* design :
+       {"linear_method", "nonlinear_method", "moduli", "hybrid", "matched", "multi_load"})
     CHECK(count(std::string("springs ") + design) == 4 * 3); // levels, tolerances
   for (const char* method : {"small_strain q1", "small_strain q1_bbar", "small_strain q2", "log_strain q1",
                              "log_strain q1_bbar", "log_strain q2", "CalculiX small_strain q1"})
@@ -255,7 +256,7 @@ TEST_CASE("a q2 model's field has its own nodes in their places") {
   const auto fine = field_cells(variant);
   // The vertices' displacements are those that the model gives for its mesh; the clamped face is at rest.
   const cases::Solution vertices =
-      fem_reference::Model(cases::make_scene(with_variant(tiny(), variant)), MPI_COMM_WORLD).solve();
+      compare::make_finite_elements(cases::make_scene(with_variant(tiny(), variant)))->solve();
   const auto at_vertices = interpolate(run.first.displacement, fine, variant.cells);
   REQUIRE(at_vertices.size() == vertices.displacement.size());
   for (std::size_t n = 0; n < at_vertices.size(); ++n)

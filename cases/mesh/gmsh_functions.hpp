@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// What is asked of gmsh, for callers that include none of its headers. Tags are gmsh's numbers of nodes and
+/// elements.
+namespace springproof::cases {
+
+using Tags = std::vector<std::size_t>;
+
+/// gmsh's numbers of element types.
+enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
+
+/// Elements of one type on one entity or dimension.
+struct GmshElements {
+  int type;
+  Tags tags;
+  std::vector<Tags> nodes; ///< of each element
+};
+
+struct GmshNodes {
+  Tags tags;
+  std::vector<double> coordinates; ///< three for each tag
+};
+
+/// A physical group; of no name, where it has only a number.
+struct GmshGroup {
+  int dimension, number;
+  std::string name;
+  std::vector<int> entities;
+};
+
+/// The functions of the shared object springproof_gmsh. They are about the one model that gmsh has open, and
+/// throw std::runtime_error with gmsh's message.
+struct GmshFunctions {
+  /// Quiet and without configuration files.  @param is_geometry  a .geo, to be meshed, and no mesh
+  void (*open)(const std::string& path, bool is_geometry);
+  /// @param entity  of that dimension; -1: of all of them
+  std::vector<GmshElements> (*elements_of)(int dimension, int entity);
+  std::string (*type_name)(int type);
+  GmshNodes (*nodes)();
+  std::vector<GmshGroup> (*groups)();
+};
+
+/// The symbol by which gmsh() finds them.
+extern "C" const GmshFunctions springproof_gmsh;
+
+} // namespace springproof::cases

@@ -1,0 +1,35 @@
+#include "compare/solve/solvers.hpp"
+#include "fem_reference/session.hpp"
+
+// The one source of the shared object springproof_solvers that callers find; the rest are the libraries of
+// fem_reference, msm/snes and mechanics/petsc.
+namespace springproof::compare {
+
+namespace {
+
+std::shared_ptr<void> start() {
+  return std::make_shared<fem_reference::Session>();
+}
+
+std::unique_ptr<fem_reference::Model> new_model(const cases::Scene& scene, fem_reference::Backend backend) {
+  return std::make_unique<fem_reference::Model>(scene, MPI_COMM_WORLD, backend);
+}
+
+cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
+  return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
+}
+
+cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice) {
+  return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
+}
+
+} // namespace
+
+const SolverFunctions springproof_solvers{start,
+                                          new_model,
+                                          solve_by_snes,
+                                          solve_lattice_by_snes,
+                                          mechanics::petsc::full_spectrum,
+                                          mechanics::petsc::lowest_spectrum};
+
+} // namespace springproof::compare

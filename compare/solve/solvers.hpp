@@ -1,0 +1,44 @@
+#pragma once
+
+#include "fem_reference/model.hpp"
+#include "mechanics/petsc/spectrum.hpp"
+#include "msm/snes/snes.hpp"
+
+#include <memory>
+
+namespace springproof::compare {
+
+/// All that needs deal.II, PETSc or SLEPc: the functions of the shared object springproof_solvers. These
+/// libraries and the hundred behind them take a third of a second to load, which nothing else has to wait
+/// for.
+struct SolverFunctions {
+  /// Starts MPI, PETSc and SLEPc. They end with what is returned.
+  std::shared_ptr<void> (*start)();
+  std::unique_ptr<fem_reference::Model> (*finite_elements)(const cases::Scene&, fem_reference::Backend);
+  cases::Solution (*solve_by_snes)(const cases::Scene&, const std::vector<msm::CellStiffness>&);
+  cases::Solution (*solve_lattice_by_snes)(const cases::Scene&, msm::Lattice);
+  mechanics::petsc::Spectrum (*full_spectrum)(const Eigen::MatrixXd&);
+  mechanics::petsc::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
+};
+
+/// The symbol by which solvers() finds them.
+extern "C" const SolverFunctions springproof_solvers;
+
+/// Loads and starts them at the first call; they end with the process. Their communicator is MPI_COMM_WORLD,
+/// and under an MPI launcher the first call is collective.
+/// @throws InputError if PETSC_OPTIONS has an option that is not allowed, or for want of address space;
+/// std::system_error if they cannot be loaded
+const SolverFunctions& solvers();
+
+/// The finite elements of a scene.
+inline std::unique_ptr<fem_reference::Model>
+make_finite_elements(const cases::Scene& scene,
+                     fem_reference::Backend backend = fem_reference::Backend::automatic) {
+  return solvers().finite_elements(scene, backend);
+}
+
+/// PETSc takes its options from the environment variable PETSC_OPTIONS; the program's own arguments are not
+/// PETSc's.  @throws InputError if they have one that is not allowed; PETSc gets none of them
+void check_petsc_options();
+
+} // namespace springproof::compare

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+/// What can be known of a finite-element model before there is one: no deal.II, no PETSc.
+namespace springproof::fem_reference {
+
+/// The usual limits of a path of finite elements. Small load steps follow a path that large ones would leave;
+/// with Stability::report negative eigenvalues are counted, which may cost a factorisation.
+mechanics::EquilibriumSettings default_settings();
+
+enum class Backend {
+  automatic, ///< grid where the body is one and the element is known to it, else or if that fails assembled
+  assembled, ///< any mesh: assembled tangent; a sparse factorisation, or algebraic multigrid for large bodies
+  grid       ///< grids of equal cuboids: geometric multigrid, no factorisation
+};
+
+/// What `automatic` means for a scene's body and element.
+/// @param n_nodes  of the elements, after fem.refine; the scene's own mesh may be without nodes
+Backend choose_backend(const cases::Scene& scene, double n_nodes);
+
+/// Most unknowns that MUMPS factorises by default; above it multigrid-preconditioned Krylov methods run.
+/// Cubes of 26,460 and 86,490 unknowns (compressible, one thread) were measured to take 1.0 and 1.5 times as
+/// long with MUMPS as with multigrid, the larger one 1.3 GB; below the limit the factorisation's indifference
+/// to near incompressibility, and its count of negative eigenvalues, are worth that.
+constexpr long direct_solver_limit = 120000;
+
+/// The bulk modulus over the shear modulus above which the grid's iterations are too many, for bodies that
+/// can be factorised: 25 a linear solve at 1000, Newton's method fails at 5000.
+constexpr double most_incompressible = 1500;
+
+/// Whether the assembled backend factorises a tangent of that many nodes.
+bool takes_factorisation(double n_nodes);
+
+} // namespace springproof::fem_reference
