@@ -3,7 +3,7 @@
 #   ./do tables [ARGS]   regenerate the thesis's tables      ./do test    build and run every test
 #   ./do build           build/springproof                   ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
-#   ./do packages        install what is missing
+#   ./do packages        install what is missing         ./do package build/springproof_*.deb, to be installed with apt-get
 set -eu
 cd "$(dirname "$0")"
 
@@ -41,13 +41,17 @@ case $command in
   run)    build springproof; exec build/springproof run "$@" ;;
   build)  build ;;
   packages) install_missing ;;
+  package)
+    build
+    cpack --config build/CPackConfig.cmake -B build >&2 ;;
   test)
     install_missing tests
     build
     # MPI's launcher refuses root unless told twice; a container has no other user.
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    # A minute of fuzzing for each reader is a configuration of its own: no other call runs it.
-    case " $* " in *" fuzz-long "*) set -- -C fuzz-long "$@" ;; esac
+    # A minute of fuzzing for each reader, or a bare Debian that builds the package: configurations of their own, which no other
+    # call runs.
+    case " $* " in *" fuzz-long "*) set -- -C fuzz-long "$@" ;; *" package-long "*) set -- -C package-long "$@" ;; esac
     exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@" ;;
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;

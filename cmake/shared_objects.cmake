@@ -19,10 +19,17 @@ function(springproof_module name)
   springproof_exports(${name})
 endfunction()
 
-# springproof_data(NAME FILE_OR_FOLDER): what data_folder() finds under this name (of a file, its folder): here a link to the source.
+# springproof_data(NAME FILE_OR_FOLDER): what data_folder() finds under this name (of a file, its folder): a link to the source, installed
+# a copy.
 function(springproof_data name source)
   set(link ${CMAKE_BINARY_DIR}/springproof_data/${name})
   cmake_path(GET link PARENT_PATH folder)
   file(MAKE_DIRECTORY ${folder})
   file(CREATE_LINK ${source} ${link} SYMBOLIC)
+  cmake_path(GET name PARENT_PATH subfolder)
+  if(IS_DIRECTORY ${source})
+    install(DIRECTORY ${source}/ DESTINATION share/springproof/${name} REGEX "\\.[ch]pp$|/CMakeLists.txt$|/(case|mesh|scene)$" EXCLUDE)
+  else()
+    install(FILES ${source} DESTINATION share/springproof/${subfolder})
+  endif()
 endfunction()

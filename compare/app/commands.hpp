@@ -10,6 +10,7 @@ namespace springproof::compare {
 
 using Action = std::function<int()>;
 
+void add_describe_command(CLI::App& program, Action& chosen); ///< hidden: for the build
 void add_design_command(CLI::App& program, Action& chosen);
 void add_eigen_command(CLI::App& program, Action& chosen);
 void add_export_command(CLI::App& program, Action& chosen);
@@ -21,6 +22,11 @@ void add_stress_command(CLI::App& program, Action& chosen);
 void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
 void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see solve/solve_jobs.hpp
+
+/// The program's commands without those that --help leaves out.
+inline std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
 
 /// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
 inline void add_converge_option(CLI::App& command, int& meshes) {

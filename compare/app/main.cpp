@@ -1,4 +1,6 @@
 #include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
+#include "compare/app/colours.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/session.hpp"
 #include "compare/provenance/machine.hpp"
@@ -6,10 +8,12 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solvers.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <new>
 #include <system_error>
+#include <unistd.h>
 
 using namespace springproof;
 
@@ -33,6 +37,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
           << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
              "(install libopenblas0-pthread)\n";
     compare::check_petsc_options();
+    const compare::Colours colours(std::cout, STDOUT_FILENO);
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;
@@ -51,6 +56,35 @@ int run_action(const compare::Action& action, BlasWarning warning) {
   }
   compare::give_up(compare::one_line(message), status);
   return status;
+}
+
+/// A command or an option that there is not, with the nearest one.
+CLI::ParseError explained(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
+  const auto nearest = [](const std::string& word, const std::vector<std::string>& known) {
+    const auto found = cases::nearest_name(word, known);
+    return found ? "; did you mean \"" + *found + "\"?" : std::string();
+  };
+  const auto explanation = [&](const std::string& message) {
+    return CLI::ParseError("springproof: " + compare::one_line(message), CLI::ExitCodes::InvalidError);
+  };
+  if (error.get_exit_code() == 0 || argc < 2) return error;
+  const std::string name = argv[1];
+  if (name.rfind("-", 0) == 0) return error;
+  std::vector<std::string> known;
+  for (const CLI::App* command : compare::commands_of(program)) known.push_back(command->get_name());
+  const auto is_it = [&](const CLI::App* command) { return command->get_name() == name; };
+  const std::vector<const CLI::App*> command = program.get_subcommands(is_it); // a hidden one too
+  if (command.empty()) return explanation("there is no command \"" + name + "\"" + nearest(name, known));
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error;
+  known.clear();
+  for (const CLI::Option* option : command.front()->get_options())
+    for (const std::string& known_name : option->get_lnames()) known.push_back("--" + known_name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (word.rfind("--", 0) == 0 && std::count(known.begin(), known.end(), word) == 0)
+      return explanation(name + " has no option \"" + word + "\"" + nearest(word, known));
+  }
+  return error;
 }
 
 /// Help, the version, or what is wrong with the command line.
@@ -82,15 +116,16 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
   program.require_subcommand(1);
   compare::Action chosen;
-  for (const auto add : {compare::add_run_command, compare::add_gate_command, compare::add_new_command,
-                         compare::add_design_command, compare::add_eigen_command, compare::add_stress_command,
-                         compare::add_sweep_command, compare::add_tables_command, compare::add_merge_command,
-                         compare::add_export_command, compare::add_worker_command})
+  for (const auto add :
+       {compare::add_run_command, compare::add_gate_command, compare::add_new_command,
+        compare::add_design_command, compare::add_eigen_command, compare::add_stress_command,
+        compare::add_sweep_command, compare::add_tables_command, compare::add_merge_command,
+        compare::add_export_command, compare::add_describe_command, compare::add_worker_command})
     add(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& answer) {
-    return run_usage(program, answer);
+    return run_usage(program, explained(program, answer, argc, argv));
   }
   // A worker's parent has given the warning.
   return run_action(chosen, program.got_subcommand("worker") ? BlasWarning::withhold : BlasWarning::give);

@@ -1,13 +1,25 @@
 #include "compare/solve/solvers.hpp"
 #include "fem_reference/session.hpp"
 
+#include <dlfcn.h>
+#include <mpi.h>
+
 // The one source of the shared object springproof_solvers that callers find; the rest are the libraries of
 // fem_reference, msm/snes and mechanics/petsc.
 namespace springproof::compare {
 
 namespace {
 
+/// Open MPI loads parts of itself, which look for its functions among those that everybody sees. Python would
+/// hide them.
+void show_mpi() {
+  Dl_info mpi{};
+  if (dladdr(reinterpret_cast<const void*>(&MPI_Init), &mpi) != 0)
+    dlopen(mpi.dli_fname, RTLD_LAZY | RTLD_GLOBAL | RTLD_NOLOAD);
+}
+
 std::shared_ptr<void> start() {
+  show_mpi();
   return std::make_shared<fem_reference::Session>();
 }
 
