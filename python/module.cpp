@@ -72,7 +72,7 @@ compare::Answer solve_side(const cases::Scene& scene, const std::string& side) {
 }
 
 std::string compare_text(const cases::Scene& scene) {
-  return compare::json_text(compare::to_json(compare::comparison_of(scene, solve(scene, {}))));
+  return compare::json_text(compare::case_to_json(compare::comparison_of(scene, solve(scene, {}))));
 }
 
 std::string design_text(double young, double poisson, const std::string& method, double edge) {

@@ -6,6 +6,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkSMPTools.h>
 
 namespace springproof::cases {
 
@@ -46,6 +47,7 @@ void run(vtkAlgorithm& algorithm) {
   const vtkNew<FirstError> error;
   vtkOutputWindow::SetInstance(error);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkSMPTools::SetBackend("Sequential"); // confined processes may not start threads
   algorithm.Update();
   if (!error->text.empty()) throw std::runtime_error(error->text);
 }

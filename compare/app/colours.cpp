@@ -1,5 +1,7 @@
 #include "compare/app/colours.hpp"
 
+#include "compare/solve/process_pool.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <ostream>
@@ -54,7 +56,9 @@ class Colouring : public std::streambuf {
 bool wants_colours(int descriptor) {
   const char* const none = std::getenv("NO_COLOR");
   const char* const terminal = std::getenv("TERM");
-  return isatty(descriptor) == 1 && !(none && *none) && !(terminal && terminal == "dumb"sv);
+  // MPI's launcher gives each rank a terminal, whatever its own output is.
+  return isatty(descriptor) == 1 && !is_under_mpi_launcher() && !(none && *none) &&
+         !(terminal && terminal == "dumb"sv);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
                 {"subheading", definition.description},
                 {"verdict", verdict_of(comparison)},
                 {"is_sound", comparison.is_sound()},
-                {"case", to_json(comparison)},
+                {"case", case_to_json(comparison)},
                 {"times", Json::array()},
                 {"commands", commands}};
   document["case"]["formulation"] =

@@ -240,7 +240,7 @@ Json peer_to_json(const Peer& peer) {
 
 } // namespace
 
-Json to_json(const Comparison& comparison) {
+Json case_to_json(const Comparison& comparison) {
   Json measures = Json::array(), expectations = Json::array();
   for (const MeasuredValue& m : comparison.measures) {
     const std::optional<Limit>& limit = m.fem_limit;
@@ -350,7 +350,7 @@ Json provenance() {
 Json to_json(const std::vector<Comparison>& comparisons) {
   Json document = provenance();
   document["cases"] = Json::array();
-  for (const Comparison& comparison : comparisons) document["cases"].push_back(to_json(comparison));
+  for (const Comparison& comparison : comparisons) document["cases"].push_back(case_to_json(comparison));
   return document;
 }
 

@@ -19,7 +19,7 @@ nlohmann::ordered_json provenance();
 nlohmann::ordered_json side_to_json(const Answer& side);
 
 /// One of its cases.
-nlohmann::ordered_json to_json(const Comparison& comparison);
+nlohmann::ordered_json case_to_json(const Comparison& comparison);
 
 /// The document of `run --json`: schema, program, machine and the cases. Keys stay in the order written.
 nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);

@@ -235,7 +235,7 @@ TEST_CASE("results on the case's own nodes are interpolated without any error") 
   CHECK(largest_difference(answers.interpolated->fem_and_back.solution, answers.fem.solution) <= 1e-14);
 }
 
-TEST_CASE("nodes a little outside of the results' cells take the closest value, and are counted; far ones "
+TEST_CASE("nodes a little outside of the results' cells take the closest value, and are counted, far ones "
           "are refused") {
   const TemporaryFolder folder;
   const cases::HexMesh other = foreign_body({4, 4, 4});

@@ -87,7 +87,8 @@ TEST_CASE("the stress is the derivative of the energy, where there is one", "[ve
       Vector9 differences;
       const double step = 1e-3; // fourth order: truncation step⁴ times exponents to the fifth over 30 ~ 1e-10
       for (int k = 0; k < 9; ++k) {
-        const auto energy = [&](double steps) {
+        // clang 14 captures no names of structured bindings
+        const auto energy = [&, &f = f, &law = law](double steps) {
           Matrix3 moved = f;
           moved(k / 3, k % 3) += steps * step;
           return law.energy(moved);
