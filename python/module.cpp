@@ -119,7 +119,8 @@ PYBIND11_MODULE(_springproof, module) {
           "mean Cauchy stress of each cell, MPa: xx, yy, zz, xy, yz, xz")
       .def_property_readonly(
           "strain", [](const compare::Answer& a) { return rows<double, 6>(a.solution.fields->strain); },
-          "logarithmic strain of each cell: xx, yy, zz, xy, yz, xz")
+          "logarithmic strain of each cell, the linear one of small_strain elements: "
+          "xx, yy, zz, xy, yz, xz")
       .def_property_readonly(
           "strain_energy", [](const compare::Answer& a) { return a.solution.fields->total_energy; },
           "of the whole body, N mm")

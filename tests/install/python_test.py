@@ -57,7 +57,7 @@ assert refused.returncode == 2 and refused.stderr.strip() == said, (said, refuse
 assert "poissons_ratio" in said
 assert issubclass(springproof.InputError, ValueError) and issubclass(springproof.SolveError, RuntimeError)
 message(springproof.InputError, lambda: case.solve("both"))
-# A column under fifty times its load: neither model carries it.
+# A column under five thousand times its load, pressed: neither model carries it.
 crushed = springproof.read_case(block, {"load[0].value": [0, 0, -30], "fem.formulation": "log_strain"})
 assert message(springproof.SolveError, lambda: crushed.solve("msm"))
 assert message(springproof.SolveError, lambda: crushed.solve("fem"))
