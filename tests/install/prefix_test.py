@@ -4,7 +4,6 @@ data, the man page, the completion, the library for other people's programs, the
 prefix_test.py SOURCE BUILD
 """
 
-import os
 import pathlib
 import re
 import shutil

@@ -10,7 +10,6 @@ program: the formulas are those of docs/designing.md.
 import csv
 import importlib.util
 import itertools
-import json
 import math
 import re
 import struct
