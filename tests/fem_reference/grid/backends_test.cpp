@@ -40,8 +40,8 @@ void agree(const cases::Scene& scene, double residual = usual_residual) {
   REQUIRE(grid.displacement.size() == assembled.displacement.size());
   double largest = 0, difference = 0;
   for (std::size_t n = 0; n < assembled.displacement.size(); ++n) {
-    largest = std::max(largest, assembled.displacement[n].norm());
-    difference = std::max(difference, (assembled.displacement[n] - grid.displacement[n]).norm());
+    largest = larger(largest, assembled.displacement[n].norm());
+    difference = larger(difference, (assembled.displacement[n] - grid.displacement[n]).norm());
   }
   CAPTURE(largest, difference, assembled.newton_iterations, grid.newton_iterations, grid.linear_iterations);
   CHECK(largest > 0);
