@@ -1,0 +1,41 @@
+#pragma once
+
+#include "mechanics/equilibrium/nonlinear_problem.hpp"
+
+namespace springproof::mechanics {
+
+/// A step in time as its problem sees it: the equation that step_coefficients() is about.
+struct StepTerms {
+  double mass = 0, damping = 0; ///< factors of M (1/s²) and C (1/s)
+  const Vector& origin;         ///< mm: displacement when the step begins
+  const Vector& force;          ///< N, on free degrees of freedom: loads, and M and C times what is known
+  const Vector& supports; ///< mm: constrained entries are where the step holds them; others mean nothing
+  double scale = 0;       ///< N: forces of the motion, which residuals are relative to
+};
+
+/// Nonlinear equations of a body that has mass. Masses are in tonnes (N s²/mm). In a step in time
+///   r(u) = force - f_int(u) - (mass M + damping C) (u - origin)
+/// on free degrees of freedom, at load factor 0; the tangent has mass M + damping C, and the energy half of
+/// that matrix's quadratic form of u - origin, less force . u.
+class DynamicProblem : public NonlinearProblem {
+ public:
+  /// M * motion and C * motion on free degrees of freedom, 0 on constrained ones; neither depends on the
+  /// displacement. Entries of `motion` on supports count: where they move, a consistent mass couples them.
+  /// @param product  of the size of `motion`
+  virtual void mass_product(const Vector& motion, Vector& product) = 0;
+  virtual void damping_product(const Vector& motion, Vector& product) = 0;
+
+  /// All loads at a time (s), N; 0 on constrained degrees of freedom.
+  virtual void external_force(double time, Vector& force) = 0;
+  /// Writes where supports are at a time to the constrained entries of a displacement, mm.
+  virtual void supports_at(double /*time*/, Vector& /*displacement*/) const {}
+
+  /// Of all evaluations from now on. What the terms refer to lives until the next call.
+  virtual void set_step(const StepTerms& terms) = 0;
+
+ protected:
+  /// For size().
+  static double relative(double norm, double scale) { return norm == 0 ? 0 : norm / scale; }
+};
+
+} // namespace springproof::mechanics

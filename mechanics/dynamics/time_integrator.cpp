@@ -1,0 +1,159 @@
+#include "mechanics/dynamics/time_integrator.hpp"
+
+#include "cases/case/error.hpp"
+#include "mechanics/equilibrium/newton.hpp"
+#include "mechanics/grid/conjugate_gradients.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace springproof::mechanics {
+
+TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
+                               const IntegrationSettings& settings)
+    : problem_(problem), scheme_(scheme), settings_(settings), now_(std::move(start)) {
+  for (Vector* vector : {&force_, &known_, &product_, &place_, &supports_, &now_.acceleration})
+    vector->setZero(now_.displacement.size());
+  next_ = now_;
+  this->start();
+}
+
+void TimeIntegrator::advance(double to) {
+  double step = to - now_.time;
+  for (int halvings = 0; now_.time < to;) {
+    // What rounding leaves of the way is no step of its own.
+    const bool is_last = to - now_.time <= step * (1 + 1e-9);
+    if (try_step(is_last ? to : now_.time + step)) continue;
+    if (halvings++ == settings_.max_halvings) give_up(failure_);
+    ++n_halvings_;
+    step /= 2;
+  }
+}
+
+double TimeIntegrator::kinetic_energy() {
+  problem_.mass_product(now_.velocity, product_);
+  return problem_.dot(now_.velocity, product_) / 2;
+}
+
+/// The forces of the start, and the acceleration that they give: M a = F - C v - f_int(u).
+void TimeIntegrator::start() {
+  problem_.external_force(now_.time, force_);
+  scale_ = norm(force_);
+  problem_.damping_product(now_.velocity, product_);
+  force_ -= product_;
+  problem_.set_step({0, 0, now_.displacement, force_, now_.displacement, 1});
+  const Vector imbalance = problem_.residual(now_.displacement, 0);
+  const double size = norm(imbalance);
+  if (!std::isfinite(size)) give_up("the law has no forces at the start: cells are turned inside out");
+  scale_ = std::max(scale_, size);
+  if (!needs_acceleration(scheme_.scheme) || size == 0) return;
+  constexpr double tolerance = 1e-12;
+  constexpr int max_iterations = 1000; // a consistent mass takes some tens, a lumped one fewer
+  const auto times_mass = [&](const Vector& of, Vector& product) { problem_.mass_product(of, product); };
+  const auto as_it_is = [](const Vector& of, Vector& same) { same = of; };
+  const auto dot = [&](const Vector& a, const Vector& b) { return problem_.dot(a, b); };
+  auto found =
+      grid::conjugate_gradients(times_mass, as_it_is, imbalance, tolerance * size, max_iterations, dot, 1);
+  if (!found.converged) give_up("the mass matrix is not positive definite: the start has no acceleration");
+  now_.acceleration = std::move(found.solution);
+}
+
+/// On success now_ is at the end of the step; otherwise it is as it was.
+bool TimeIntegrator::try_step(double to) {
+  const double step = to - now_.time;
+  const auto step_before = before_ ? std::optional(now_.time - before_->time) : std::nullopt;
+  const StepCoefficients c = step_coefficients(scheme_, step, step_before);
+  problem_.external_force(now_.time + c.place * step, force_);
+  scale_ = std::max(scale_, norm(force_));
+  add_known_forces(c);
+  StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
+  if (terms.scale == 0) { // nothing but velocity, or supports that begin to move
+    predict(c, to, 0);
+    terms.scale = 1;
+    problem_.set_step(terms);
+    terms.scale = norm(problem_.residual(place_, 0));
+  }
+  if (!solve(terms, c, to)) return false;
+  finish_step(c, to);
+  return true;
+}
+
+/// force_ += M known_acceleration + C known_velocity
+void TimeIntegrator::add_known_forces(const StepCoefficients& c) {
+  combine(c.known_acceleration);
+  problem_.mass_product(known_, product_);
+  force_ += product_;
+  combine(c.known_velocity);
+  problem_.damping_product(known_, product_);
+  force_ += product_;
+}
+
+void TimeIntegrator::combine(const KnownMotion& known) {
+  known_ = known.velocity * now_.velocity;
+  if (known.acceleration != 0) known_ += known.acceleration * now_.acceleration;
+  if (!before_) return;
+  known_ += known.displacement_before * (before_->displacement - now_.displacement);
+  known_ += known.velocity_before * before_->velocity;
+}
+
+/// Newton's method from where the velocity leads, or else from where the step begins.
+bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, double to) {
+  problem_.set_step(terms);
+  Newton newton(problem_, settings_.newton, work_);
+  const int iterations_before = std::exchange(work_.newton_iterations, 0); // limits are on each step
+  bool is_solved = false;
+  try {
+    for (const double velocity_factor : {1., 0.}) {
+      predict(c, to, velocity_factor);
+      is_solved = newton.solve(place_, 0, Convexity::clamped);
+      if (is_solved) break;
+    }
+  } catch (const Newton::Stopped& stopped) {
+    work_.newton_iterations += iterations_before;
+    give_up(stopped.reason);
+  }
+  work_.newton_iterations += iterations_before;
+  if (!is_solved) failure_ = newton.failure();
+  return is_solved;
+}
+
+/// place_: on the way from the step's beginning to an end, supports to where they will be.
+void TimeIntegrator::predict(const StepCoefficients& c, double to, double velocity_factor) {
+  place_ = now_.displacement + (velocity_factor * (to - now_.time)) * now_.velocity;
+  problem_.supports_at(to, place_);
+  supports_ = now_.displacement + c.place * (place_ - now_.displacement);
+  place_ = supports_;
+}
+
+void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
+  place_ -= now_.displacement; // w - u0
+  next_.time = to;
+  next_.displacement = now_.displacement + place_ / c.place;
+  problem_.supports_at(to, next_.displacement);
+  combine(c.known_velocity);
+  next_.velocity = now_.velocity + (c.damping * place_ - known_ - now_.velocity) / c.place;
+  combine(c.known_acceleration);
+  next_.acceleration =
+      now_.acceleration + (c.mass * place_ - known_ - now_.acceleration) / c.place_acceleration;
+  if (scheme_.scheme == cases::Scheme::bdf2) {
+    if (!before_) before_ = now_;
+    std::swap(*before_, now_);
+  }
+  std::swap(now_, next_);
+}
+
+double TimeIntegrator::norm(const Vector& of) const {
+  return std::sqrt(problem_.dot(of, of));
+}
+
+void TimeIntegrator::give_up(const std::string& reason) {
+  std::ostringstream message;
+  message << "motion, after " << now_.time << " s: " << reason;
+  work_.n_unknowns = problem_.n_unknowns();
+  work_.work = problem_.work();
+  throw cases::SolveError(message.str(), to_solution(work_));
+}
+
+} // namespace springproof::mechanics

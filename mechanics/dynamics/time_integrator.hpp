@@ -1,0 +1,66 @@
+#pragma once
+
+#include "mechanics/dynamics/dynamic_problem.hpp"
+#include "mechanics/dynamics/scheme.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+namespace springproof::mechanics {
+
+/// Vectors in the order of a problem.
+struct Motion {
+  double time = 0;                             ///< s
+  Vector displacement, velocity, acceleration; ///< mm, mm/s, mm/s²
+};
+
+struct IntegrationSettings {
+  EquilibriumSettings newton{}; ///< its tolerance, limits on iterations and should_stop, of each step
+  int max_halvings = 10;        ///< of a step whose equation is not solved
+};
+
+/// A body in motion, from step to step.
+class TimeIntegrator {
+ public:
+  /// @param problem   must outlive this
+  /// @param start     displacement (mm) and velocity (mm/s) at a time; the acceleration follows from the
+  ///                  forces
+  /// @throws cases::SolveError when the start has no forces
+  TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
+                 const IntegrationSettings& settings = {});
+
+  /// One step to a time (s); one whose equation is not solved is halved.
+  /// @throws cases::SolveError with the time reached, where now() is left
+  void advance(double to);
+
+  const Motion& now() const { return now_; }
+  const Equilibrium& work() const { return work_; } ///< Newton's iterations and the residual of the last step
+  int n_halvings() const { return n_halvings_; }    ///< steps that were halved
+
+  /// v . M v / 2, N mm, of the free degrees of freedom.
+  double kinetic_energy();
+
+ private:
+  DynamicProblem& problem_;
+  cases::TimeScheme scheme_;
+  IntegrationSettings settings_;
+  Equilibrium work_;
+  Motion now_, next_;
+  std::optional<Motion> before_; ///< bdf2: the beginning of the last step
+  int n_halvings_ = 0;
+  double scale_ = 0;       ///< N: largest forces so far
+  bool has_loads_ = false; ///< so far
+  std::string failure_;
+  Vector force_, known_, product_;
+  Vector place_, supports_; ///< w of the step; the same with what it begins from, constrained entries right
+
+  void start();
+  bool try_step(double to);
+  void add_known_forces(const StepCoefficients& coefficients);
+  void combine(const KnownMotion& known);
+  bool solve(const StepTerms& terms, const StepCoefficients& coefficients, double to);
+  void predict(const StepCoefficients& coefficients, double to, double velocity_factor);
+  void finish_step(const StepCoefficients& coefficients, double to);
+  double norm(const Vector& of) const;
+  [[noreturn]] void give_up(const std::string& reason);
+};
+
+} // namespace springproof::mechanics
