@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/designs.hpp"
+#include "cases/case/dynamics.hpp"
 #include "cases/case/error.hpp"
 
 #include <Eigen/Core>
@@ -81,6 +82,7 @@ struct RegionMaterial {
   std::string group;            ///< empty: the box
   Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
   Where where;
+  MaterialDynamics dynamics{};
 };
 
 /// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, or
@@ -97,7 +99,8 @@ struct Fixed {
   std::array<bool, 3> components{true, true, true};
 };
 
-/// A region of prescribed motion: at load factor s, s times a displacement or a rotation by s times an angle.
+/// A region of prescribed motion: at load factor s, s times a displacement or a rotation by s times an angle;
+/// in a dynamic case s is its history.
 struct Moved {
   Region region;
   std::array<bool, 3> components{true, true, true};       ///< all three when it is turned
@@ -105,6 +108,7 @@ struct Moved {
   double angle = 0;                                       ///< degrees at full load, about axis through centre
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();        ///< unit length
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
+  History history{};
 };
 
 SPRINGPROOF_ENUMERATION(
@@ -112,7 +116,8 @@ SPRINGPROOF_ENUMERATION(
     nodal_force, ///< value N on every node of the region
     total_force, ///< value N, shared equally by the region's nodes
     traction,    ///< value MPa on the rest area, dead, integrated consistently
-    torque ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
+    torque, ///< moment N mm about axis through centre; tangential traction growing linearly with the radius
+    gravity ///< value m/s² on all that has mass; without a region
 )
 
 inline bool acts_on_area(LoadKind kind) {
@@ -122,10 +127,17 @@ inline bool acts_on_area(LoadKind kind) {
 struct Load {
   Region region;
   LoadKind kind;
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< N or MPa; unused by torque
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< N, MPa or m/s²; unused by torque
   double moment = 0;                                ///< N mm; torque only
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< torque only, unit length
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< mm; torque only
+  History history{};
+};
+
+/// A mass that moves with a region, without stiffness of its own.
+struct AddedMass {
+  Region region;
+  double mass; ///< kg, > 0, shared equally by the region's nodes
 };
 
 SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
@@ -144,6 +156,7 @@ struct Fem {
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
   bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
   std::vector<Doubt> accepted;       ///< not held against the side
+  ElementMass mass = ElementMass::consistent;
   Where where;
 };
 
@@ -196,6 +209,7 @@ struct Msm {
   std::optional<std::array<double, 2>> strain_range; ///< matched, multi_load, nonlinear_method: logarithmic
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
   std::vector<Doubt> accepted;                       ///< not held against the side
+  PointMass mass = PointMass::cells;
   Where where;
 };
 
@@ -226,6 +240,7 @@ struct Measure {
   TensorComponent tensor_component = TensorComponent::xx; ///< stress, strain
   Where point_where;
   Where where;
+  std::optional<OverTime> over_time{}; ///< of a dynamic case's measures, but for norms of fields
 };
 
 /// Where an expectation's interval comes from; reports count the kinds separately.
@@ -288,17 +303,20 @@ struct Case {
   std::string file;
   Body body;
   Material material;
+  MaterialDynamics material_dynamics;
   std::vector<RegionMaterial> region_materials; ///< a cell in several of them is of the last one
   std::vector<Fixed> fixed;
   std::vector<Fixed> symmetry; ///< region = a face of a box, components = its normal alone
   std::vector<Moved> moved;
   std::vector<Load> loads; ///< may be empty when something is moved
+  std::vector<AddedMass> masses;
   Fem fem;
   Msm msm;
   std::vector<Measure> measures;
   std::vector<Expectation> expectations;
   std::optional<Stress> stress; ///< of a hard case
   bool has_fields = false;      ///< solutions get their fields: a measure or a file of results needs them
+  std::optional<Dynamics> dynamics;
 };
 
 /// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends

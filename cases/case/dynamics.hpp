@@ -1,8 +1,13 @@
 #pragma once
 
-#include "cases/case/names.hpp"
+#include "cases/case/error.hpp"
 
-/// What a case says of time. Units: s; densities, masses and accelerations as written, in kg/m³, kg and m/s².
+#include <array>
+#include <optional>
+#include <vector>
+
+/// What a case says of time. Units as written: s, kg/m³, kg, m/s²; inside a scene masses are in tonnes
+/// (N s²/mm) and accelerations in mm/s².
 namespace springproof::cases {
 
 /// How a step in time is made; all of them are implicit.
@@ -18,5 +23,63 @@ struct TimeScheme {
   double beta = 0.25, gamma = 0.5; ///< newmark: 2 beta >= gamma >= 1/2, stable with any step
   double rho_infinity = 1;         ///< generalized_alpha, 0 to 1: what a step leaves of the fastest motion
 };
+
+/// Where a motion begins.
+SPRINGPROOF_ENUMERATION(MotionStart,
+                        rest,       ///< undeformed, without velocity
+                        equilibrium ///< under the loads just before time 0, without velocity
+)
+
+struct Dynamics {
+  TimeScheme scheme;
+  double step = 0, end = 0; ///< s, > 0; the end is a whole number of steps
+  MotionStart start = MotionStart::rest;
+  int write_every = 1; ///< steps from one written body to the next
+  Where where;
+
+  int n_steps() const;
+};
+
+/// The factor of a load or motion over time.
+struct History {
+  /// Time (s) and factor, times not descending: linear between them, constant before and after them, a jump
+  /// where two times are equal. Empty: 1 at all times, or the sine.
+  std::vector<std::array<double, 2>> points{};
+  double frequency = 0; ///< Hz; other than 0: sin(2 pi frequency t)
+
+  double at(double time) const;          ///< at a jump what comes after it
+  double just_before(double time) const; ///< at a jump what comes before it
+  bool jumps() const;
+};
+
+/// What a material adds to its elasticity: C = mass_damping M + stiffness_damping K(rest) of its cells.
+struct MaterialDynamics {
+  std::optional<double> density; ///< kg/m³
+  double mass_damping = 0;       ///< alpha, 1/s, >= 0
+  double stiffness_damping = 0;  ///< beta, s, >= 0
+};
+
+/// Mass matrix of the finite elements.
+SPRINGPROOF_ENUMERATION(ElementMass, consistent,
+                        lumped ///< what the nodes of an element have of its mass, on the diagonal
+)
+
+/// Masses of the springs' points.
+SPRINGPROOF_ENUMERATION(PointMass,
+                        cells,  ///< an eighth of every cell that a point belongs to
+                        uniform ///< the same for every point: the body's mass over their number
+)
+
+/// A number of a measure's course over time.
+SPRINGPROOF_ENUMERATION(OverTime,
+                        end,           ///< the last value
+                        settled,       ///< what it swings about: mean of the last whole swings
+                        peak,          ///< the value that is furthest from the first one
+                        peak_time,     ///< s
+                        overshoot,     ///< of the peak beyond the settled value, percent of the way there
+                        frequency,     ///< of its swings, Hz
+                        damping_ratio, ///< from the logarithmic decrement of its swings
+                        trajectory_l2  ///< root mean square over time
+)
 
 } // namespace springproof::cases

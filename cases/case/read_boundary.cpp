@@ -1,5 +1,7 @@
 #include "cases/case/read_boundary.hpp"
 
+#include "cases/case/read_dynamics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -73,9 +75,10 @@ Fixed read_symmetry(Table& table) {
   return {{face, std::nullopt, entry.where}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}};
 }
 
-Moved read_moved(Table& table, const Body& body) {
+Moved read_moved(Table& table, const Case& definition) {
   Moved moved;
-  moved.region = read_region(table, body);
+  moved.region = read_region(table, definition.body);
+  moved.history = read_history(table, definition.dynamics.has_value());
   const bool is_turned = table.has("angle");
   table.refuse_unless(!is_turned, {"displacement", "components"},
                       "left out beside angle: a region is shifted or turned, not both");
@@ -97,11 +100,24 @@ Moved read_moved(Table& table, const Body& body) {
   return moved;
 }
 
-Load read_load(Table& table, const Body& body) {
+/// Acts on the whole body; `kind` is where messages point to.
+void read_gravity(Table& table, Load& load) {
+  table.refuse_unless(false, {"region", "near", "radius"}, "left out: gravity acts on the whole body");
+  table.know({"region", "near", "radius"});
+  load.region.where = table.entry("kind").where;
+  load.value = table.required("value", Vector{"an acceleration of three finite numbers (m/s²)"});
+}
+
+Load read_load(Table& table, const Case& definition) {
   Load load;
-  load.region = read_region(table, body);
+  const bool is_gravity =
+      table.has("kind") && table.entry("kind").value<std::string>() == name_of(LoadKind::gravity);
+  if (!is_gravity) load.region = read_region(table, definition.body);
   load.kind = table.required("kind", read_name<LoadKind>);
-  if (load.kind == LoadKind::torque) {
+  load.history = read_history(table, definition.dynamics.has_value());
+  if (is_gravity) {
+    read_gravity(table, load);
+  } else if (load.kind == LoadKind::torque) {
     load.moment = table.required("value", Number{"one finite number, the moment (N mm)"});
     load.axis = table.required("axis", read_direction);
     load.centre = table.required("centre", read_point);
@@ -110,8 +126,14 @@ Load read_load(Table& table, const Body& body) {
         table.required("value", acts_on_area(load.kind) ? Vector{"a traction of three finite numbers (MPa)"}
                                                         : Vector{"a force of three finite numbers (N)"});
   }
-  if (acts_on_area(load.kind)) check_has_area(load, body);
+  if (acts_on_area(load.kind)) check_has_area(load, definition.body);
   return load;
+}
+
+AddedMass read_mass(Table& table, const Body& body) {
+  const auto is_mass = [](double mass) { return mass >= 1e-9 && mass <= 1e6; };
+  return {read_region(table, body),
+          table.required("value", Number{"a number from 1e-9 to 1000000 (kg)", is_mass})};
 }
 
 bool is_zero(const Load& load) {
@@ -161,15 +183,17 @@ void read_boundary(Table& root, Case& result) {
   };
   result.fixed = root.sections("fixed", with_body(read_fixed));
   result.symmetry = root.sections("symmetry", read_symmetry);
-  if (result.fixed.empty() && result.symmetry.empty())
+  const bool may_fly = result.dynamics && result.dynamics->start == MotionStart::rest;
+  if (result.fixed.empty() && result.symmetry.empty() && !may_fly)
     root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
   for (std::size_t i = 0; i < result.symmetry.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (const Region& plane = result.symmetry[i].region; plane.name == result.symmetry[j].region.name)
         throw InputError(plane.where,
                          fmt::format("is \"{}\", must be another plane than symmetry[{}]", plane.name, j));
-  result.moved = root.sections("moved", with_body(read_moved));
-  result.loads = root.sections("load", with_body(read_load));
+  result.masses = root.sections("mass", with_body(read_mass));
+  result.moved = root.sections("moved", [&](Table& table) { return read_moved(table, result); });
+  result.loads = root.sections("load", [&](Table& table) { return read_load(table, result); });
   const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
   if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
   if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");

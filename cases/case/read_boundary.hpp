@@ -15,7 +15,7 @@ Eigen::Vector3d read_direction(const Entry& entry);
 /// it.
 Region read_region(Table& table, const Body& body);
 
-/// Reads supports, motions and loads into a case whose body is read.
+/// Reads supports, motions, loads and masses into a case whose body and [dynamics] are read.
 void read_boundary(Table& root, Case& result);
 
 } // namespace springproof::cases

@@ -1,6 +1,7 @@
 #include "cases/case/read_case.hpp"
 
 #include "cases/case/read_boundary.hpp"
+#include "cases/case/read_dynamics.hpp"
 #include "cases/case/read_materials.hpp"
 #include "cases/case/read_models.hpp"
 
@@ -71,8 +72,8 @@ TensorComponent read_tensor_component(const Entry& entry, MeasureKind kind) {
   return *value_of<TensorComponent>(entry.word(allowed));
 }
 
-Measure read_measure(Table& table, const Body& body) {
-  const auto node = [&](const Entry& entry) { return read_region_text(entry, body); };
+Measure read_measure(Table& table, const Case& definition) {
+  const auto node = [&](const Entry& entry) { return read_region_text(entry, definition.body); };
   Measure measure;
   measure.where = table.where();
   measure.name = table.required("name", read_text);
@@ -103,7 +104,7 @@ Measure read_measure(Table& table, const Body& body) {
     check_differ(table, "node", measure.node, measure.centre, "centre");
     break;
   case MeasureKind::reaction:
-    measure.region = read_region(table, body);
+    measure.region = read_region(table, definition.body);
     measure.component = table.required("component", read_name<Component>);
     break;
   case MeasureKind::stress:
@@ -118,6 +119,7 @@ Measure read_measure(Table& table, const Body& body) {
   case MeasureKind::displacement_field_max:
     break;
   }
+  measure.over_time = read_over_time(table, measure.kind, definition.dynamics.has_value());
   return measure;
 }
 
@@ -149,7 +151,7 @@ Expectation read_expectation(Table& table, const std::vector<std::string>& measu
 void read_measures(Table& root, Case& result) {
   std::vector<std::string> seen;
   result.measures = root.sections("measure", [&](Table& table) {
-    Measure measure = read_measure(table, result.body);
+    Measure measure = read_measure(table, result);
     const auto same = std::find(seen.begin(), seen.end(), measure.name);
     if (same != seen.end())
       table.entry("name").refuse(fmt::format("a new name: measure[{}] has this one", same - seen.begin()));
@@ -194,9 +196,11 @@ Case read_definition(Table& root, const std::string& path) {
   result.name = root.required("name", read_case_name);
   result.description = root.optional("description", read_text).value_or("");
   result.body = root.section("body", [&](Table& table) { return read_body(table, path); });
+  result.dynamics = read_dynamics(root);
   read_materials(root, result);
   read_boundary(root, result);
   read_models(root, result);
+  check_dynamics(root, result);
   read_measures(root, result);
   check_accuracy(root, result);
   check_turns(result);
@@ -308,6 +312,7 @@ Case read_case_text(const std::string& text, const std::string& path) {
 Case read_hard_case(const std::string& path) {
   const toml::table document = parse_file(path, {});
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
+  if (root.has("dynamics")) root.entry("dynamics").refuse("left out beside [stress]: hard cases are static");
   Case result = read_definition(root, path);
   result.stress = root.section("stress", [&](Table& table) { return read_stress(table, result.msm); });
   root.refuse_unknown_keys();

@@ -1,6 +1,7 @@
 #include "cases/case/read_materials.hpp"
 
 #include "cases/case/read_boundary.hpp"
+#include "cases/case/read_dynamics.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -84,8 +85,9 @@ void read_corners(const Entry& entry, RegionMaterial& region) {
   if (!(region.lower.array() < region.upper.array()).all()) entry.refuse(allowed);
 }
 
-/// A material and the cells that consist of it.  @param own  the body's material
-RegionMaterial read_region_material(Table& table, const Material& own, const Body& body) {
+/// A material and the cells that consist of it, in a case whose own material is read.
+RegionMaterial read_region_material(Table& table, const Case& definition) {
+  const Material& own = definition.material;
   RegionMaterial region;
   region.where = table.where();
   region.upper.setConstant(std::numeric_limits<double>::infinity());
@@ -94,7 +96,7 @@ RegionMaterial read_region_material(Table& table, const Material& own, const Bod
   if (has_group + has_box + has_axis != 1)
     table.entry("axis").refuse(
         "one of group, box, or axis with from and to: which cells are of this material");
-  table.refuse_unless(std::holds_alternative<MeshFile>(body), {"group"},
+  table.refuse_unless(std::holds_alternative<MeshFile>(definition.body), {"group"},
                       "left out: only a body of shape = \"mesh\" has physical groups");
   region.group = table.optional("group", read_text).value_or("");
   if (has_box) read_corners(table.entry("box"), region);
@@ -105,6 +107,7 @@ RegionMaterial read_region_material(Table& table, const Material& own, const Bod
   if (region.material.index() != own.index())
     table.entry("model").refuse(fmt::format("\"{}\" as in [material]: one formulation serves the whole body",
                                             material_models()[own.index()]));
+  region.dynamics = read_material_dynamics(table, definition.dynamics.has_value());
   return region;
 }
 
@@ -116,10 +119,13 @@ const std::vector<std::string>& material_models() {
 }
 
 void read_materials(Table& root, Case& result) {
-  result.material = root.section("material", read_material);
-  result.region_materials = root.sections("region_material", [&](Table& table) {
-    return read_region_material(table, result.material, result.body);
+  result.material = root.section("material", [&](Table& table) {
+    Material material = read_material(table);
+    result.material_dynamics = read_material_dynamics(table, result.dynamics.has_value());
+    return material;
   });
+  result.region_materials =
+      root.sections("region_material", [&](Table& table) { return read_region_material(table, result); });
 }
 
 } // namespace springproof::cases

@@ -1,5 +1,6 @@
 #include "cases/case/read_models.hpp"
 
+#include "cases/case/read_dynamics.hpp"
 #include "cases/case/read_materials.hpp"
 
 #include <algorithm>
@@ -107,18 +108,26 @@ std::vector<Enum> read_names(const Entry& entry) {
   return names;
 }
 
-Fem read_fem(Table& table, const Material& material, const Body& body) {
+const std::string has_no_mass = "left out without material.density";
+
+Fem read_fem(Table& table, const Case& definition) {
+  const Material& material = definition.material;
   Fem fem;
   fem.where = table.where();
   read_formulation(table, material, fem);
   fem.element = read_element(table, fem.formulation, material);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
-    check_refined_size(table.entry("refine"), body, fem.refine);
+    check_refined_size(table.entry("refine"), definition.body, fem.refine);
   }
-  fem.has_auto_accuracy = table.optional("accuracy", [](const Entry& entry) {
+  const auto accuracy = table.optional("accuracy", [](const Entry& entry) {
     return entry.word({"auto", "none"});
-  }) != "none";
+  });
+  if (definition.dynamics && accuracy == "auto")
+    table.entry("accuracy").refuse("\"none\" or left out beside [dynamics]: ask for --converge instead");
+  fem.has_auto_accuracy = accuracy.value_or(definition.dynamics ? "none" : "auto") == "auto";
+  table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
+  fem.mass = table.optional("mass", read_name<ElementMass>).value_or(fem.mass);
   fem.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   return fem;
 }
@@ -240,7 +249,8 @@ void check_is_for(const Entry& design, const Msm& msm, const Material& material)
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
-Msm read_msm(Table& table, const Material& material, const std::string& case_path) {
+Msm read_msm(Table& table, const Case& definition) {
+  const Material& material = definition.material;
   Msm msm;
   msm.where = table.where();
   msm.design = table.optional("design", read_name<Design>).value_or(default_design(material));
@@ -259,12 +269,14 @@ Msm read_msm(Table& table, const Material& material, const std::string& case_pat
   if (msm.design == Design::network) {
     const Entry file = table.entry("file");
     msm.network =
-        NetworkFile{read_file_name(file, {".csv"}, "a file of springs, .csv", case_path), file.where};
+        NetworkFile{read_file_name(file, {".csv"}, "a file of springs, .csv", definition.file), file.where};
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   read_law(table, msm);
   read_fit(table, msm);
+  table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
+  msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);
   if (!needed.empty()) table.entry("design").refuse(needed);
@@ -288,10 +300,8 @@ void check_region_materials(const Case& definition) {
 } // namespace
 
 void read_models(Table& root, Case& result) {
-  result.fem = root.optional_section(
-      "fem", [&](Table& table) { return read_fem(table, result.material, result.body); });
-  result.msm = root.optional_section(
-      "msm", [&](Table& table) { return read_msm(table, result.material, result.file); });
+  result.fem = root.optional_section("fem", [&](Table& table) { return read_fem(table, result); });
+  result.msm = root.optional_section("msm", [&](Table& table) { return read_msm(table, result); });
   check_region_materials(result);
 }
 

@@ -6,7 +6,7 @@
 /// What either model is made with: [fem] and [msm].
 namespace springproof::cases {
 
-/// Reads them into a case whose body and materials are read.
+/// Reads them into a case whose body, [dynamics] and materials are read.
 /// @throws InputError, also if a material has no meaning in the element, or the springs' design does not
 /// exist for it
 void read_models(Table& root, Case& result);

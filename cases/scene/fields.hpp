@@ -45,18 +45,23 @@ SPRINGPROOF_FIELDS(springproof::cases::LinearElastic, youngs_modulus, poissons_r
 SPRINGPROOF_FIELDS(springproof::cases::Ogden, mu, alpha, bulk_modulus)
 SPRINGPROOF_FIELDS(springproof::cases::TransverselyIsotropic, youngs_modulus_along, youngs_modulus_across,
                    poissons_ratio_along, poissons_ratio_across, shear_modulus_along, fibre)
-SPRINGPROOF_FIELDS(springproof::cases::RegionMaterial, material, group, lower, upper, where)
+SPRINGPROOF_FIELDS(springproof::cases::History, points, frequency)
+SPRINGPROOF_FIELDS(springproof::cases::MaterialDynamics, density, mass_damping, stiffness_damping)
+SPRINGPROOF_FIELDS(springproof::cases::TimeScheme, scheme, beta, gamma, rho_infinity)
+SPRINGPROOF_FIELDS(springproof::cases::Dynamics, scheme, step, end, start, write_every, where)
+SPRINGPROOF_FIELDS(springproof::cases::RegionMaterial, material, group, lower, upper, where, dynamics)
 SPRINGPROOF_FIELDS(springproof::cases::Region, name, near, where, radius)
 SPRINGPROOF_FIELDS(springproof::cases::Fixed, region, components)
-SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, angle, axis, centre)
-SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, centre)
+SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, angle, axis, centre, history)
+SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, centre, history)
+SPRINGPROOF_FIELDS(springproof::cases::AddedMass, region, mass)
 SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_auto_formulation,
-                   has_auto_accuracy, accepted, where)
+                   has_auto_accuracy, accepted, mass, where)
 SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poissons_ratio, split, stiffness,
                    axis_stiffness, uniform_stiffness, volume_stiffness, network, paths, weights, strain_range,
-                   has_volume_term, accepted, where)
+                   has_volume_term, accepted, mass, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
-                   centre, region, point, tensor_component, point_where, where)
+                   centre, region, point, tensor_component, point_where, where, over_time)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
                    ends_where)
 SPRINGPROOF_FIELDS(springproof::cases::ExpectedOutcome, model, side, design, outcome, load_reached,
@@ -67,19 +72,20 @@ SPRINGPROOF_FIELDS(springproof::cases::Stress, is_heavy, start, amplitude, seed,
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Case& definition) {
-  auto& [name, description, file, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-         measures, expectations, stress, has_fields] = definition;
-  archive(name, description, body, material, region_materials, fixed, symmetry, moved, loads, fem, msm,
-          measures, expectations, stress, has_fields);
+  auto& [name, description, file, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
+         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics] = definition;
+  archive(name, description, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
+          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics);
   if constexpr (has_places<Archive>) archive(file);
 }
 
 SPRINGPROOF_FIELDS(springproof::cases::Scene::ConstrainedNodes, selection, components)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
+SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedMass, selection, added)
 SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
 SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,
-                   network)
+                   masses, network)
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
-#include <functional>
 #include <sstream>
 
 namespace springproof::cases {
@@ -40,6 +39,7 @@ void add_patches(Scene& scene) {
   add_patches_of(scene.definition.fixed);
   add_patches_of(scene.definition.moved);
   add_patches_of(scene.definition.loads);
+  add_patches_of(scene.definition.masses);
 }
 
 bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
@@ -84,20 +84,6 @@ void integrate(const HexMesh& mesh, const Selection& selection, const Action& ac
       }
 }
 
-/// Part of a node's load that the modelled part of a symmetric scene carries: halved by each symmetry plane
-/// through it.
-std::function<double(int node)> modelled_share(const Scene& scene) {
-  std::vector<std::vector<int>> planes;
-  for (const Fixed& plane : scene.definition.symmetry)
-    planes.push_back(sorted(select(scene.mesh, plane.region).nodes));
-  return [planes](int node) {
-    double share = 1;
-    for (const std::vector<int>& nodes : planes)
-      if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
-    return share;
-  };
-}
-
 /// Forces on the nodes of the loads' regions, which add up.
 class Forces {
  public:
@@ -120,7 +106,7 @@ class Forces {
 void add_point_forces(const Scene& scene, Forces& forces) {
   const auto share = modelled_share(scene);
   for (const auto& [selection, load] : scene.loads) {
-    if (acts_on_area(load.kind)) continue;
+    if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
     double divisor = load.kind == LoadKind::total_force ? 0 : 1;
     if (divisor == 0)
       for (int node : selection.nodes) divisor += share(node);
@@ -184,6 +170,10 @@ void check_sizes(const Scene& scene) {
 
 void resolve_loads(Scene& scene) {
   for (const Load& load : scene.definition.loads) {
+    if (load.kind == LoadKind::gravity) {
+      scene.loads.push_back({{}, load});
+      continue;
+    }
     Selection selection = select(scene.mesh, load.region);
     if (acts_on_area(load.kind) && selection.faces.empty())
       throw InputError(load.region.where, fmt::format("'{}' has no faces, and a {} acts on faces",
@@ -192,6 +182,15 @@ void resolve_loads(Scene& scene) {
     if (load.kind == LoadKind::torque && !(polar_moment(scene.mesh, scene.loads.back()) > 0))
       throw InputError(load.region.where, "the region has no extent about the torque's axis");
   }
+}
+
+/// Until both models have masses.
+void refuse_what_is_not_solved(const Case& definition) {
+  if (definition.dynamics)
+    throw InputError(definition.dynamics->where, "is read, but motions are not solved by this version");
+  for (const Load& load : definition.loads)
+    if (load.kind == LoadKind::gravity)
+      throw InputError(load.region.where, "is read, but gravity is not solved by this version");
 }
 
 HexMesh make_mesh(const Body& body) {
@@ -297,6 +296,7 @@ void resolve_network(Scene& scene) {
 } // namespace
 
 Scene make_scene(const Case& definition) {
+  refuse_what_is_not_solved(definition);
   Scene scene;
   scene.definition = definition;
   scene.mesh = make_mesh(definition.body);
@@ -306,6 +306,8 @@ Scene make_scene(const Case& definition) {
   check_motions(scene);
   resolve_loads(scene);
   check_sizes(scene);
+  for (const AddedMass& added : definition.masses)
+    scene.masses.push_back({select(scene.mesh, added.region), added});
   resolve_network(scene);
   for (const Measure& measure : definition.measures) // every region that one names is one node
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
@@ -331,8 +333,14 @@ Scene refine(const Scene& scene, int n) {
   resolve_supports(fine);
   for (const Scene::AppliedLoad& applied : scene.loads) {
     const Region& region = applied.load.region;
-    const bool stays = applied.load.kind == LoadKind::nodal_force || (region.near && !region.radius);
+    const LoadKind kind = applied.load.kind;
+    const bool stays =
+        kind == LoadKind::nodal_force || kind == LoadKind::gravity || (region.near && !region.radius);
     fine.loads.push_back({stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load});
+  }
+  for (const auto& [selection, added] : scene.masses) {
+    const bool is_a_node = added.region.near && !added.region.radius;
+    fine.masses.push_back({is_a_node ? selection : select(fine.mesh, added.region), added});
   }
   return refine(fine, n - 1);
 }
@@ -344,6 +352,18 @@ std::vector<bool> constrained_dofs(const Scene& scene) {
       for (std::size_t a = 0; a < 3; ++a)
         if (fixed.components[a]) is_constrained[3 * index(node) + a] = true;
   return is_constrained;
+}
+
+std::function<double(int node)> modelled_share(const Scene& scene) {
+  std::vector<std::vector<int>> planes;
+  for (const Fixed& plane : scene.definition.symmetry)
+    planes.push_back(sorted(select(scene.mesh, plane.region).nodes));
+  return [planes](int node) {
+    double share = 1;
+    for (const std::vector<int>& nodes : planes)
+      if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
+    return share;
+  };
 }
 
 std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {

@@ -4,6 +4,8 @@
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/network.hpp"
 
+#include <functional>
+
 namespace springproof::cases {
 
 /// A case with its mesh built and its regions resolved: all that a model needs.
@@ -20,6 +22,10 @@ struct Scene {
     Selection selection;
     Load load;
   };
+  struct AppliedMass {
+    Selection selection;
+    AddedMass added;
+  };
   Case definition;
   HexMesh mesh;
   std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
@@ -27,6 +33,7 @@ struct Scene {
       constrained; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
+  std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
 };
 
@@ -57,6 +64,10 @@ std::vector<bool> constrained_dofs(const Scene& scene);
 /// on components that the motion leaves free.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
+/// Part of a node's load or added mass that the modelled part of a symmetric scene carries, as a function of
+/// the node: halved by each symmetry plane through it.
+std::function<double(int node)> modelled_share(const Scene& scene);
+
 /// A force (N) or a displacement (mm) of one node.
 struct NodeVector {
   int node;
@@ -65,7 +76,8 @@ struct NodeVector {
 
 /// All loads as forces on the nodes that loads act on, N, in ascending order: point forces as they are (a
 /// node on symmetry planes carries the modelled part alone: half, a quarter, an eighth), tractions and
-/// torques integrated with bilinear shape functions on the rest faces.
+/// torques integrated with bilinear shape functions on the rest faces. Gravity is none of them: models have
+/// masses of their own.
 std::vector<NodeVector> loaded_nodes(const Scene& scene);
 
 /// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.

@@ -26,7 +26,12 @@ void check_names(int n) {
 } // namespace
 
 TEST_CASE("every enumerator has one name, and the name leads back to it") {
-  check_names<LoadKind>(4);
+  check_names<LoadKind>(5);
+  check_names<Scheme>(4);
+  check_names<MotionStart>(2);
+  check_names<ElementMass>(2);
+  check_names<PointMass>(2);
+  check_names<OverTime>(8);
   check_names<Formulation>(4);
   check_names<Element>(5);
   check_names<Design>(15);

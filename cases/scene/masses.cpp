@@ -1,0 +1,78 @@
+#include "cases/scene/masses.hpp"
+
+#include <algorithm>
+
+namespace springproof::cases {
+
+namespace {
+
+constexpr double tonnes_per_kg = 1e-3, tonnes_per_mm3 = 1e-12; ///< the latter of kg/m³
+constexpr double mm_per_m = 1e3;
+
+/// Shares a value of every cell out to the points, as msm.mass says.
+/// @param of_volume  of a cell, per mm³
+template<class OfVolume>
+std::vector<double> shared_out(const Scene& scene, const OfVolume& of_volume) {
+  const HexMesh& mesh = scene.mesh;
+  std::vector<double> shares(mesh.nodes.size(), 0.0);
+  double total = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const double value = of_volume(dynamics_of(scene, c)) * cell_volume(cell_vertices(mesh, c));
+    total += value;
+    for (const int node : mesh.cells[c]) shares[index(node)] += value / 8;
+  }
+  if (scene.definition.msm.mass == PointMass::uniform)
+    shares.assign(shares.size(), total / static_cast<double>(shares.size()));
+  return shares;
+}
+
+} // namespace
+
+CellDynamics dynamics_of(const Scene& scene, std::size_t cell) {
+  const int material = material_of(scene, cell);
+  const MaterialDynamics& dynamics = material == 0
+                                         ? scene.definition.material_dynamics
+                                         : scene.definition.region_materials[index(material - 1)].dynamics;
+  return {dynamics.density.value_or(0) * tonnes_per_mm3, dynamics.mass_damping, dynamics.stiffness_damping};
+}
+
+std::vector<NodeMass> added_masses(const Scene& scene) {
+  if (scene.masses.empty()) return {};
+  std::vector<int> nodes;
+  for (const auto& applied : scene.masses)
+    nodes.insert(nodes.end(), applied.selection.nodes.begin(), applied.selection.nodes.end());
+  make_set(nodes);
+  std::vector<NodeMass> masses;
+  for (const int node : nodes) masses.push_back({node, 0});
+  const auto share = modelled_share(scene);
+  for (const auto& [selection, added] : scene.masses) {
+    double divisor = 0;
+    for (const int node : selection.nodes) divisor += share(node);
+    for (const int node : selection.nodes) {
+      const auto is_before = [](const NodeMass& at, int number) { return at.node < number; };
+      std::lower_bound(masses.begin(), masses.end(), node, is_before)->mass +=
+          added.mass * tonnes_per_kg * (share(node) / divisor);
+    }
+  }
+  return masses;
+}
+
+std::vector<double> point_masses(const Scene& scene) {
+  std::vector<double> masses = shared_out(scene, [](const CellDynamics& cell) { return cell.density; });
+  for (const auto& [node, mass] : added_masses(scene)) masses[index(node)] += mass;
+  return masses;
+}
+
+std::vector<double> point_mass_damping(const Scene& scene) {
+  return shared_out(scene, [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
+}
+
+Eigen::Vector3d gravity_at(const Scene& scene, double time) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& applied : scene.loads)
+    if (applied.load.kind == LoadKind::gravity)
+      sum += mm_per_m * applied.load.history.at(time) * applied.load.value;
+  return sum;
+}
+
+} // namespace springproof::cases

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+
+/// What has mass in a scene: kg/m³, kg and m/s² of the case become t/mm³, t and mm/s² here, and nowhere else.
+namespace springproof::cases {
+
+/// Damping and density of a cell's material, t/mm³; without a density in the case nothing has mass.
+struct CellDynamics {
+  double density;           ///< t/mm³, >= 0
+  double mass_damping;      ///< 1/s
+  double stiffness_damping; ///< s
+};
+CellDynamics dynamics_of(const Scene& scene, std::size_t cell);
+
+/// A mass (t) of one node.
+struct NodeMass {
+  int node;
+  double mass;
+};
+
+/// What [[mass]] adds to nodes of the mesh, in ascending order: shared equally by a region's nodes; a node on
+/// symmetry planes has the modelled part alone, as of a force.
+std::vector<NodeMass> added_masses(const Scene& scene);
+
+/// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them.
+std::vector<double> point_masses(const Scene& scene);
+
+/// Factors of the mass in C that belong to these points, t/s: of every cell's mass its material's mass_damping.
+/// What is added by [[mass]] is not damped.
+std::vector<double> point_mass_damping(const Scene& scene);
+
+/// Acceleration of all loads of kind gravity at a time (s), mm/s².
+Eigen::Vector3d gravity_at(const Scene& scene, double time);
+
+} // namespace springproof::cases

@@ -1,0 +1,173 @@
+#include "compare/measure/over_time.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+namespace springproof::compare {
+
+namespace {
+
+/// The vertex of the parabola through the values at i - 1, i, i + 1.
+Extreme vertex(const TimeSeries& series, std::size_t i) {
+  const double t = series.time[i], value = series.value[i];
+  const double before = series.time[i - 1] - t, after = series.time[i + 1] - t;
+  const double slope_before = (series.value[i - 1] - value) / before,
+               slope_after = (series.value[i + 1] - value) / after;
+  const double curvature = (slope_after - slope_before) / (after - before); // of curvature s² + slope s + value
+  const double slope = slope_before - curvature * before;
+  if (curvature == 0) return {t, value};
+  const double at = std::clamp(-slope / (2 * curvature), before, after);
+  return {t + at, value + (slope + curvature * at) * at};
+}
+
+struct StraightLine {
+  double start, slope;
+};
+
+/// Least squares through values at 0, 1, 2, ...; at least two.
+StraightLine line_through(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, moment = 0, inertia = 0;
+  const double centre = (n - 1) / 2;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double arm = static_cast<double>(i) - centre;
+    mean += values[i] / n;
+    moment += arm * values[i];
+    inertia += arm * arm;
+  }
+  const double slope = moment / inertia;
+  return {mean - slope * centre, slope};
+}
+
+double root_mean_square(const std::vector<double>& time, const std::vector<double>& value) {
+  if (time.size() < 2) return value.empty() ? 0 : std::abs(value.front());
+  double integral = 0; // by trapezoids
+  for (std::size_t i = 1; i < time.size(); ++i)
+    integral += (time[i] - time[i - 1]) * (value[i] * value[i] + value[i - 1] * value[i - 1]) / 2;
+  return std::sqrt(integral / (time.back() - time.front()));
+}
+
+std::size_t furthest(const TimeSeries& series) {
+  const auto is_nearer = [&](double a, double b) {
+    return std::abs(a - series.value.front()) < std::abs(b - series.value.front());
+  };
+  const auto at = std::max_element(series.value.begin(), series.value.end(), is_nearer);
+  return static_cast<std::size_t>(at - series.value.begin());
+}
+
+/// Between two steps too, unless it is at an end.
+Extreme peak_of(const TimeSeries& series) {
+  const std::size_t i = furthest(series);
+  if (i == 0 || i + 1 == series.value.size()) return {series.time[i], series.value[i]};
+  return vertex(series, i);
+}
+
+double settled_value(const TimeSeries& series) {
+  const auto swings = swings_of(series);
+  return swings ? swings->settled : series.value.back();
+}
+
+} // namespace
+
+std::vector<Extreme> extremes(const TimeSeries& series) {
+  std::vector<Extreme> found;
+  if (series.value.size() < 3) return found;
+  const auto [lowest, highest] = std::minmax_element(series.value.begin(), series.value.end());
+  const double noise = 0.05 * (*highest - *lowest);
+  if (!(noise > 0)) return found;
+  // The candidates since the last turning point, and which way the series goes: 0 until it has gone anywhere.
+  std::size_t low = 0, high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < series.value.size(); ++i) {
+    if (series.value[i] < series.value[low]) low = i;
+    if (series.value[i] > series.value[high]) high = i;
+    const bool fell = direction >= 0 && series.value[high] - series.value[i] > noise;
+    const bool rose = direction <= 0 && series.value[i] - series.value[low] > noise;
+    if (!fell && !rose) continue;
+    const std::size_t turned = fell ? high : low;
+    if (direction != 0 || turned > 0) found.push_back(vertex(series, turned));
+    direction = fell ? -1 : 1;
+    low = high = i;
+  }
+  return found;
+}
+
+std::optional<Swings> swings_of(const TimeSeries& series) {
+  const std::vector<Extreme> all = extremes(series);
+  if (all.size() < 3) return std::nullopt;
+  std::vector<double> times, ways;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    times.push_back(all[k].time);
+    if (k > 0) ways.push_back(std::log(std::abs(all[k].value - all[k - 1].value)));
+  }
+  const double decrement = -line_through(ways).slope; // of half a swing: pi zeta / sqrt(1 - zeta²)
+  const double ratio = decrement / std::acos(-1.0);
+  const double left = std::exp(-decrement); // of a swing's size half a period later, on the other side
+  const double last = all.back().value, before = all[all.size() - 2].value;
+  return Swings{0.5 / line_through(times).slope, ratio / std::hypot(1, ratio),
+                (last + left * before) / (1 + left)};
+}
+
+std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& series) {
+  using cases::OverTime;
+  assert(!series.value.empty() && series.value.size() == series.time.size());
+  const auto of_swings = [&](double Swings::*number) {
+    const auto swings = swings_of(series);
+    return swings ? std::optional((*swings).*number) : std::nullopt;
+  };
+  switch (what) {
+  case OverTime::end:
+    break;
+  case OverTime::settled:
+    return settled_value(series);
+  case OverTime::peak:
+    return peak_of(series).value;
+  case OverTime::peak_time:
+    return peak_of(series).time;
+  case OverTime::overshoot: {
+    const double settled = settled_value(series), way = settled - series.value.front();
+    if (way == 0) return std::nullopt;
+    return 100 * (peak_of(series).value - settled) / way;
+  }
+  case OverTime::frequency:
+    return of_swings(&Swings::frequency);
+  case OverTime::damping_ratio:
+    return of_swings(&Swings::damping_ratio);
+  case OverTime::trajectory_l2:
+    return root_mean_square(series.time, series.value);
+  }
+  return series.value.back();
+}
+
+std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other) {
+  assert(reference.time == other.time);
+  const double size = root_mean_square(reference.time, reference.value);
+  if (!(size > 0)) return std::nullopt;
+  std::vector<double> difference = other.value;
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.value[i];
+  return 100 * root_mean_square(reference.time, difference) / size;
+}
+
+std::string unit_over_time(cases::OverTime what, const std::string& unit) {
+  using cases::OverTime;
+  switch (what) {
+  case OverTime::peak_time:
+    return "s";
+  case OverTime::overshoot:
+    return "%";
+  case OverTime::frequency:
+    return "Hz";
+  case OverTime::damping_ratio:
+    return "1";
+  case OverTime::end:
+  case OverTime::settled:
+  case OverTime::peak:
+  case OverTime::trajectory_l2:
+    break;
+  }
+  return unit;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,251 @@
+#include "cases/case/read_dynamics.hpp"
+
+#include "tests/fuzz/mutate.hpp"
+#include "tests/support/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace springproof;
+
+using namespace cases;
+using namespace case_text;
+
+namespace {
+
+/// A beam that is let go under gravity, with a weight on its end. Line numbers matter.
+const std::string dynamic_case = R"(schema = 1
+name = 'beam'
+[body]
+shape = 'box'
+size = [100, 30, 30]
+cells = [20, 6, 6]
+[material]
+model = 'linear_elastic'
+youngs_modulus = 0.26
+poissons_ratio = 0.49
+density = 1070
+mass_damping = 0.5
+stiffness_damping = 0.001
+[dynamics]
+scheme = 'newmark'
+step = 0.01
+end = 2
+start = 'equilibrium'
+[[fixed]]
+region = 'x-'
+[[load]]
+kind = 'gravity'
+value = [0, 0, -9.81]
+[[load]]
+region = 'x+'
+kind = 'total_force'
+value = [0, 1, 0]
+history = [[0, 1], [0, 0]]
+[[mass]]
+region = 'x+ z+'
+value = 0.052
+[fem]
+mass = 'lumped'
+[msm]
+mass = 'uniform'
+[[measure]]
+name = 'drop'
+kind = 'displacement'
+node = 'x+ y- z+'
+component = 'z'
+over_time = 'frequency'
+)";
+
+void check_dynamic_mistakes(const std::vector<Mistake>& mistakes) {
+  for (const Mistake& mistake : mistakes)
+    check_case_refused(replaced(dynamic_case, mistake.from, mistake.to), mistake);
+}
+
+} // namespace
+
+TEST_CASE("a dynamic case is read") {
+  const Case c = read_text(dynamic_case);
+  REQUIRE(c.dynamics);
+  CHECK(c.dynamics->scheme.scheme == Scheme::newmark);
+  CHECK(c.dynamics->scheme.beta == 0.25);
+  CHECK(c.dynamics->scheme.gamma == 0.5);
+  CHECK(c.dynamics->step == 0.01);
+  CHECK(c.dynamics->end == 2);
+  CHECK(c.dynamics->n_steps() == 200);
+  CHECK(c.dynamics->write_every == 1);
+  CHECK(c.dynamics->start == MotionStart::equilibrium);
+  CHECK(c.material_dynamics.density == 1070);
+  CHECK(c.material_dynamics.mass_damping == 0.5);
+  CHECK(c.material_dynamics.stiffness_damping == 0.001);
+  REQUIRE(c.loads.size() == 2);
+  CHECK(c.loads[0].kind == LoadKind::gravity);
+  CHECK(c.loads[0].value == Eigen::Vector3d(0, 0, -9.81));
+  CHECK(c.loads[0].history.at(0) == 1);
+  CHECK(c.loads[1].history.just_before(0) == 1);
+  CHECK(c.loads[1].history.at(0) == 0);
+  REQUIRE(c.masses.size() == 1);
+  CHECK(c.masses[0].region.name == "x+ z+");
+  CHECK(c.masses[0].mass == 0.052);
+  CHECK(c.fem.mass == ElementMass::lumped);
+  CHECK(c.msm.mass == PointMass::uniform);
+  CHECK_FALSE(c.fem.has_auto_accuracy);
+  CHECK(c.measures[0].over_time == OverTime::frequency);
+}
+
+TEST_CASE("what a dynamic case may leave out has the usual values") {
+  Case c = read_text(replaced(dynamic_case, "over_time = 'frequency'\n", ""));
+  CHECK(c.measures[0].over_time == OverTime::end);
+  c = read_text(replaced(dynamic_case, "[fem]\nmass = 'lumped'\n[msm]\nmass = 'uniform'\n", ""));
+  CHECK(c.fem.mass == ElementMass::consistent);
+  CHECK(c.msm.mass == PointMass::cells);
+  c = read_text(replaced(dynamic_case, "end = 2\nstart = 'equilibrium'", "end = 20.5"));
+  CHECK(c.dynamics->start == MotionStart::rest);
+  CHECK(c.dynamics->write_every == 11); // 2050 steps, 200 bodies at most
+  c = read_text(replaced(dynamic_case, "'newmark'", "'newmark'\ngamma = 0.6"));
+  CHECK(c.dynamics->scheme.beta == Approx(1.1 * 1.1 / 4));
+  c = read_text(replaced(dynamic_case, "'newmark'", "'generalized_alpha'\nrho_infinity = 0.8"));
+  CHECK(c.dynamics->scheme.rho_infinity == 0.8);
+}
+
+TEST_CASE("a history is a list of times and factors, a ramp, a step, or a sine") {
+  const auto history = [](const std::string& text) {
+    return read_text(replaced(dynamic_case, "[[0, 1], [0, 0]]", text)).loads[1].history;
+  };
+  CHECK(history("[[0, 0], [0.5, 2], [1, 0]]").at(0.25) == 1);
+  CHECK(history("{ ramp = [1, 2] }").at(1.5) == 0.5);
+  CHECK(history("{ ramp = [1, 2] }").at(3) == 1);
+  CHECK(history("{ step = 0 }").just_before(0) == 0);
+  CHECK(history("{ step = 0 }").at(0) == 1);
+  CHECK(history("{ sine = 2 }").at(0.125) == Approx(1));
+}
+
+TEST_CASE("a body that begins at rest needs nothing that holds it, one that begins in equilibrium does") {
+  const std::string flying = replaced(dynamic_case, "[[fixed]]\nregion = 'x-'\n", "");
+  CHECK(read_text(replaced(flying, "'equilibrium'", "'rest'")).fixed.empty());
+  check_case_refused(flying, {"", "", 1, "fixed", {"is missing", "nothing holds the body"}});
+}
+
+TEST_CASE("a mistake in [dynamics] is refused where it is made") {
+  check_dynamic_mistakes({
+      {"scheme = 'newmark'\n", "", 14, "dynamics.scheme", {"is missing", "\"implicit_euler\" | \"newmark\""}},
+      {"'newmark'", "'newmarc'", 15, "dynamics.scheme", {"did you mean \"newmark\"?"}},
+      {"'newmark'", "'bdf2'\nbeta = 0.25", 16, "dynamics.beta", {"scheme = \"newmark\""}},
+      {"'newmark'", "'newmark'\ngamma = 0.4", 16, "dynamics.gamma", {"from 0.5 to 1"}},
+      {"'newmark'", "'newmark'\nbeta = 0.1", 16, "dynamics.beta", {"gamma/2", "0.25", "unstable"}},
+      {"'newmark'", "'newmark'\nrho_infinity = 1", 16, "dynamics.rho_infinity", {"generalized_alpha"}},
+      {"'newmark'", "'generalized_alpha'", 14, "dynamics.rho_infinity", {"is missing", "from 0 to 1"}},
+      {"'newmark'", "'generalized_alpha'\nrho_infinity = 1.1", 16, "dynamics.rho_infinity", {"from 0 to 1"}},
+      {"step = 0.01", "step = 0", 16, "dynamics.step", {"1e-9 to 1000000 (s)"}},
+      {"step = 0.01", "step = 1e-200", 16, "dynamics.step", {"1e-9"}},
+      {"step = 0.01\n", "", 14, "dynamics.step", {"is missing"}},
+      {"end = 2", "end = 2.005", 17, "dynamics.end", {"whole number of steps of 0.01 s"}},
+      {"end = 2", "end = 0.001", 17, "dynamics.end", {"whole number of steps"}},
+      {"end = 2", "end = 1e9", 17, "dynamics.end", {"1 to 10000000"}},
+      {"end = 2", "end = 2\nwrite_every = 0", 18, "dynamics.write_every", {"whole number from 1"}},
+      {"'equilibrium'", "'deformed'", 18, "dynamics.start", {"\"rest\" | \"equilibrium\""}},
+      {"end = 2", "end = 2\nsteps = 4", 18, "dynamics.steps", {"did you mean \"step\"?"}},
+  });
+}
+
+TEST_CASE("a mistake in masses, gravity or damping is refused where it is made") {
+  check_dynamic_mistakes({
+      {"density = 1070\n", "", 7, "material.density", {"is missing", "(kg/m³)", "beside [dynamics]"}},
+      {"density = 1070", "density = 1.07e-9", 11, "material.density", {"0.001 to 1000000 (kg/m³)"}},
+      {"mass_damping = 0.5", "mass_damping = -1", 12, "material.mass_damping", {"0 or above (1/s)"}},
+      {"stiffness_damping = 0.001", "stiffness_damping = '1'", 13, "material.stiffness_damping", {"(s)"}},
+      {"value = 0.052", "value = 0", 31, "mass[0].value", {"(kg)"}},
+      {"region = 'x+ z+'\n", "", 29, "mass[0].region", {"is missing"}},
+      {"kind = 'gravity'", "kind = 'gravity'\nregion = 'x+'", 23, "load[0].region", {"whole body"}},
+      {"[0, 0, -9.81]", "-9.81", 23, "load[0].value", {"three finite numbers (m/s²)"}},
+      {"'lumped'", "'lumpy'", 33, "fem.mass", {"did you mean \"lumped\"?"}},
+      {"'uniform'", "'lumped'", 35, "msm.mass", {"\"cells\" | \"uniform\""}},
+      {"[dynamics]",
+       "[[region_material]]\naxis = 'x'\nto = 50\nmodel = 'linear_elastic'\n"
+       "youngs_modulus = 1\npoissons_ratio = 0.3\n[dynamics]",
+       14,
+       "region_material[0]",
+       {"density is missing"}},
+  });
+}
+
+TEST_CASE("a mistake in a history is refused where it is made") {
+  const std::string history = "[[0, 1], [0, 0]]";
+  check_dynamic_mistakes({
+      {history, "1", 28, "load[1].history", {"ramp", "step", "sine"}},
+      {history, "[]", 28, "load[1].history", {"[time (s), factor]"}},
+      {history, "[[0, 1], [0]]", 28, "load[1].history[1]", {"two finite numbers"}},
+      {history, "[[1, 1], [0.5, 0]]", 28, "load[1].history[1]", {"do not descend"}},
+      {history, "[[1, 1], [1, 0], [1, 2]]", 28, "load[1].history[2]", {"at most two"}},
+      {history, "[[-1, 1], [1, 0]]", 28, "load[1].history[0]", {"times from 0"}},
+      {history, "{ ramp = [1, 1] }", 28, "load[1].history.ramp", {"the smaller first"}},
+      {history, "{ step = -1 }", 28, "load[1].history.step", {"from 0 (s)"}},
+      {history, "{ sine = 1e308 }", 28, "load[1].history.sine", {"at most 1e9"}},
+      {history, "{ sine = 0 }", 28, "load[1].history.sine", {"above 0 (Hz)"}},
+      {history, "{ sine = 1, step = 1 }", 28, "load[1].history", {"one of them"}},
+      {history, "{ sin = 1 }", 28, "load[1].history.sin", {"did you mean \"sine\"?"}},
+      {history, "{}", 28, "load[1].history", {"{ ramp = [from, to] }"}},
+  });
+}
+
+TEST_CASE("a support has a motion that begins where the body is, and does not jump") {
+  const std::string load = "[[load]]\nregion = 'x+'\nkind = 'total_force'\nvalue = [0, 1, 0]\n",
+                    moved = "[[moved]]\nregion = 'x+'\ndisplacement = [0, 0, 1]\n",
+                    text = replaced(dynamic_case, load, moved);
+  const std::string none = replaced(text, "history = [[0, 1], [0, 0]]\n", "");
+  check_case_refused(none, {"", "", 25, "moved[0].region", {"history is missing"}});
+  check_case_refused(text, {"", "", 25, "moved[0].region", {"history jumps"}});
+  const std::string held = replaced(text, "[[0, 1], [0, 0]]", "[[0, 1], [1, 0]]");
+  CHECK(read_text(held).moved[0].history.at(0) == 1);
+  check_case_refused(replaced(held, "'equilibrium'", "'rest'"),
+                     {"", "", 25, "moved[0].region", {"must be 0", "\"rest\""}});
+}
+
+TEST_CASE("what has no meaning in a static case, or none in a dynamic one, is refused") {
+  const std::string density = "poissons_ratio = 0.35\ndensity = 1000";
+  check_mistakes({
+      {"poissons_ratio = 0.35", density + "\nmass_damping = 1", 13, "material.mass_damping", {"[dynamics]"}},
+      {"value = [0.002, 0, 0.0]",
+       "value = [0.002, 0, 0.0]\nhistory = { step = 1 }",
+       18,
+       "load[0].history",
+       {"[dynamics]"}},
+      {"toward = 'x'", "toward = 'x'\nover_time = 'peak'", 32, "measure[0].over_time", {"[dynamics]"}},
+      {"refine = 1", "refine = 1\nmass = 'lumped'", 22, "fem.mass", {"density"}},
+      {"split = 0.8", "split = 0.8\nmass = 'cells'", 26, "msm.mass", {"density"}},
+      {"region = 'z+'\nkind = 'nodal_force'",
+       "kind = 'gravity'",
+       8,
+       "material.density",
+       {"is missing", "\"gravity\""}},
+  });
+  CHECK(read_text(replaced(good_case, "poissons_ratio = 0.35", density)).material_dynamics.density == 1000);
+  check_dynamic_mistakes({
+      {"mass = 'lumped'", "mass = 'lumped'\naccuracy = 'auto'", 34, "fem.accuracy", {"--converge"}},
+      {"mass = 'lumped'", "mass = 'lumped'\nformulation = 'auto'", 32, "fem", {"formulation", "[dynamics]"}},
+      {"mass = 'uniform'", "mass = 'uniform'\nsolver = 'fire'", 34, "msm", {"\"newton\" or \"snes\""}},
+      {"kind = 'displacement'\nnode = 'x+ y- z+'\ncomponent = 'z'",
+       "kind = 'displacement_field_l2'",
+       39,
+       "measure[0].over_time",
+       {"of the end"}},
+  });
+}
+
+TEST_CASE("300 damaged dynamic cases each end in a case or in one line that says what is wrong") {
+  fuzz::Random random(20261122);
+  int n_refused = 0, n_read = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::string text = fuzz::mutated(dynamic_case, random);
+    INFO("number " << i << ":\n" << text);
+    try {
+      read_case_text(text, "beam.toml");
+      ++n_read;
+    } catch (const InputError& error) {
+      ++n_refused;
+      CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    } // anything else fails the test
+  }
+  CHECK(n_refused > 150);
+  CHECK(n_read > 10);
+}
