@@ -54,6 +54,14 @@ CellTerms terms_by_axis(const std::array<double, 7>& stiffness, double volume) {
   return terms;
 }
 
+CellTerms scaled(CellTerms terms, double factor) {
+  for (CellSpring& spring : terms.springs) spring.stiffness *= factor;
+  for (CellTetrahedron& tetrahedron : terms.tetrahedra)
+    for (double* of : {&tetrahedron.lambda, &tetrahedron.mu}) *of *= factor;
+  terms.volume *= factor;
+  return terms;
+}
+
 int n_axes(const CellSpring& spring) {
   const int crossed = spring.vertices[0] ^ spring.vertices[1];
   return (crossed & 1) + ((crossed >> 1) & 1) + ((crossed >> 2) & 1);

@@ -51,6 +51,9 @@ CellTerms terms_of(const CellStiffness& stiffness);
 /// @param stiffness  N/mm: k_e along x, y, z; k_f in the faces across x, y, z; k_d    @param volume  k_v, MPa
 CellTerms terms_by_axis(const std::array<double, 7>& stiffness, double volume);
 
+/// All stiffnesses times a factor.
+CellTerms scaled(CellTerms terms, double factor);
+
 /// The kind of a cell's spring by the number of axes that it crosses: 1 an edge, 2 a face diagonal, 3 an
 /// internal diagonal.
 int n_axes(const CellSpring& spring);

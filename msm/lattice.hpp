@@ -30,6 +30,12 @@ struct CellStiffness {
                                         ///< Hooke's springs and the linear one, (k_v/2) V0 (V/V0 - 1)²
 };
 
+/// All stiffnesses times a factor.
+inline CellStiffness scaled(CellStiffness k, double factor) {
+  for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= factor;
+  return k;
+}
+
 /// Calls action(vertex, vertex, stiffness, exponent of the power-log law or none) for the springs of a cell.
 template<class Action>
 void for_each_spring(const CellStiffness& stiffness, const Action& action) {

@@ -1,6 +1,7 @@
 #include "msm/problem.hpp"
 
 #include "cases/mesh/sharing.hpp"
+#include "cases/scene/masses.hpp"
 
 #include <algorithm>
 
@@ -8,24 +9,36 @@ namespace springproof::msm {
 
 namespace {
 
-std::function<std::vector<cases::NodeVector>(double)> moving_supports(const cases::Scene& scene) {
+/// @param factor  of a motion, from the load factor or the time
+std::function<std::vector<cases::NodeVector>(double)>
+moving_supports(const cases::Scene& scene, double (*factor)(const cases::Moved& motion, double at)) {
   if (scene.moved.empty()) return {};
   std::vector<int> nodes;
   for (const auto& [selection, motion] : scene.moved)
     nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
   cases::make_set(nodes);
-  return [moved = scene.moved, rest = scene.mesh.nodes, nodes](double load_factor) {
+  return [moved = scene.moved, rest = scene.mesh.nodes, nodes, factor](double at) {
     std::vector<cases::NodeVector> displacement;
     for (const int node : nodes) displacement.push_back({node, Eigen::Vector3d::Zero()});
     for (const auto& [selection, motion] : moved)
       for (const int node : selection.nodes) {
-        const Eigen::Vector3d by = cases::moved_by(motion, rest[cases::index(node)], load_factor);
+        const Eigen::Vector3d by = cases::moved_by(motion, rest[cases::index(node)], factor(motion, at));
         const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
         for (int a = 0; a < 3; ++a)
           if (motion.components[cases::index(a)]) displacement[cases::index(place)].value[a] = by[a];
       }
     return displacement;
   };
+}
+
+/// What acts on the points, gravity among it.
+std::vector<cases::NodeVector> loads(const cases::Scene& scene) {
+  const std::vector<cases::NodeVector> some = cases::loaded_nodes(scene);
+  const Eigen::Vector3d gravity = cases::gravity(scene);
+  if (gravity.isZero(0)) return some;
+  std::vector<cases::NodeVector> all = cases::weights(cases::point_masses(scene), gravity);
+  for (const auto& [node, force] : some) all[cases::index(node)].value += force;
+  return all;
 }
 
 } // namespace
@@ -36,7 +49,13 @@ std::size_t n_unknowns(const Problem& problem) {
 }
 
 Problem make_problem(const cases::Scene& scene) {
-  return {scene.mesh, {}, cases::loaded_nodes(scene), cases::constrained_dofs(scene), moving_supports(scene)};
+  const auto factor = [](const cases::Moved& /*motion*/, double load_factor) { return load_factor; };
+  return {scene.mesh, {}, loads(scene), cases::constrained_dofs(scene), moving_supports(scene, factor)};
+}
+
+Problem make_moving_problem(const cases::Scene& scene) {
+  const auto factor = [](const cases::Moved& motion, double time) { return motion.history.at(time); };
+  return {scene.mesh, {}, {}, cases::constrained_dofs(scene), moving_supports(scene, factor)};
 }
 
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {

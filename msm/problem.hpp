@@ -26,6 +26,8 @@ struct Problem {
 
 /// A scene as springs see it, but for its lattice.
 Problem make_problem(const cases::Scene& scene);
+/// The same in motion: its loads are the inertia's, and a load factor is a time (s), which supports follow.
+Problem make_moving_problem(const cases::Scene& scene);
 
 /// Free degrees of freedom.
 std::size_t n_unknowns(const Problem& problem);

@@ -43,6 +43,20 @@ struct Fields {
                                        ///< the symmetric part of the displacement gradient's mean
 };
 
+/// A body's motion: what was watched of it at the start and after every step, and all of it now and then.
+struct Trajectory {
+  std::vector<double> time;                  ///< s, ascending; the first is the start
+  std::vector<int> nodes;                    ///< of the body's mesh, ascending: those that are watched
+  std::vector<Eigen::Vector3d> displacement; ///< mm, of the watched nodes at the first time, at the second ...
+  std::vector<double> volume;                ///< mm³, of the body at these times; empty: it is not watched
+  struct Body {
+    int step;                                  ///< place among the times
+    std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
+  };
+  std::vector<Body> bodies; ///< every write_every steps; the first and the last
+  int halved_steps = 0;     ///< how often a step was halved, because its equation was not solved
+};
+
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
 /// displacement.
 struct Solution {
@@ -67,6 +81,7 @@ struct Solution {
   std::optional<int>
       negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
   int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
+  std::optional<Trajectory> trajectory{}; ///< of a dynamic case: the rest is of its end
 
   /// As far as the tangent's eigenvalues were looked at.
   bool is_unstable() const {

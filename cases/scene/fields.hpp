@@ -89,16 +89,18 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
+SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
+SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps)
 
 /// Who shares it is for the reader to know.
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Solution& solution) {
   auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,
          load_reached, newton_iterations, linear_iterations, relaxation_iterations, force_evaluations,
-         factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells] = solution;
+         factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory] = solution;
   archive(status, message, outcome, displacement, cell_volume, fields, unknowns, residual, load_reached,
           newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
-          lowest_eigenvalue, negative_eigenvalues, inverted_cells);
+          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory);
 }
 
 } // namespace cereal

@@ -67,12 +67,22 @@ std::vector<double> point_mass_damping(const Scene& scene) {
   return shared_out(scene, [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
 }
 
-Eigen::Vector3d gravity_at(const Scene& scene, double time) {
+Eigen::Vector3d acceleration_of(const Load& gravity) {
+  return mm_per_m * gravity.value;
+}
+
+Eigen::Vector3d gravity(const Scene& scene) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& applied : scene.loads)
-    if (applied.load.kind == LoadKind::gravity)
-      sum += mm_per_m * applied.load.history.at(time) * applied.load.value;
+    if (applied.load.kind == LoadKind::gravity) sum += acceleration_of(applied.load);
   return sum;
+}
+
+std::vector<NodeVector> weights(const std::vector<double>& masses, const Eigen::Vector3d& acceleration) {
+  std::vector<NodeVector> forces;
+  for (std::size_t n = 0; n < masses.size(); ++n)
+    forces.push_back({static_cast<int>(n), masses[n] * acceleration});
+  return forces;
 }
 
 } // namespace springproof::cases

@@ -30,7 +30,11 @@ std::vector<double> point_masses(const Scene& scene);
 /// What is added by [[mass]] is not damped.
 std::vector<double> point_mass_damping(const Scene& scene);
 
-/// Acceleration of all loads of kind gravity at a time (s), mm/s².
-Eigen::Vector3d gravity_at(const Scene& scene, double time);
+/// Of a load of kind gravity, mm/s², at a factor of 1; and of all of a scene's together.
+Eigen::Vector3d acceleration_of(const Load& gravity);
+Eigen::Vector3d gravity(const Scene& scene);
+
+/// Forces on all points in an acceleration (mm/s²), N.  @param masses  point_masses()
+std::vector<NodeVector> weights(const std::vector<double>& masses, const Eigen::Vector3d& acceleration);
 
 } // namespace springproof::cases

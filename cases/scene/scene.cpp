@@ -84,12 +84,12 @@ void integrate(const HexMesh& mesh, const Selection& selection, const Action& ac
       }
 }
 
-/// Forces on the nodes of the loads' regions, which add up.
+/// Forces on the nodes of loads' regions, which add up.
 class Forces {
  public:
-  explicit Forces(const Scene& scene) {
+  explicit Forces(const std::vector<Scene::AppliedLoad>& loads) {
     std::vector<int> nodes;
-    for (const auto& [selection, load] : scene.loads) {
+    for (const auto& [selection, load] : loads) {
       nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
       for (const auto& face : selection.faces) nodes.insert(nodes.end(), face.begin(), face.end());
     }
@@ -103,9 +103,9 @@ class Forces {
   std::vector<NodeVector> forces;
 };
 
-void add_point_forces(const Scene& scene, Forces& forces) {
+void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads, Forces& forces) {
   const auto share = modelled_share(scene);
-  for (const auto& [selection, load] : scene.loads) {
+  for (const auto& [selection, load] : loads) {
     if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
     double divisor = load.kind == LoadKind::total_force ? 0 : 1;
     if (divisor == 0)
@@ -367,8 +367,8 @@ std::function<double(int node)> modelled_share(const Scene& scene) {
 }
 
 std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
-  Forces all(scene);
-  add_point_forces(scene, all);
+  Forces all(scene.loads);
+  add_point_forces(scene, scene.loads, all);
   return all.forces;
 }
 
@@ -393,9 +393,13 @@ double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {
 }
 
 std::vector<NodeVector> loaded_nodes(const Scene& scene) {
-  Forces all(scene);
-  add_point_forces(scene, all);
-  for (const Scene::AppliedLoad& applied : scene.loads) {
+  return loaded_nodes(scene, scene.loads);
+}
+
+std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads) {
+  Forces all(loads);
+  add_point_forces(scene, loads, all);
+  for (const Scene::AppliedLoad& applied : loads) {
     if (!acts_on_area(applied.load.kind)) continue;
     const double moment = applied.load.kind == LoadKind::torque ? polar_moment(scene.mesh, applied) : 0;
     integrate(scene.mesh, applied.selection,

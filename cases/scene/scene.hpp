@@ -79,6 +79,8 @@ struct NodeVector {
 /// torques integrated with bilinear shape functions on the rest faces. Gravity is none of them: models have
 /// masses of their own.
 std::vector<NodeVector> loaded_nodes(const Scene& scene);
+/// The same of some of the scene's loads alone.
+std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads);
 
 /// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.
 double area(const HexMesh& mesh, const Selection& selection);

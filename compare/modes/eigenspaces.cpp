@@ -58,6 +58,11 @@ Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs) {
   return solvers().lowest_spectrum(std::move(matrix), n_pairs);
 }
 
+Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
+                           int n_pairs) {
+  return solvers().lowest_vibrations(std::move(stiffness), std::move(mass), n_pairs);
+}
+
 std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending) {
   const double gap = same_eigenvalue * ascending.cwiseAbs().maxCoeff();
   std::vector<Eigenspace> spaces;

@@ -18,6 +18,12 @@ using mechanics::petsc::Spectrum;
 Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
 
+/// The lowest vibrations of a body, K x = omega² M x: values omega² (1/s², of N/mm and t), vectors of x . M x
+/// = 1. As lowest_spectrum() otherwise; a free body's rigid modes are those of 0.
+/// @param mass  positive definite, of the stiffness's size
+Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
+                           int n_pairs);
+
 struct Eigenspace {
   double eigenvalue; ///< mean of the cluster, N/mm
   int offset;        ///< first of its columns in the ascending spectrum

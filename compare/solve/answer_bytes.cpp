@@ -2,6 +2,7 @@
 
 #include "compare/solve/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -9,21 +10,46 @@ namespace springproof::compare {
 
 namespace {
 
+bool are_finite(const std::vector<Eigen::Vector3d>& displacement) {
+  return std::all_of(displacement.begin(), displacement.end(),
+                     [](const Eigen::Vector3d& u) { return u.allFinite(); });
+}
+
+bool are_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool are_finite(const std::vector<cases::SymmetricTensor>& tensors) {
+  return std::all_of(tensors.begin(), tensors.end(), [](const cases::SymmetricTensor& tensor) {
+    return std::all_of(tensor.begin(), tensor.end(), [](double value) { return std::isfinite(value); });
+  });
+}
+
 /// As many finite values as the share has nodes and cells, where there are any.
 bool fit(const std::optional<cases::Fields>& fields, const cases::Share& share) {
   if (!fields) return true;
-  const auto is_finite = [](const cases::SymmetricTensor& tensor) {
-    return std::all_of(tensor.begin(), tensor.end(), [](double value) { return std::isfinite(value); });
-  };
   const auto& [reaction, total_energy, has_stress, energy, stress, strain] = *fields;
   const std::size_t n_of_stress = has_stress ? share.cells.size() : 0;
   return reaction.size() == share.nodes.size() && energy.size() == n_of_stress &&
          stress.size() == n_of_stress && strain.size() == share.cells.size() && std::isfinite(total_energy) &&
-         std::all_of(reaction.begin(), reaction.end(),
-                     [](const Eigen::Vector3d& force) { return force.allFinite(); }) &&
-         std::all_of(energy.begin(), energy.end(), [](double value) { return std::isfinite(value); }) &&
-         std::all_of(stress.begin(), stress.end(), is_finite) &&
-         std::all_of(strain.begin(), strain.end(), is_finite);
+         are_finite(reaction) && are_finite(energy) && are_finite(stress) && are_finite(strain);
+}
+
+/// Whether a motion is one of a body with that many nodes at least.
+bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
+  const std::size_t n = motion.time.size();
+  const auto is_node = [&](int node) { return node >= 0 && cases::index(node) < n_nodes; };
+  const auto is_body = [&](const cases::Trajectory::Body& body) {
+    return body.step >= 0 && cases::index(body.step) < n && body.displacement.size() >= n_nodes &&
+           are_finite(body.displacement);
+  };
+  return n > 0 && motion.displacement.size() == n * motion.nodes.size() &&
+         (motion.volume.empty() || motion.volume.size() == n) &&
+         std::is_sorted(motion.time.begin(), motion.time.end()) &&
+         std::is_sorted(motion.nodes.begin(), motion.nodes.end()) && are_finite(motion.time) &&
+         are_finite(motion.displacement) && are_finite(motion.volume) &&
+         std::all_of(motion.nodes.begin(), motion.nodes.end(), is_node) &&
+         std::all_of(motion.bodies.begin(), motion.bodies.end(), is_body);
 }
 
 /// @throws std::runtime_error if a solution has not as many values as the share has nodes and cells
@@ -31,14 +57,12 @@ void check(const cases::Solution& solution, const cases::Share& share) {
   const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
     return size == expected || (size == 0 && solution.status != cases::Status::converged);
   };
-  const bool is_finite = std::all_of(solution.displacement.begin(), solution.displacement.end(),
-                                     [](const Eigen::Vector3d& u) { return u.allFinite(); }) &&
-                         std::all_of(solution.cell_volume.begin(), solution.cell_volume.end(),
-                                     [](double volume) { return std::isfinite(volume); });
+  const bool is_finite = are_finite(solution.displacement) && are_finite(solution.cell_volume);
+  const bool is_moved = !solution.trajectory || is_sound(*solution.trajectory, share.nodes.end);
   if (!fit(solution.fields, share))
     throw std::runtime_error("has fields that are not those of the case's mesh");
   if (!is_empty_or(solution.displacement.size(), share.nodes.size()) ||
-      !is_empty_or(solution.cell_volume.size(), share.cells.size()) || !is_finite)
+      !is_empty_or(solution.cell_volume.size(), share.cells.size()) || !is_finite || !is_moved)
     throw std::runtime_error("has values that are no solution on the case's mesh");
 }
 

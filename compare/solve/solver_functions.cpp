@@ -42,6 +42,7 @@ const SolverFunctions springproof_solvers{start,
                                           solve_by_snes,
                                           solve_lattice_by_snes,
                                           mechanics::petsc::full_spectrum,
-                                          mechanics::petsc::lowest_spectrum};
+                                          mechanics::petsc::lowest_spectrum,
+                                          mechanics::petsc::lowest_vibrations};
 
 } // namespace springproof::compare

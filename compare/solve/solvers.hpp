@@ -19,6 +19,8 @@ struct SolverFunctions {
   cases::Solution (*solve_lattice_by_snes)(const cases::Scene&, msm::Lattice);
   mechanics::petsc::Spectrum (*full_spectrum)(const Eigen::MatrixXd&);
   mechanics::petsc::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
+  mechanics::petsc::Spectrum (*lowest_vibrations)(Eigen::SparseMatrix<double> stiffness,
+                                                  Eigen::SparseMatrix<double> mass, int n_pairs);
 };
 
 /// The symbol by which solvers() finds them.

@@ -99,14 +99,8 @@ bool is_beyond(const cases::Stiffer& stiffer, const cases::HexMesh& mesh, std::s
 /// The terms of every cell, stiffer beyond the plane: further kinds.
 msm::BodyTerms stiffened(msm::BodyTerms terms, const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
   const std::size_t n_kinds = terms.kinds.size();
-  for (std::size_t kind = 0; kind < n_kinds; ++kind) {
-    msm::CellTerms stiff = terms.kinds[kind];
-    for (msm::CellSpring& spring : stiff.springs) spring.stiffness *= stiffer.factor;
-    for (msm::CellTetrahedron& tetrahedron : stiff.tetrahedra)
-      for (double* of : {&tetrahedron.lambda, &tetrahedron.mu}) *of *= stiffer.factor;
-    stiff.volume *= stiffer.factor;
-    terms.kinds.push_back(stiff);
-  }
+  for (std::size_t kind = 0; kind < n_kinds; ++kind)
+    terms.kinds.push_back(msm::scaled(terms.kinds[kind], stiffer.factor));
   for (std::size_t c = 0; c < terms.kind_of_cell.size(); ++c)
     if (is_beyond(stiffer, mesh, c)) terms.kind_of_cell[c] += static_cast<int>(n_kinds);
   return terms;
@@ -116,11 +110,8 @@ msm::BodyTerms stiffened(msm::BodyTerms terms, const cases::Stiffer& stiffer, co
 std::vector<msm::CellStiffness> stiffened(std::vector<msm::CellStiffness> springs,
                                           const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
   if (springs.size() == 1) springs.resize(mesh.cells.size(), springs.front());
-  for (std::size_t c = 0; c < springs.size(); ++c) {
-    if (!is_beyond(stiffer, mesh, c)) continue;
-    msm::CellStiffness& k = springs[c];
-    for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= stiffer.factor;
-  }
+  for (std::size_t c = 0; c < springs.size(); ++c)
+    if (is_beyond(stiffer, mesh, c)) springs[c] = msm::scaled(springs[c], stiffer.factor);
   return springs;
 }
 

@@ -14,12 +14,23 @@ namespace {
 
 using OwnedSolver = Owned<EPS, EPSDestroy>;
 
-/// For the eigenpairs of a symmetric matrix.
-OwnedSolver solver_for(Mat matrix) {
+/// For the eigenpairs of a symmetric matrix, or of one and a mass matrix.
+OwnedSolver solver_for(Mat matrix, Mat mass = nullptr) {
   OwnedSolver solver(get<EPS>(EPSCreate, PETSC_COMM_SELF));
-  check(EPSSetOperators(solver.get(), matrix, nullptr));
-  check(EPSSetProblemType(solver.get(), EPS_HEP));
+  check(EPSSetOperators(solver.get(), matrix, mass));
+  check(EPSSetProblemType(solver.get(), mass ? EPS_GHEP : EPS_HEP));
   return solver;
+}
+
+/// Uses the values where they are.
+Matrix symmetric_matrix(Eigen::SparseMatrix<double>& values) {
+  const auto size = static_cast<PetscInt>(values.rows());
+  values.makeCompressed();
+  // Compressed columns of a symmetric matrix are its compressed rows.
+  Matrix matrix(get<Mat>(MatCreateSeqAIJWithArrays, PETSC_COMM_SELF, size, size, values.outerIndexPtr(),
+                         values.innerIndexPtr(), values.valuePtr()));
+  check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return matrix;
 }
 
 Spectrum solve(EPS solver, PetscInt size, PetscInt n_wanted) {
@@ -41,6 +52,26 @@ Spectrum solve(EPS solver, PetscInt size, PetscInt n_wanted) {
   return {found.values(order), found.vectors(Eigen::all, order)};
 }
 
+/// @param shift  below zero
+Spectrum solve_by_shift(EPS solver, PetscInt size, int n_pairs, double shift) {
+  check(EPSSetDimensions(solver, n_pairs, std::min<PetscInt>(size, 3 * n_pairs + 20), PETSC_DEFAULT));
+  check(EPSSetTarget(solver, shift));
+  check(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
+  check(EPSSetTolerances(solver, 1e-12, 1000));
+  const auto transformation = get<ST>(EPSGetST, solver);
+  check(STSetType(transformation, STSINVERT));
+  const auto linear = get<KSP>(STGetKSP, transformation);
+  check(KSPSetType(linear, KSPPREONLY));
+  const auto factorisation = get<PC>(KSPGetPC, linear);
+  check(PCSetType(factorisation, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  return solve(solver, size, n_pairs);
+}
+
+// Shifts are far enough below zero that the shifted matrix is safely definite, near enough that low modes
+// stay dominant.
+constexpr double shift_of_diagonal = -1e-4;
+
 } // namespace
 
 Spectrum full_spectrum(const Eigen::MatrixXd& values) {
@@ -54,28 +85,18 @@ Spectrum full_spectrum(const Eigen::MatrixXd& values) {
 }
 
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> values, int n_pairs) {
-  const auto size = static_cast<PetscInt>(values.rows());
-  values.makeCompressed();
-  // Compressed columns of a symmetric matrix are its compressed rows.
-  const Matrix matrix(get<Mat>(MatCreateSeqAIJWithArrays, PETSC_COMM_SELF, size, size, values.outerIndexPtr(),
-                               values.innerIndexPtr(), values.valuePtr()));
-  check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  const Matrix matrix = symmetric_matrix(values);
   const OwnedSolver solver = solver_for(matrix.get());
-  // Far enough below zero that the shifted matrix is safely definite, near enough that low modes stay
-  // dominant.
-  const double shift = -1e-4 * values.diagonal().mean();
-  check(EPSSetDimensions(solver.get(), n_pairs, std::min<PetscInt>(size, 3 * n_pairs + 20), PETSC_DEFAULT));
-  check(EPSSetTarget(solver.get(), shift));
-  check(EPSSetWhichEigenpairs(solver.get(), EPS_TARGET_MAGNITUDE));
-  check(EPSSetTolerances(solver.get(), 1e-12, 1000));
-  const auto transformation = get<ST>(EPSGetST, solver.get());
-  check(STSetType(transformation, STSINVERT));
-  const auto linear = get<KSP>(STGetKSP, transformation);
-  check(KSPSetType(linear, KSPPREONLY));
-  const auto factorisation = get<PC>(KSPGetPC, linear);
-  check(PCSetType(factorisation, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
-  return solve(solver.get(), size, n_pairs);
+  return solve_by_shift(solver.get(), static_cast<PetscInt>(values.rows()), n_pairs,
+                        shift_of_diagonal * values.diagonal().mean());
+}
+
+Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
+                           int n_pairs) {
+  const Matrix matrix = symmetric_matrix(stiffness), mass_matrix = symmetric_matrix(mass);
+  const OwnedSolver solver = solver_for(matrix.get(), mass_matrix.get());
+  return solve_by_shift(solver.get(), static_cast<PetscInt>(stiffness.rows()), n_pairs,
+                        shift_of_diagonal * stiffness.diagonal().mean() / mass.diagonal().mean());
 }
 
 } // namespace springproof::mechanics::petsc

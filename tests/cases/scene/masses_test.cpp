@@ -94,16 +94,20 @@ TEST_CASE("a weight on a symmetry plane is the modelled part's, less at nodes on
   CHECK(total(added) == Approx(0.03e-3).epsilon(1e-13));
 }
 
-TEST_CASE("gravity follows its histories, in mm/s²") {
-  Scene scene = make_scene(two_cells());
-  Load down, swinging;
-  down.kind = swinging.kind = LoadKind::gravity;
+TEST_CASE("gravity weighs every point with its mass, in N, and what is added too") {
+  Case definition = two_cells();
+  definition.masses.push_back({named("x+ z+"), 0.052});
+  Scene scene = make_scene(definition);
+  Load down, sideways;
+  down.kind = sideways.kind = LoadKind::gravity;
   down.value = {0, 0, -9.81};
-  swinging.value = {2, 0, 0};
-  swinging.history.points = {{0., 0.}, {1., 1.}};
-  scene.loads = {{{}, down}, {{}, swinging}};
-  CHECK((gravity_at(scene, 0.5) - Vector3d(1000, 0, -9810)).norm() < 1e-9);
-  CHECK((gravity_at(scene, 0) - Vector3d(0, 0, -9810)).norm() < 1e-9);
+  sideways.value = {2, 0, 0};
+  scene.loads = {{{}, down}, {{}, sideways}};
+  CHECK((gravity(scene) - Vector3d(2000, 0, -9810)).norm() < 1e-9);
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& [node, force] : weights(point_masses(scene), gravity(scene))) sum += force;
+  const double kilograms = 0.012 + 0.052; // two cells of 6 cm³ of water, and the weight
+  CHECK((sum - kilograms * Vector3d(2, 0, -9.81)).norm() < 1e-12);
 }
 
 TEST_CASE("a case without a density has no mass") {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+
+/// What a dynamic case's scene is at single times, and what is watched of it.
+namespace springproof::cases {
+
+/// The static scene whose equilibrium a motion may start from: loads and motions by their factors just before
+/// time 0, at full load, without [dynamics].
+Scene scene_before_start(const Scene& scene);
+
+/// Nodes that the case's measures look at, ascending.
+std::vector<int> watched_nodes(const Scene& scene);
+
+/// Whether one of its measures is of the body's volume.
+bool watches_volume(const Scene& scene);
+
+} // namespace springproof::cases

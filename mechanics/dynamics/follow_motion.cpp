@@ -1,0 +1,61 @@
+#include "mechanics/dynamics/follow_motion.hpp"
+
+#include "cases/scene/in_time.hpp"
+
+#include <utility>
+
+namespace springproof::mechanics {
+
+namespace {
+
+/// Takes down a motion, step after step.
+class Record {
+ public:
+  Record(const cases::Scene& scene, const BodyInTime& body)
+      : body_(body), dynamics_(*scene.definition.dynamics), has_volume_(cases::watches_volume(scene)) {
+    trajectory_.nodes = cases::watched_nodes(scene);
+  }
+
+  void add(int step, double time, const Vector& state) {
+    const std::vector<Eigen::Vector3d> displacement = body_.displacement(state);
+    trajectory_.time.push_back(time);
+    for (const int node : trajectory_.nodes)
+      trajectory_.displacement.push_back(displacement[cases::index(node)]);
+    if (has_volume_) trajectory_.volume.push_back(body_.volume(state));
+    if (step % dynamics_.write_every == 0 || step == dynamics_.n_steps())
+      trajectory_.bodies.push_back({step, displacement});
+  }
+  cases::Trajectory finish(int n_halvings) {
+    trajectory_.halved_steps = n_halvings;
+    return std::move(trajectory_);
+  }
+
+ private:
+  const BodyInTime& body_;
+  const cases::Dynamics& dynamics_;
+  bool has_volume_;
+  cases::Trajectory trajectory_;
+};
+
+} // namespace
+
+FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
+                             const IntegrationSettings& settings) {
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  Record record(scene, body);
+  Vector at_rest = Vector::Zero(start.size());
+  TimeIntegrator motion(body.problem, dynamics.scheme, {0, std::move(start), std::move(at_rest), {}},
+                        settings);
+  record.add(0, 0, motion.now().displacement);
+  for (int step = 1; step <= dynamics.n_steps(); ++step) {
+    motion.advance(step * dynamics.step);
+    record.add(step, motion.now().time, motion.now().displacement);
+  }
+  FollowedMotion followed{motion.now().displacement, record.finish(motion.n_halvings()), motion.work()};
+  followed.work.load_reached = 1;
+  followed.work.n_unknowns = body.problem.n_unknowns();
+  followed.work.work = body.problem.work();
+  return followed;
+}
+
+} // namespace springproof::mechanics

@@ -1,0 +1,104 @@
+#include "msm/moving_springs.hpp"
+
+#include "cases/scene/masses.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace springproof::msm {
+
+namespace {
+
+double damping_of(const cases::Scene& scene, std::size_t cell) {
+  return cases::dynamics_of(scene, cell).stiffness_damping;
+}
+
+bool is_damped(const cases::Scene& scene) {
+  const auto& regions = scene.definition.region_materials;
+  return scene.definition.material_dynamics.stiffness_damping > 0 ||
+         std::any_of(regions.begin(), regions.end(),
+                     [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
+}
+
+Lattice without_springs(const cases::Scene& scene) {
+  Lattice none;
+  none.rest = scene.mesh.nodes.to_vector();
+  return none;
+}
+
+} // namespace
+
+Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
+  Inertia inertia;
+  inertia.mass = cases::point_masses(scene);
+  inertia.mass_damping = cases::point_mass_damping(scene);
+  inertia.damping = std::move(damping);
+  for (const auto& applied : scene.loads) {
+    std::vector<cases::NodeVector> force =
+        applied.load.kind == cases::LoadKind::gravity
+            ? cases::weights(inertia.mass, cases::acceleration_of(applied.load))
+            : cases::loaded_nodes(scene, {applied});
+    inertia.loads.push_back({applied.load.history, std::move(force)});
+  }
+  return inertia;
+}
+
+Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
+  if (!is_damped(scene)) return without_springs(scene);
+  std::vector<CellStiffness> damped;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    damped.push_back(scaled(stiffness[stiffness.size() == 1 ? 0 : c], damping_of(scene, c)));
+  return make_lattice(scene.mesh, damped);
+}
+
+Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms) {
+  if (!is_damped(scene)) return without_springs(scene);
+  BodyTerms damped;
+  damped.boundary = terms.boundary;
+  std::map<std::pair<int, double>, int> kinds; // of a kind of cells and its damping
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
+    const int kind = terms.kind_of_cell.empty() ? 0 : terms.kind_of_cell[c];
+    const double beta = damping_of(scene, c);
+    const auto [known, is_new] = kinds.try_emplace({kind, beta}, static_cast<int>(kinds.size()));
+    if (is_new) damped.kinds.push_back(scaled(terms.kinds[cases::index(kind)], beta));
+    damped.kind_of_cell.push_back(known->second);
+  }
+  return make_lattice(scene.mesh, damped);
+}
+
+Lattice damping_lattice(const cases::Scene& scene, Lattice springs) {
+  if (!is_damped(scene)) return without_springs(scene);
+  const double beta = scene.definition.material_dynamics.stiffness_damping;
+  for (Link& link : springs.links) link.spring.stiffness *= beta;
+  for (VolumeCell& cell : springs.volume_cells) cell.stiffness *= beta;
+  for (Tetrahedron& tetrahedron : springs.tetrahedra) tetrahedron.stiffness *= beta;
+  return springs;
+}
+
+void MovingSprings::external_force(double time, Vector& force) {
+  force.setZero(entries_.mass.size());
+  for (const auto& [history, load] : entries_.loads) force += history.at(time) * load;
+}
+
+Vector MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect) {
+  Vector residual = springs_.residual(at, 0, expect);
+  residual += terms_->force - added_force(at);
+  return residual;
+}
+
+double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
+  const Vector& added = added_force(at);
+  return springs_.energy(at, 0) + dot(moved_, added) / 2 - dot(terms_->force, at);
+}
+
+/// (mass M + damping C) (at - origin)
+const Vector& MovingSprings::added_force(const Vector& at) {
+  moved_ = at - terms_->origin;
+  mass_product(moved_, added_);
+  added_ *= terms_->mass;
+  damping_product(moved_, product_);
+  added_ += terms_->damping * product_;
+  return added_;
+}
+
+} // namespace springproof::msm

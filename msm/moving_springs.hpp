@@ -1,0 +1,96 @@
+#pragma once
+
+#include "mechanics/dynamics/dynamic_problem.hpp"
+#include "msm/cell_terms.hpp"
+#include "msm/problem.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace springproof::msm {
+
+/// What makes a lattice move.
+struct Inertia {
+  std::vector<double> mass;         ///< t, one entry per point
+  std::vector<double> mass_damping; ///< t/s, one entry per point: the part of C on the diagonal
+  Lattice damping; ///< its tangent at rest, in N s/mm, is the rest of C: springs of beta times k
+  struct LoadInTime {
+    cases::History history;
+    std::vector<cases::NodeVector> force; ///< N, at a factor of 1
+  };
+  std::vector<LoadInTime> loads; ///< gravity among them
+};
+
+/// @param damping  damping_lattice() of the scene's springs
+Inertia make_inertia(const cases::Scene& scene, Lattice damping);
+
+/// Springs whose tangent at rest is beta times that of a body's, cell by cell: it is linear in their
+/// stiffness. Without stiffness_damping, none.
+/// @param stiffness  one for every cell of the scene's mesh, or a single one for all
+Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness);
+Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms);
+/// @param springs  that belong to no cells, in a scene of one material
+Lattice damping_lattice(const cases::Scene& scene, Lattice springs);
+
+/// The motion of a lattice, on the vectors and with the forces of its static equations. Masses are on the
+/// diagonal.
+class MovingSprings : public mechanics::DynamicProblem {
+ public:
+  /// Inertia in the order of the static equations' vectors, 0 on constrained degrees of freedom.
+  struct Entries {
+    Vector mass, mass_damping;
+    std::vector<std::pair<cases::History, Vector>> loads;
+  };
+  /// @param springs  of a problem of make_moving_problem(); must outlive this
+  MovingSprings(SpringSystem& springs, Entries entries) : springs_(springs), entries_(std::move(entries)) {}
+
+  void mass_product(const Vector& motion, Vector& product) override {
+    product = entries_.mass.cwiseProduct(motion);
+  }
+  void damping_product(const Vector& motion, Vector& product) override {
+    product = entries_.mass_damping.cwiseProduct(motion);
+    add_stiffness_damping(motion, product);
+  }
+  void external_force(double time, Vector& force) override;
+  void supports_at(double time, Vector& displacement) const override {
+    springs_.move_supports(displacement, time);
+  }
+  void set_step(const mechanics::StepTerms& terms) override { terms_.emplace(terms); }
+
+  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override;
+  Size size(const Vector& residual, const Vector& /*at*/) override {
+    return {relative(std::sqrt(dot(residual, residual)), terms_->scale)};
+  }
+  mechanics::Merit merit() const override { return mechanics::Merit::energy; }
+  double energy(const Vector& at, double load_factor) override;
+  std::optional<bool> is_stable(const Vector& /*at*/) override { return std::nullopt; }
+  int n_inverted(const Vector& at) override { return springs_.n_inverted(at); }
+  double dot(const Vector& left, const Vector& right) const override { return springs_.dot(left, right); }
+  double largest(const Vector& of) const override { return springs_.largest(of); }
+  bool any_rank(bool here) const override { return springs_.any_rank(here); }
+  std::size_t n_unknowns() const override { return springs_.n_unknowns(); }
+  Work work() const override {
+    Work all = work_;
+    all.force_evaluations = springs_.work().force_evaluations;
+    return all;
+  }
+
+ protected:
+  Work work_; ///< but for the evaluations of forces
+
+  const Entries& entries() const { return entries_; }
+  const mechanics::StepTerms& terms() const { return *terms_; }
+
+  /// product += damping tangent at rest * motion, on free degrees of freedom.
+  virtual void add_stiffness_damping(const Vector& motion, Vector& product) = 0;
+
+ private:
+  SpringSystem& springs_;
+  Entries entries_;
+  std::optional<mechanics::StepTerms> terms_;
+  Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
+
+  const Vector& added_force(const Vector& at);
+};
+
+} // namespace springproof::msm

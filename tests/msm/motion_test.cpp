@@ -1,0 +1,132 @@
+#include "msm/motion.hpp"
+
+#include "cases/case/error.hpp"
+#include "msm/model.hpp"
+#include "msm/moving_springs.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace springproof;
+
+using Eigen::Vector3d;
+
+namespace {
+
+const std::vector<msm::CellStiffness> hybrid_springs{{0.2, 0.1, 0.3, 0.05}}; // N/mm, MPa
+
+cases::Region region_of(const std::string& name) {
+  cases::Region result;
+  result.name = name;
+  return result;
+}
+
+cases::Load gravity(std::vector<std::array<double, 2>> history) {
+  cases::Load load;
+  load.kind = cases::LoadKind::gravity;
+  load.value = {0, 0, -9.81};
+  load.history.points = std::move(history);
+  return load;
+}
+
+/// A bar of 3 x 1 x 1 cells of 10 mm, of water, held at one end; its tip and its volume are watched.
+cases::Scene bar(const cases::Load& load, const cases::Dynamics& dynamics,
+                 const cases::MaterialDynamics& material) {
+  cases::Case definition;
+  definition.body = cases::Box{{30, 10, 10}, {3, 1, 1}};
+  definition.fixed.push_back({region_of("x-"), {true, true, true}});
+  definition.material_dynamics = material;
+  cases::Measure tip, volume;
+  tip.kind = cases::MeasureKind::displacement;
+  tip.node = region_of("x+ y+ z+");
+  volume.kind = cases::MeasureKind::volume;
+  definition.measures = {tip, volume};
+  cases::Scene scene = cases::make_scene(definition);
+  scene.loads.push_back({{}, load});
+  scene.definition.dynamics = dynamics;
+  return scene;
+}
+
+cases::Dynamics dynamics_of(cases::Scheme scheme, double step, double end, cases::MotionStart start) {
+  cases::Dynamics dynamics;
+  dynamics.scheme.scheme = scheme;
+  dynamics.step = step;
+  dynamics.end = end;
+  dynamics.start = start;
+  dynamics.write_every = 4;
+  return dynamics;
+}
+
+cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSettings& settings = {}) {
+  return msm::follow(scene, msm::make_lattice(scene.mesh, hybrid_springs),
+                     msm::damping_lattice(scene, hybrid_springs), settings);
+}
+
+/// Of the static scene.
+cases::Solution equilibrium(cases::Scene scene) {
+  scene.definition.dynamics.reset();
+  return msm::Model(scene, hybrid_springs, {msm::Path::direct}).solve();
+}
+
+double largest_difference(const msm::Points& a, const msm::Points& b) {
+  double largest = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) largest = std::max(largest, (a[p] - b[p]).norm());
+  return largest;
+}
+
+constexpr cases::MaterialDynamics undamped{1000., 0, 0};
+
+} // namespace
+
+TEST_CASE("springs that start in equilibrium stay where they are", "[verification]") {
+  for (const auto scheme : {cases::Scheme::newmark, cases::Scheme::bdf2}) {
+    const cases::Scene scene =
+        bar(gravity({}), dynamics_of(scheme, 0.001, 0.02, cases::MotionStart::equilibrium), undamped);
+    const cases::Solution motion = follow(scene), still = equilibrium(scene);
+    const double size = still.displacement.back().norm();
+    CHECK(size > 0.1);
+    CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
+  }
+}
+
+TEST_CASE("what is watched of a motion is there for every step, the whole body for every fourth") {
+  const cases::Scene scene = bar(gravity({{0., 1.}, {0., 0.}}),
+                                 dynamics_of(cases::Scheme::newmark, 0.001, 0.01, cases::MotionStart::equilibrium),
+                                 undamped);
+  const cases::Solution motion = follow(scene);
+  CHECK(motion.status == cases::Status::converged);
+  REQUIRE(motion.trajectory);
+  const cases::Trajectory& seen = *motion.trajectory;
+  REQUIRE(seen.time.size() == 11);
+  CHECK(seen.time.front() == 0);
+  CHECK(seen.time.back() == Approx(0.01).epsilon(1e-14));
+  REQUIRE(seen.nodes.size() == 1);
+  CHECK(seen.displacement.size() == 11);
+  CHECK(seen.volume.size() == 11);
+  std::vector<int> steps;
+  for (const auto& body : seen.bodies) steps.push_back(body.step);
+  CHECK(steps == std::vector<int>{0, 4, 8, 10});
+  const auto tip = cases::index(seen.nodes.front());
+  CHECK(seen.bodies.back().displacement[tip] == seen.displacement.back());
+  CHECK(motion.displacement[tip] == seen.displacement.back());
+  // Released from its weight, the tip starts where gravity held it, and rises.
+  CHECK((seen.displacement.front() - equilibrium(scene).displacement[tip]).norm() <
+        1e-6 * seen.displacement.front().norm());
+  CHECK(seen.displacement.back().z() > seen.displacement.front().z());
+}
+
+TEST_CASE("strongly damped springs end in their static equilibrium", "[verification]") {
+  const cases::Scene scene =
+      bar(gravity({}), dynamics_of(cases::Scheme::implicit_euler, 0.1, 30, cases::MotionStart::rest),
+          {1000., 60, 0.2});
+  const cases::Solution motion = follow(scene), still = equilibrium(scene);
+  CHECK(largest_difference(motion.displacement, still.displacement) <=
+        1e-6 * still.displacement.back().norm());
+}
+
+TEST_CASE("a motion that cannot be followed says how far it came") {
+  const cases::Scene scene =
+      bar(gravity({}), dynamics_of(cases::Scheme::newmark, 0.001, 0.02, cases::MotionStart::rest), undamped);
+  mechanics::IntegrationSettings settings;
+  settings.newton.max_newton_per_step = 0;
+  CHECK_THROWS_WITH(follow(scene, settings), Catch::Contains("motion, after 0 s"));
+}
