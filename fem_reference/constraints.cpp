@@ -67,8 +67,19 @@ Constraints::Constraints(const cases::Scene& scene, const Nodes& nodes, const Pr
 void Constraints::prescribe(double load_factor, std::vector<double>& displacement) const {
   displacement.resize(at_full_load_.size());
   for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = load_factor * at_full_load_[i];
+  prescribe_moved([=](const cases::Moved& /*motion*/) { return load_factor; }, displacement);
+}
+
+void Constraints::prescribe_at(double time, std::vector<double>& displacement) const {
+  displacement.assign(at_full_load_.size(), 0);
+  prescribe_moved([=](const cases::Moved& motion) { return motion.history.at(time); }, displacement);
+}
+
+/// @param factor  of a motion
+template<class Factor>
+void Constraints::prescribe_moved(const Factor& factor, std::vector<double>& displacement) const {
   for (const auto& [node, rest, motion] : moved_) {
-    const Vector3d value = cases::moved_by(motion, rest, load_factor);
+    const Vector3d value = cases::moved_by(motion, rest, factor(motion));
     for (std::size_t c = 0; c < 3; ++c)
       if (motion.components[c]) displacement[3 * index(node) + c] = value[static_cast<Eigen::Index>(c)];
   }

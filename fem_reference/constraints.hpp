@@ -25,6 +25,8 @@ class Constraints {
 
   /// Displacements prescribed at a load factor, mm per local degree of freedom; 0 where unconstrained.
   void prescribe(double load_factor, std::vector<double>& displacement) const;
+  /// The same at a time (s), by the histories of what is moved.
+  void prescribe_at(double time, std::vector<double>& displacement) const;
 
  private:
   struct MovedNode {
@@ -34,6 +36,9 @@ class Constraints {
   };
   std::vector<double> at_full_load_; ///< mm, proportional to the load factor; 0 where moved
   std::vector<MovedNode> moved_;
+
+  template<class Factor>
+  void prescribe_moved(const Factor& factor, std::vector<double>& displacement) const;
 };
 
 } // namespace springproof::fem_reference

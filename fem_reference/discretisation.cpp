@@ -1,5 +1,6 @@
 #include "fem_reference/discretisation.hpp"
 
+#include "cases/scene/masses.hpp"
 #include "fem_reference/space.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -67,7 +68,24 @@ void add_body_force(const Nodes& nodes, const Geometry& geometry, const Prescrib
     }
 }
 
-/// Point forces, tractions, torques and the body force at full load, N per owned degree of freedom.
+/// The weight of the cells, and of what [[mass]] adds to nodes.
+void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& geometry, Vec load) {
+  const Vector3d gravity = cases::gravity(scene);
+  if (gravity.isZero(0)) return;
+  for (int cell = 0; cell < nodes.n_cells; ++cell) {
+    const double density = cases::dynamics_of(scene, index(nodes.mesh_cell[index(cell)])).density;
+    for (int q = 0; q < geometry.n_points; ++q)
+      for (int a = 0; a < nodes.per_cell; ++a)
+        add(load, nodes.of_cell[index(cell * nodes.per_cell + a)],
+            density * geometry.of(cell).weights[q] * geometry.shape_values[index(q * nodes.per_cell + a)] *
+                gravity);
+  }
+  const std::vector<cases::NodeMass> added = cases::added_masses(scene);
+  for (int node = 0; node < nodes.n_owned; ++node)
+    add(load, node, cases::mass_of(added, nodes.mesh_node[index(node)]) * gravity);
+}
+
+/// Point forces, tractions, torques, gravity and the body force at full load, N per owned degree of freedom.
 std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
                                    const Geometry& geometry, const Prescribed& prescribed) {
   const Vector load = nodes.make_vector(space.mesh.get_communicator());
@@ -75,6 +93,7 @@ std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space
   for (const auto& applied : scene.loads)
     if (applied.load.kind == cases::LoadKind::traction || applied.load.kind == cases::LoadKind::torque)
       add_traction(scene, applied, space, nodes, load.get());
+  add_gravity(scene, nodes, geometry, load.get());
   if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
   check(VecAssemblyBegin(load.get()));
   check(VecAssemblyEnd(load.get()));
@@ -95,6 +114,10 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& typ
 }
 
 Discretisation::~Discretisation() = default;
+
+std::vector<double> Discretisation::load_of(const cases::Scene& scene) const {
+  return assemble_loads(scene, *space_, nodes, geometry, {});
+}
 
 Matrix Discretisation::make_tangent_matrix() const {
   const dealii::IndexSet& owned = space_->dofs.locally_owned_dofs();

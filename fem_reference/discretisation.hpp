@@ -24,8 +24,11 @@ class Discretisation {
   Nodes nodes;
   Geometry geometry;
   Constraints constraints;
-  std::vector<double> load; ///< N per owned degree of freedom: point forces, tractions, torques, body force
+  std::vector<double> load; ///< N per owned degree of freedom: of the scene's loads, and the body force
   std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
+
+  /// Loads at full load of a scene that differs from this one's in them alone, N per owned degree of freedom.
+  std::vector<double> load_of(const cases::Scene& scene) const;
 
   /// A ghosted vector of displacements or forces, zero.
   Vector make_vector() const { return nodes.make_vector(communicator); }

@@ -14,7 +14,7 @@ EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
       formulation_(formulations.front()), assembly_(discretisation, formulations),
       solver_(discretisation, assembly_.tangent(), formulation_.symmetry),
       force_(discretisation.make_vector()), right_hand_side_(discretisation.make_vector()),
-      correction_(discretisation.make_vector()) {
+      correction_(discretisation.make_vector()), inertia_force_(discretisation.make_vector()) {
   const auto& d = discretisation_;
   double squared = 0;
   for (std::size_t i = 0; i < d.load.size(); ++i)
@@ -63,18 +63,90 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
   const auto& d = discretisation_;
   ++n_evaluations_;
   d.constraints.prescribe(load_factor, prescribed_gap_);
-  for (std::size_t i = 0; i < prescribed_gap_.size(); ++i)
-    prescribed_gap_[i] =
-        d.constraints.is_constrained[i] ? prescribed_gap_[i] - state[static_cast<Eigen::Index>(i)] : 0;
-  measure(assembly_.assemble(state, prescribed_gap_, wanted, force_.get(), right_hand_side_.get()),
-          load_factor);
+  for (std::size_t i = 0; i < prescribed_gap_.size(); ++i) {
+    const auto dof = static_cast<Eigen::Index>(i);
+    if (step_) prescribed_gap_[i] = step_->supports[dof];
+    prescribed_gap_[i] = d.constraints.is_constrained[i] ? prescribed_gap_[i] - state[dof] : 0;
+  }
+  const auto mismatch =
+      assembly_.assemble(state, prescribed_gap_, wanted, force_.get(), right_hand_side_.get());
+  if (step_) add_inertia(state, wanted);
+  measure(mismatch, load_factor);
   if (wanted == Wanted::stress) return;
   // minus the condensed imbalance, and the prescribed gap on constrained degrees of freedom
   const WriteEntries values(right_hand_side_.get());
   for (std::size_t i = 0; i < d.load.size(); ++i)
-    values[i] = d.constraints.is_constrained[i] ? prescribed_gap_[i] : load_factor * d.load[i] - values[i];
+    values[i] = d.constraints.is_constrained[i] ? prescribed_gap_[i] : load(i, load_factor) - values[i];
   ++n_tangents_;
   has_tangent_ = std::isfinite(size_.relative); // on all ranks alike
+}
+
+void EquilibriumEquations::set_step(const Step& step, bool is_another) {
+  step_.emplace(step);
+  if (is_another) has_tangent_ = false;
+}
+
+void EquilibriumEquations::complete(State& motion) {
+  const auto n = static_cast<Eigen::Index>(n_dofs());
+  {
+    const WriteEntries all(correction_.get());
+    Eigen::Map<State>(all.data(), n) = motion.head(n);
+  }
+  mechanics::petsc::update_ghosts(correction_.get());
+  const ReadEntries all(correction_.get());
+  motion.head(n) = Eigen::Map<const State>(all.data(), n);
+  if (!is_linear() || assembly_.n_pressures() == 0) return;
+  if (!has_tangent_) evaluate(rest(), 0, Wanted::stress_and_tangent);
+  assembly_.pressures_are_balanced();
+  assembly_.complete_correction(motion);
+}
+
+/// N, of a degree of freedom of this rank.
+double EquilibriumEquations::load(std::size_t dof, double load_factor) const {
+  return step_ ? step_->force[static_cast<Eigen::Index>(dof)] : load_factor * discretisation_.load[dof];
+}
+
+/// To the internal force; and where a tangent is wanted, to it and to the right side, which knows what the
+/// gap will add.
+void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
+  const auto n = static_cast<Eigen::Index>(n_dofs());
+  const auto add = [&](const State& way, Vec to) {
+    {
+      const WriteEntries product(inertia_force_.get());
+      Eigen::Map<State>(product.data(), n) = step_->added * way;
+    }
+    mechanics::petsc::add_ghosts(inertia_force_.get());
+    const ReadEntries product(inertia_force_.get());
+    const WriteEntries sum(to);
+    for (std::size_t i = 0; i < discretisation_.load.size(); ++i) sum[i] += product[i];
+  };
+  State way = state.head(n) - step_->origin.head(n);
+  add(way, force_.get());
+  if (wanted == Wanted::stress) return;
+  way += Eigen::Map<const State>(prescribed_gap_.data(), n);
+  add(way, right_hand_side_.get());
+  add_to_tangent(step_->added);
+}
+
+/// Rows and columns of constrained degrees of freedom are left out.
+void EquilibriumEquations::add_to_tangent(const LocalMatrix& added) {
+  const auto& is_constrained = discretisation_.constraints.is_constrained;
+  std::vector<PetscInt> columns;
+  std::vector<PetscScalar> values;
+  for (PetscInt row = 0; row < added.rows(); ++row) {
+    if (is_constrained[cases::index(row)]) continue;
+    columns.clear();
+    values.clear();
+    for (LocalMatrix::InnerIterator entry(added, row); entry; ++entry) {
+      if (is_constrained[cases::index(entry.col())]) continue;
+      columns.push_back(static_cast<PetscInt>(entry.col()));
+      values.push_back(entry.value());
+    }
+    check(MatSetValuesLocal(assembly_.tangent(), 1, &row, static_cast<PetscInt>(columns.size()),
+                            columns.data(), values.data(), ADD_VALUES));
+  }
+  check(MatAssemblyBegin(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
 }
 
 /// With the tangent and the right side; but a tangent that cannot have changed since it was last assembled, a
@@ -82,7 +154,9 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
 void EquilibriumEquations::evaluate_for_direction(const State& state, double load_factor) {
   if (is_linear() && has_tangent_) {
     evaluate(state, load_factor, Wanted::stress);
-    if (largest_gap_ == 0) { // supports that have to move ask the tangent for the forces of that
+    // Supports that have to move ask the tangent for the forces of that; supports that a step in time has
+    // moved leave pressures behind.
+    if (largest_gap_ == 0 && (!step_ || size_.constraints_hold)) {
       assembly_.pressures_are_balanced();
       check(VecCopy(force_.get(), right_hand_side_.get()));
       check(VecScale(right_hand_side_.get(), -1));
@@ -105,14 +179,16 @@ void EquilibriumEquations::measure(std::optional<double> volume_mismatch, double
       largest_gap_ = std::max(largest_gap_, std::abs(prescribed_gap_[i]));
       force[i] = 0;
     } else {
-      force[i] -= load_factor * d.load[i];
+      force[i] -= load(i, load_factor);
       imbalance += force[i] * force[i];
     }
   }
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
   // a body moved by prescribed displacements alone is measured against its reactions
-  const double scale = load_norm_ > 0 ? load_norm_ : std::sqrt(total(reaction, MPI_SUM, communicator_));
+  const double scale = step_            ? step_->scale
+                       : load_norm_ > 0 ? load_norm_
+                                        : std::sqrt(total(reaction, MPI_SUM, communicator_));
   size_.relative = imbalance == 0 ? 0 : imbalance / scale;
   size_.constraints_hold =
       total(volume_mismatch.value_or(0), MPI_MAX, communicator_) <= volume_tolerance && largest_gap_ <= 1e-12;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/assembly.hpp"
+#include "fem_reference/inertia.hpp"
 #include "fem_reference/linear_solver.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
@@ -36,6 +37,23 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
 
+  /// A step in time: from now on, whatever the load factor,  force = f_int(u) + added (u - origin)  on free
+  /// degrees of freedom, supports are where they are said to be, and residuals are relative to scale. What it
+  /// refers to lives until the next call.
+  struct Step {
+    const LocalMatrix& added; ///< N/mm; its pattern is part of the tangent's
+    const State& origin;      ///< mm; ghosts current
+    const State& force;       ///< N, on this rank's degrees of freedom
+    const State& supports;    ///< mm, on constrained degrees of freedom
+    double scale;             ///< N
+  };
+  /// @param is_another  whether `added` has other values than before
+  void set_step(const Step& step, bool is_another);
+
+  /// Of a velocity whose own degrees of freedom are given: those of other ranks, and the pressures that
+  /// belong to them in a linear body.
+  void complete(State& motion);
+
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
   /// As of Assembly.
@@ -48,6 +66,9 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   bool is_linear() const { return formulation_.kinematics == Kinematics::linear; }
   void evaluate(const State& state, double load_factor, Wanted wanted);
   void evaluate_for_direction(const State& state, double load_factor);
+  double load(std::size_t dof, double load_factor) const;
+  void add_inertia(const State& state, Wanted wanted);
+  void add_to_tangent(const LocalMatrix& added);
   void measure(std::optional<double> volume_mismatch, double load_factor);
 
   const Discretisation& discretisation_;
@@ -57,6 +78,8 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
   Vector right_hand_side_; ///< of the Newton system
   Vector correction_;      ///< its solution
+  Vector inertia_force_;   ///< what a step in time adds
+  std::optional<Step> step_;
   double load_norm_ = 0;
   long n_evaluations_ = 0, n_tangents_ = 0;
   bool has_tangent_ = false; ///< one that was assembled at a valid state

@@ -1,7 +1,7 @@
 #include "fem_reference/model.hpp"
 
+#include "fem_reference/assembled_body.hpp"
 #include "fem_reference/cuboid.hpp"
-#include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/ranks/share_out.hpp"
@@ -12,19 +12,7 @@
 
 namespace springproof::fem_reference {
 
-namespace {
-
 using cases::index;
-
-/// The case's formulation with each of the scene's materials.
-std::vector<Formulation> formulations_of(const cases::Scene& scene) {
-  std::vector<Formulation> formulations;
-  for (const cases::Material& material : cases::materials_of(scene.definition))
-    formulations.push_back(make_formulation(scene.definition.fem, material));
-  return formulations;
-}
-
-} // namespace
 
 struct Model::Implementation {
   virtual ~Implementation() = default;
@@ -35,62 +23,24 @@ struct Model::Implementation {
 };
 
 struct Model::Assembled : Model::Implementation {
-  Assembled(const cases::Scene& the_scene, MPI_Comm communicator)
-      : scene(the_scene), formulations(formulations_of(scene)),
-        discretisation(cases::refine(scene, scene.definition.fem.refine),
-                       element_type(scene.definition.fem, formulations.front()), {}, communicator),
-        equations(discretisation, formulations), last(equations.rest()) {}
+  Assembled(const cases::Scene& scene, MPI_Comm communicator)
+      : body(scene, communicator), last(body.equations.rest()) {}
 
-  std::vector<cases::Numbered<Eigen::Vector3d>> body_displacement() const;
-  std::vector<cases::Numbered<double>> body_cell_volumes();
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) override;
   void back_to_rest() override {
-    last = equations.rest();
+    last = body.equations.rest();
     last_load_factor = 0;
   }
   cases::Fields fields(const cases::Sharing* sharing) override;
   std::vector<NodeDisplacement> node_displacements() const override;
 
-  cases::Scene scene;                    ///< on the body's own mesh
-  std::vector<Formulation> formulations; ///< one for each of the scene's materials
-  Discretisation discretisation;
-  EquilibriumEquations equations;
+  AssembledBody body;
   State last;                  ///< the equilibrium last found
   double last_load_factor = 0; ///< its load; 0: at rest
 };
 
-/// Of this rank's nodes. Those of the body's mesh are the first of the refined mesh.
-std::vector<cases::Numbered<Eigen::Vector3d>> Model::Assembled::body_displacement() const {
-  std::vector<cases::Numbered<Eigen::Vector3d>> displacement;
-  for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
-    const int number = discretisation.nodes.mesh_node[index(node)];
-    if (number >= 0 && index(number) < scene.mesh.nodes.size())
-      displacement.push_back({number, last.segment<3>(3 * node)});
-  }
-  return displacement;
-}
-
-/// Of this rank's elements. Each cell of the body is its 8^refine descendants.
-std::vector<cases::Numbered<double>> Model::Assembled::body_cell_volumes() {
-  std::vector<cases::Numbered<double>> volumes;
-  const std::vector<double> own = equations.cell_volumes(last);
-  const int shift = 3 * scene.definition.fem.refine;
-  for (std::size_t cell = 0; cell < own.size(); ++cell)
-    volumes.push_back({discretisation.nodes.mesh_cell[cell] >> shift, own[cell]});
-  return volumes;
-}
-
 cases::Fields Model::Assembled::fields(const cases::Sharing* sharing) {
-  cases::Range cells;
-  const int shift = 3 * scene.definition.fem.refine;
-  for (const int number : discretisation.nodes.mesh_cell) {
-    const std::size_t cell = index(number >> shift);
-    if (cells.size() == 0) cells = {cell, cell + 1};
-    cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
-  }
-  ElementFields sums(scene, formulations.front().kinematics, discretisation.nodes.in_unit_cube(), cells);
-  equations.add_fields(last, scene.definition.fem.refine, sums);
-  return sums.fields(sharing, last_load_factor);
+  return body.fields(last, sharing, last_load_factor);
 }
 
 struct Model::OnGrid : Model::Implementation {
@@ -166,7 +116,7 @@ Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) 
     throw cases::InputError(
         scene.definition.fem.where,
         "the grid's backend needs a body that is a grid of cells, an isotropic material, and "
-        "no q2_p1");
+        "no q2_p1 and no gravity");
   if (backend == Backend::grid)
     implementation_ = std::make_unique<OnGrid>(scene, communicator, may_assemble_instead);
   else
@@ -185,20 +135,21 @@ cases::Solution Model::solve_again(double load_factor, const mechanics::Equilibr
 }
 
 cases::Solution Model::Assembled::solve(double load_factor, mechanics::EquilibriumSettings settings) {
+  const cases::Scene& scene = body.scene;
   settings.from = last_load_factor;
   settings.to = load_factor;
   settings = mechanics::in_small_turns(cases::largest_turn(scene.definition), std::move(settings));
-  const auto equilibrium = mechanics::find_equilibrium(equations, last, "finite elements", settings);
+  const auto equilibrium = mechanics::find_equilibrium(body.equations, last, "finite elements", settings);
   last = equilibrium.state;
   last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.sharing = mechanics::share_out(scene.mesh, discretisation.communicator);
+  solution.sharing = mechanics::share_out(scene.mesh, body.discretisation.communicator);
   const cases::Sharing* const sharing = solution.sharing.get();
   solution.displacement =
-      cases::deal(sharing, body_displacement(), scene.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
-  solution.cell_volume = cases::deal(sharing, body_cell_volumes(), scene.mesh.cells.size(), 0.);
+      cases::deal(sharing, body.displacement(last), scene.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
+  solution.cell_volume = cases::deal(sharing, body.cell_volumes(last), scene.mesh.cells.size(), 0.);
   if (settings.stability != mechanics::Stability::ignore)
-    solution.negative_eigenvalues = equations.negative_eigenvalues();
+    solution.negative_eigenvalues = body.equations.negative_eigenvalues();
   solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement, sharing);
   return solution;
 }
@@ -212,7 +163,7 @@ std::vector<NodeDisplacement> Model::node_displacements() const {
 }
 
 std::vector<NodeDisplacement> Model::Assembled::node_displacements() const {
-  const Discretisation& d = discretisation;
+  const Discretisation& d = body.discretisation;
   std::vector<double> own;
   const double* displacement = last.data();
   for (std::size_t node = 0; node < index(d.nodes.n_owned); ++node, displacement += 3) {

@@ -57,6 +57,12 @@ std::vector<NodeMass> added_masses(const Scene& scene) {
   return masses;
 }
 
+double mass_of(const std::vector<NodeMass>& added, int node) {
+  const auto is_before = [](const NodeMass& at, int number) { return at.node < number; };
+  const auto found = std::lower_bound(added.begin(), added.end(), node, is_before);
+  return found != added.end() && found->node == node ? found->mass : 0;
+}
+
 std::vector<double> point_masses(const Scene& scene) {
   std::vector<double> masses = shared_out(scene, [](const CellDynamics& cell) { return cell.density; });
   for (const auto& [node, mass] : added_masses(scene)) masses[index(node)] += mass;

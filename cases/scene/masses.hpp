@@ -22,12 +22,14 @@ struct NodeMass {
 /// What [[mass]] adds to nodes of the mesh, in ascending order: shared equally by a region's nodes; a node on
 /// symmetry planes has the modelled part alone, as of a force.
 std::vector<NodeMass> added_masses(const Scene& scene);
+/// Of a node; 0 where the list has none.
+double mass_of(const std::vector<NodeMass>& added, int node);
 
 /// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them.
 std::vector<double> point_masses(const Scene& scene);
 
-/// Factors of the mass in C that belong to these points, t/s: of every cell's mass its material's mass_damping.
-/// What is added by [[mass]] is not damped.
+/// Factors of the mass in C that belong to these points, t/s: of every cell's mass its material's
+/// mass_damping. What is added by [[mass]] is not damped.
 std::vector<double> point_mass_damping(const Scene& scene);
 
 /// Of a load of kind gravity, mm/s², at a factor of 1; and of all of a scene's together.

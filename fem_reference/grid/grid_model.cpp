@@ -74,6 +74,10 @@ bool is_on_grid(const cases::Scene& scene) {
   const cases::Fem& fem = scene.definition.fem;
   if (!scene.mesh.grid) return false;
   if (fem.element == cases::Element::q2_p1) return false;
+  const cases::Case& definition = scene.definition; // estimates have nothing else
+  const auto is_gravity = [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; };
+  if (definition.dynamics || std::any_of(definition.loads.begin(), definition.loads.end(), is_gravity))
+    return false; // nothing has mass there
   std::size_t n_parameters = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
     if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;

@@ -30,6 +30,10 @@ class DynamicProblem : public NonlinearProblem {
   /// Writes where supports are at a time to the constrained entries of a displacement, mm.
   virtual void supports_at(double /*time*/, Vector& /*displacement*/) const {}
 
+  /// Fills in what of a velocity or acceleration follows from this rank's degrees of freedom: entries that
+  /// belong to another rank, unknowns that were condensed.
+  virtual void complete(Vector& /*motion*/) {}
+
   /// Of all evaluations from now on. What the terms refer to lives until the next call.
   virtual void set_step(const StepTerms& terms) = 0;
 

@@ -46,6 +46,7 @@ void TimeIntegrator::start() {
   problem_.set_step({0, 0, now_.displacement, force_, now_.displacement, 1});
   const Vector imbalance = problem_.residual(now_.displacement, 0);
   const double size = norm(imbalance);
+  has_loads_ = scale_ > 0;
   if (!std::isfinite(size)) give_up("the law has no forces at the start: cells are turned inside out");
   scale_ = std::max(scale_, size);
   if (!needs_acceleration(scheme_.scheme) || size == 0) return;
@@ -58,6 +59,7 @@ void TimeIntegrator::start() {
       grid::conjugate_gradients(times_mass, as_it_is, imbalance, tolerance * size, max_iterations, dot, 1);
   if (!found.converged) give_up("the mass matrix is not positive definite: the start has no acceleration");
   now_.acceleration = std::move(found.solution);
+  problem_.complete(now_.acceleration);
 }
 
 /// On success now_ is at the end of the step; otherwise it is as it was.
@@ -66,14 +68,16 @@ bool TimeIntegrator::try_step(double to) {
   const auto step_before = before_ ? std::optional(now_.time - before_->time) : std::nullopt;
   const StepCoefficients c = step_coefficients(scheme_, step, step_before);
   problem_.external_force(now_.time + c.place * step, force_);
-  scale_ = std::max(scale_, norm(force_));
+  const double load = norm(force_);
+  has_loads_ = has_loads_ || load > 0;
+  scale_ = std::max(scale_, load);
   add_known_forces(c);
   StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
-  if (terms.scale == 0) { // nothing but velocity, or supports that begin to move
+  if (!has_loads_) { // velocity, or supports that move, drive the body
     predict(c, to, 0);
     terms.scale = 1;
     problem_.set_step(terms);
-    terms.scale = norm(problem_.residual(place_, 0));
+    scale_ = terms.scale = std::max(scale_, norm(problem_.residual(place_, 0)));
   }
   if (!solve(terms, c, to)) return false;
   finish_step(c, to);

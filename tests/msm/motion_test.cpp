@@ -5,6 +5,7 @@
 #include "msm/moving_springs.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace springproof;
 
@@ -121,6 +122,24 @@ TEST_CASE("strongly damped springs end in their static equilibrium", "[verificat
   const cases::Solution motion = follow(scene), still = equilibrium(scene);
   CHECK(largest_difference(motion.displacement, still.displacement) <=
         1e-6 * still.displacement.back().norm());
+}
+
+TEST_CASE("springs' motion under a load that swings is approached at the order of each scheme",
+          "[verification]") {
+  const auto tip = [](cases::Scheme scheme, int n_steps) {
+    cases::Load swinging = gravity({});
+    swinging.history.frequency = 5;
+    cases::Dynamics dynamics = dynamics_of(scheme, 0.2 / n_steps, 0.2, cases::MotionStart::rest);
+    dynamics.scheme.rho_infinity = 0.5;
+    return follow(bar(swinging, dynamics, {1000., 0, 0.001})).trajectory->displacement.back();
+  };
+  for (const auto& [scheme, order] :
+       {std::pair{cases::Scheme::implicit_euler, 1.}, std::pair{cases::Scheme::newmark, 2.},
+        std::pair{cases::Scheme::generalized_alpha, 2.}, std::pair{cases::Scheme::bdf2, 2.}}) {
+    INFO(name_of(scheme));
+    const Vector3d coarse = tip(scheme, 400), middle = tip(scheme, 800), fine = tip(scheme, 1600);
+    CHECK(std::log2((coarse - middle).norm() / (middle - fine).norm()) == Approx(order).margin(0.05));
+  }
 }
 
 TEST_CASE("a motion that cannot be followed says how far it came") {

@@ -1,0 +1,56 @@
+#include "fem_reference/assembled_body.hpp"
+
+#include <algorithm>
+
+namespace springproof::fem_reference {
+
+using cases::index;
+
+std::vector<Formulation> formulations_of(const cases::Scene& scene) {
+  std::vector<Formulation> formulations;
+  for (const cases::Material& material : cases::materials_of(scene.definition))
+    formulations.push_back(make_formulation(scene.definition.fem, material));
+  return formulations;
+}
+
+AssembledBody::AssembledBody(const cases::Scene& the_scene, MPI_Comm communicator)
+    : scene(the_scene), formulations(formulations_of(scene)),
+      discretisation(cases::refine(scene, scene.definition.fem.refine),
+                     element_type(scene.definition.fem, formulations.front()), {}, communicator),
+      equations(discretisation, formulations) {}
+
+/// Nodes of the body's mesh are the first of the refined mesh.
+std::vector<cases::Numbered<Eigen::Vector3d>> AssembledBody::displacement(const State& state) const {
+  std::vector<cases::Numbered<Eigen::Vector3d>> displacement;
+  for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
+    const int number = discretisation.nodes.mesh_node[index(node)];
+    if (number >= 0 && index(number) < scene.mesh.nodes.size())
+      displacement.push_back({number, state.segment<3>(3 * node)});
+  }
+  return displacement;
+}
+
+/// Each cell of the body is its 8^refine descendants.
+std::vector<cases::Numbered<double>> AssembledBody::cell_volumes(const State& state) {
+  std::vector<cases::Numbered<double>> volumes;
+  const std::vector<double> own = equations.cell_volumes(state);
+  const int shift = 3 * scene.definition.fem.refine;
+  for (std::size_t cell = 0; cell < own.size(); ++cell)
+    volumes.push_back({discretisation.nodes.mesh_cell[cell] >> shift, own[cell]});
+  return volumes;
+}
+
+cases::Fields AssembledBody::fields(const State& state, const cases::Sharing* sharing, double load_factor) {
+  cases::Range cells;
+  const int shift = 3 * scene.definition.fem.refine;
+  for (const int number : discretisation.nodes.mesh_cell) {
+    const std::size_t cell = index(number >> shift);
+    if (cells.size() == 0) cells = {cell, cell + 1};
+    cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
+  }
+  ElementFields sums(scene, formulations.front().kinematics, discretisation.nodes.in_unit_cube(), cells);
+  equations.add_fields(state, scene.definition.fem.refine, sums);
+  return sums.fields(sharing, load_factor);
+}
+
+} // namespace springproof::fem_reference

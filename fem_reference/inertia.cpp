@@ -1,0 +1,89 @@
+#include "fem_reference/inertia.hpp"
+
+#include "cases/scene/masses.hpp"
+
+namespace springproof::fem_reference {
+
+namespace {
+
+using cases::index;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// Integral of density N_a N_b over a cell; lumped, its sums of rows on the diagonal, which are positive for
+/// trilinear and triquadratic elements.
+Eigen::MatrixXd node_masses(const Discretisation& d, int cell, double density, cases::ElementMass kind) {
+  const int n = d.nodes.per_cell;
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
+  const double* weights = d.geometry.of(cell).weights;
+  for (int q = 0; q < d.geometry.n_points; ++q) {
+    const Eigen::Map<const Eigen::VectorXd> shape(d.geometry.shape_values.data() + q * n, n);
+    mass += density * weights[q] * shape * shape.transpose();
+  }
+  if (kind == cases::ElementMass::lumped) mass = Eigen::MatrixXd(mass.rowwise().sum().asDiagonal());
+  return mass;
+}
+
+/// The cell's tangent at rest; degree of freedom i*n_nodes + a is component i of node a.
+class RestStiffness {
+ public:
+  RestStiffness(const Discretisation& d, const std::vector<Formulation>& formulations)
+      : d_(d), displacement_(3 * index(d.nodes.per_cell), 0.), pressure_(index(d.element.n_pressure_modes), 0.) {
+    for (const Formulation& formulation : formulations) kernels_.push_back(formulation.make_kernel(d.element));
+  }
+  const RowMajorMatrix& of(int cell) {
+    const auto& material = d_.material_of_cell;
+    CellKernel& kernel = *kernels_[material.empty() ? 0 : index(material[index(cell)])];
+    return kernel
+        .evaluate(d_.geometry.of(cell), displacement_.data(), pressure_.data(), Wanted::stress_and_tangent)
+        .tangent;
+  }
+
+ private:
+  const Discretisation& d_;
+  std::vector<std::unique_ptr<CellKernel>> kernels_;
+  std::vector<double> displacement_, pressure_; ///< 0
+};
+
+LocalMatrix matrix_of(const Triplets& entries, std::size_t n) {
+  LocalMatrix matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+} // namespace
+
+Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
+                     const std::vector<Formulation>& formulations) {
+  const int n = d.nodes.per_cell;
+  RestStiffness stiffness(d, formulations);
+  Triplets mass, damping;
+  for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
+    const auto dynamics = cases::dynamics_of(scene, index(d.nodes.mesh_cell[index(cell)]));
+    const int* node = d.nodes.of_cell.data() + cell * n;
+    const auto add = [&](Triplets& to, int a, int i, int b, int k, double value) {
+      if (value != 0) to.emplace_back(3 * node[a] + i, 3 * node[b] + k, value);
+    };
+    const Eigen::MatrixXd of_nodes = node_masses(d, cell, dynamics.density, scene.definition.fem.mass);
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b)
+        for (int i = 0; i < 3; ++i) {
+          add(mass, a, i, b, i, of_nodes(a, b));
+          add(damping, a, i, b, i, dynamics.mass_damping * of_nodes(a, b));
+        }
+    if (dynamics.stiffness_damping == 0) continue;
+    const RowMajorMatrix& at_rest = stiffness.of(cell);
+    for (int row = 0; row < 3 * n; ++row)
+      for (int column = 0; column < 3 * n; ++column)
+        add(damping, row % n, row / n, column % n, column / n,
+            dynamics.stiffness_damping * at_rest(row, column));
+  }
+  const std::vector<cases::NodeMass> added = cases::added_masses(scene);
+  for (int node = 0; node < d.nodes.n_owned; ++node) {
+    const double of_node = cases::mass_of(added, d.nodes.mesh_node[index(node)]);
+    for (int i = 0; i < 3 && of_node > 0; ++i) mass.emplace_back(3 * node + i, 3 * node + i, of_node);
+  }
+  const std::size_t n_dofs = d.constraints.is_constrained.size();
+  return {matrix_of(mass, n_dofs), matrix_of(damping, n_dofs)};
+}
+
+} // namespace springproof::fem_reference
