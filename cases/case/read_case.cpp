@@ -119,6 +119,9 @@ Measure read_measure(Table& table, const Case& definition) {
   case MeasureKind::displacement_field_max:
     break;
   }
+  if (definition.dynamics && is_of_fields(measure.kind))
+    table.entry("kind").refuse(
+        "a measure of displacements or volume: forces and stresses of a motion are not recorded");
   measure.over_time = read_over_time(table, measure.kind, definition.dynamics.has_value());
   return measure;
 }

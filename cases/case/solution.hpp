@@ -45,10 +45,11 @@ struct Fields {
 
 /// A body's motion: what was watched of it at the start and after every step, and all of it now and then.
 struct Trajectory {
-  std::vector<double> time;                  ///< s, ascending; the first is the start
-  std::vector<int> nodes;                    ///< of the body's mesh, ascending: those that are watched
-  std::vector<Eigen::Vector3d> displacement; ///< mm, of the watched nodes at the first time, at the second ...
-  std::vector<double> volume;                ///< mm³, of the body at these times; empty: it is not watched
+  std::vector<double> time; ///< s, ascending; the first is the start
+  std::vector<int> nodes;   ///< of the body's mesh, ascending: those that are watched
+  std::vector<Eigen::Vector3d>
+      displacement;           ///< mm, of the watched nodes at the first time, at the second ...
+  std::vector<double> volume; ///< mm³, of the body at these times; empty: it is not watched
   struct Body {
     int step;                                  ///< place among the times
     std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
@@ -70,7 +71,7 @@ struct Solution {
   std::shared_ptr<const Sharing> sharing{};
   std::size_t unknowns = 0; ///< free degrees of freedom
   double residual = 0;      ///< |imbalance on free degrees of freedom| / |applied load|
-  double load_reached = 0;  ///< 0 to 1
+  double load_reached = 0;  ///< 0 to 1; of a motion, the part of its time
   int newton_iterations = 0;
   long linear_iterations = 0;
   long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations

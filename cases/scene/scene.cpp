@@ -184,15 +184,6 @@ void resolve_loads(Scene& scene) {
   }
 }
 
-/// Until both models have masses.
-void refuse_what_is_not_solved(const Case& definition) {
-  if (definition.dynamics)
-    throw InputError(definition.dynamics->where, "is read, but motions are not solved by this version");
-  for (const Load& load : definition.loads)
-    if (load.kind == LoadKind::gravity)
-      throw InputError(load.region.where, "is read, but gravity is not solved by this version");
-}
-
 HexMesh make_mesh(const Body& body) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
   if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
@@ -296,7 +287,6 @@ void resolve_network(Scene& scene) {
 } // namespace
 
 Scene make_scene(const Case& definition) {
-  refuse_what_is_not_solved(definition);
   Scene scene;
   scene.definition = definition;
   scene.mesh = make_mesh(definition.body);

@@ -53,7 +53,7 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
   for (const cases::Measure& measure : scene.definition.measures) {
     const auto value_by = [&](const Answer& answer) -> std::optional<double> {
       if (!answer.converged() || !can_evaluate(measure, answer.solution)) return std::nullopt;
-      return evaluate(measure, scene, answer.solution);
+      return value_of(measure, scene, answer.solution);
     };
     MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm), {}};
     if (answers.peer) value.peer = value_by(answers.peer->answer);
@@ -61,7 +61,9 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
       value.error_same_mesh_percent =
           measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
     value.error_percent = value.error_same_mesh_percent;
-    const StudiedMeasure* studied = study ? find_named(study->measures, measure.name) : nullptr;
+    // Of a motion's norm the limit is a number, and the error would be of the whole course.
+    const bool is_studied = study && !is_trajectory_norm(measure);
+    const StudiedMeasure* studied = is_studied ? find_named(study->measures, measure.name) : nullptr;
     if (studied && studied->reference) {
       value.fem_limit = studied->reference;
       hold_against_limit(value, measure, scene, answers, *study);

@@ -173,10 +173,16 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
   for (const cases::Measure& measure : measures) {
     StudiedMeasure& studied = study.measures.emplace_back();
     studied.name = measure.name;
-    for (const cases::Solution& solution : meshes.solutions)
-      studied.values.push_back(evaluate(measure, scene, solution));
+    bool is_everywhere = true;
+    for (const cases::Solution& solution : meshes.solutions) {
+      const std::optional<double> value = value_of(measure, scene, solution);
+      is_everywhere = is_everywhere && value;
+      studied.values.push_back(value.value_or(0));
+    }
+    if (!is_everywhere) studied.values.clear();
     if (studied.values.empty()) {
-      studied.reason = studied.no_reference = meshes.reason;
+      studied.reason = studied.no_reference =
+          is_everywhere ? meshes.reason : "its course over time has no such number on some mesh";
       continue;
     }
     find_order(studied, cases::index(own_refine - meshes.refine.front()));

@@ -19,36 +19,57 @@ namespace {
 
 constexpr double degrees_per_radian = 57.295779513082320877;
 
-struct Configuration {
-  const cases::Scene& scene;
-  const cases::Solution& solution;
-  Vector3d rest(int node) const { return scene.mesh.nodes[static_cast<std::size_t>(node)]; }
-  Vector3d displacement(int node) const {
-    return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
-                            : solution.displacement[cases::index(node)];
-  }
-  Vector3d deformed(int node) const { return rest(node) + displacement(node); }
-  int node(const cases::Region& region) const { return cases::select_node(scene.mesh, region); }
-};
-
 double component_of(const Vector3d& vector, cases::Component component) {
   return component == cases::Component::norm ? vector.norm() : vector[static_cast<int>(component)];
 }
 
-double tilt(const cases::Measure& measure, const Configuration& at) {
-  const Vector3d edge = at.deformed(at.node(measure.top)) - at.deformed(at.node(measure.bottom));
-  return degrees_per_radian *
-         std::atan2(edge[static_cast<int>(measure.toward)], edge[static_cast<int>(measure.axis)]);
-}
+/// A measure of a few nodes, on any displacement of them.
+class NodeMeasure {
+ public:
+  NodeMeasure(const cases::Measure& measure, const cases::Scene& scene) : measure_(measure), scene_(scene) {
+    const auto number = [&](const cases::Region& region) { return cases::select_node(scene.mesh, region); };
+    if (measure.kind == MeasureKind::tilt) {
+      top_ = number(measure.top);
+      bottom_ = number(measure.bottom);
+    } else {
+      node_ = number(measure.node);
+    }
+    if (measure.kind == MeasureKind::twist) centre_ = number(measure.centre);
+  }
 
-double twist(const cases::Measure& measure, const Configuration& at) {
-  const int node = at.node(measure.node), centre = at.node(measure.centre);
-  const Vector3d axis = Vector3d::Unit(static_cast<int>(measure.axis));
-  const auto across = [&](const Vector3d& v) { return Vector3d(v - axis.dot(v) * axis); };
-  const Vector3d before = across(at.rest(node) - at.rest(centre));
-  const Vector3d after = across(at.deformed(node) - at.deformed(centre));
-  return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
-}
+  /// @param displacement  of a node by its number, mm
+  template<class Displacement>
+  double at(const Displacement& displacement) const {
+    const auto deformed = [&](int node) -> Vector3d { return rest(node) + displacement(node); };
+    switch (measure_.kind) {
+    case MeasureKind::coordinate:
+      return deformed(node_)[static_cast<int>(measure_.axis)];
+    case MeasureKind::displacement:
+      return component_of(displacement(node_), measure_.component);
+    case MeasureKind::tilt: {
+      const Vector3d edge = deformed(top_) - deformed(bottom_);
+      return degrees_per_radian *
+             std::atan2(edge[static_cast<int>(measure_.toward)], edge[static_cast<int>(measure_.axis)]);
+    }
+    case MeasureKind::twist: {
+      const Vector3d axis = Vector3d::Unit(static_cast<int>(measure_.axis));
+      const auto across = [&](const Vector3d& v) { return Vector3d(v - axis.dot(v) * axis); };
+      const Vector3d before = across(rest(node_) - rest(centre_));
+      const Vector3d after = across(deformed(node_) - deformed(centre_));
+      return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
+    }
+    default:
+      return std::nan(""); // not reached: the others are of no nodes
+    }
+  }
+
+ private:
+  const cases::Measure& measure_;
+  const cases::Scene& scene_;
+  int node_ = 0, top_ = 0, bottom_ = 0, centre_ = 0;
+
+  Vector3d rest(int node) const { return scene_.mesh.nodes[cases::index(node)]; }
+};
 
 /// Sums of every rank's numbers; where nobody shares the solution, they are all.
 template<class Numbers>
@@ -59,27 +80,27 @@ Numbers sum_of_ranks(Numbers here, const cases::Solution& solution) {
 }
 
 /// Of the cells that hold the measure's point.
-double at_point(const cases::Measure& measure, const Configuration& at,
+double at_point(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution,
                 const std::vector<cases::SymmetricTensor>& of_cells) {
-  const cases::Range here = cases::share_here(at.scene.mesh, at.solution.sharing.get()).cells;
+  const cases::Range here = cases::share_here(scene.mesh, solution.sharing.get()).cells;
   std::array<double, 7> sums{}; // of the tensors, and the number of them
-  for (const std::size_t cell : cases::cells_at(at.scene.mesh, measure.point, here)) {
+  for (const std::size_t cell : cases::cells_at(scene.mesh, measure.point, here)) {
     for (std::size_t i = 0; i < 6; ++i) sums[i] += of_cells[cell - here.begin][i];
     ++sums[6];
   }
-  sums = sum_of_ranks(sums, at.solution);
+  sums = sum_of_ranks(sums, solution);
   cases::SymmetricTensor mean;
   for (std::size_t i = 0; i < 6; ++i) mean[i] = sums[i] / sums[6];
   return compare::component_of(mean, measure.tensor_component); // not the one above, of a vector
 }
 
-double reaction(const cases::Measure& measure, const Configuration& at) {
-  const cases::Share here = cases::share_here(at.scene.mesh, at.solution.sharing.get());
+double reaction(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
+  const cases::Share here = cases::share_here(scene.mesh, solution.sharing.get());
   Vector3d sum = Vector3d::Zero();
-  for (const int node : cases::select(at.scene.mesh, measure.region).nodes)
+  for (const int node : cases::select(scene.mesh, measure.region).nodes)
     if (here.own_nodes.has(cases::index(node)))
-      sum += at.solution.fields->reaction[cases::index(node) - here.nodes.begin];
-  return component_of(sum_of_ranks(sum, at.solution), measure.component);
+      sum += solution.fields->reaction[cases::index(node) - here.nodes.begin];
+  return component_of(sum_of_ranks(sum, solution), measure.component);
 }
 
 /// Lengths of all nodes' reactions, added up.
@@ -153,31 +174,55 @@ bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
   if (!can_evaluate(measure, solution))
     throw std::logic_error(measure.name + ": a solution without fields has no value of it");
-  const Configuration at{scene, solution};
   switch (measure.kind) {
   case MeasureKind::coordinate:
-    return at.deformed(at.node(measure.node))[static_cast<int>(measure.axis)];
   case MeasureKind::displacement:
-    return component_of(at.displacement(at.node(measure.node)), measure.component);
   case MeasureKind::tilt:
-    return tilt(measure, at);
   case MeasureKind::twist:
-    return twist(measure, at);
+    return NodeMeasure(measure, scene).at([&](int node) -> Vector3d {
+      return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
+                              : solution.displacement[cases::index(node)];
+    });
   case MeasureKind::volume:
     return volume(solution);
   case MeasureKind::displacement_field_l2:
   case MeasureKind::displacement_field_max:
     return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
   case MeasureKind::reaction:
-    return reaction(measure, at);
+    return reaction(measure, scene, solution);
   case MeasureKind::strain_energy:
     return solution.fields->total_energy;
   case MeasureKind::stress:
-    return at_point(measure, at, solution.fields->stress);
+    return at_point(measure, scene, solution, solution.fields->stress);
   case MeasureKind::strain:
-    return at_point(measure, at, solution.fields->strain);
+    return at_point(measure, scene, solution, solution.fields->strain);
   }
   return std::nan(""); // not reached: every kind is above
+}
+
+TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
+                     const cases::Solution& solution) {
+  const cases::Trajectory& seen = *solution.trajectory;
+  if (measure.kind == MeasureKind::volume) return {seen.time, seen.volume};
+  if (is_field_norm(measure.kind)) return {{seen.time.back()}, {evaluate(measure, scene, solution)}};
+  const NodeMeasure of_nodes(measure, scene);
+  TimeSeries series{seen.time, {}};
+  for (std::size_t step = 0; step < seen.time.size(); ++step)
+    series.value.push_back(of_nodes.at([&](int node) -> Vector3d {
+      const auto place = std::lower_bound(seen.nodes.begin(), seen.nodes.end(), node) - seen.nodes.begin();
+      return seen.displacement[step * seen.nodes.size() + cases::index(place)];
+    }));
+  return series;
+}
+
+std::optional<double> value_of(const cases::Measure& measure, const cases::Scene& scene,
+                               const cases::Solution& solution) {
+  if (!measure.over_time || !solution.trajectory) return evaluate(measure, scene, solution);
+  return value_over_time(*measure.over_time, series_of(measure, scene, solution));
+}
+
+bool is_trajectory_norm(const cases::Measure& measure) {
+  return measure.over_time == cases::OverTime::trajectory_l2;
 }
 
 std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh& mesh,
@@ -192,16 +237,20 @@ std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh
 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
-  return is_field_norm(measure.kind)
-             ? field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement,
-                                   fem.sharing.get())
-             : error_percent(evaluate(measure, scene, fem), evaluate(measure, scene, msm),
-                             zero_of(measure, scene, fem));
+  if (is_field_norm(measure.kind))
+    return field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement,
+                               fem.sharing.get());
+  if (is_trajectory_norm(measure) && fem.trajectory && msm.trajectory)
+    return trajectory_error_percent(series_of(measure, scene, fem), series_of(measure, scene, msm));
+  const auto of_fem = value_of(measure, scene, fem), of_msm = value_of(measure, scene, msm);
+  if (!of_fem || !of_msm) return std::nullopt;
+  return error_percent(*of_fem, *of_msm, zero_of(measure, scene, fem));
 }
 
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
   constexpr double rounding = 1e-8;
   if (!can_evaluate(measure, fem)) return 0; // one that failed beside meshes that have a limit
+  if (measure.over_time && has_own_unit(*measure.over_time)) return 0;
   Eigen::AlignedBox3d body;
   for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
   const double size = body.sizes().norm(), moved = field_norm(MeasureKind::displacement_field_max, scene.mesh,
@@ -228,23 +277,26 @@ double zero_of(const cases::Measure& measure, const cases::Scene& scene, const c
 }
 
 std::string unit_of(const cases::Measure& measure) {
-  switch (measure.kind) {
-  case MeasureKind::tilt:
-  case MeasureKind::twist:
-    return "deg";
-  case MeasureKind::volume:
-    return "mm3";
-  case MeasureKind::reaction:
-    return "N";
-  case MeasureKind::strain_energy:
-    return "N mm";
-  case MeasureKind::stress:
-    return "MPa";
-  case MeasureKind::strain:
-    return "1";
-  default:
-    return "mm";
-  }
+  const auto of_values = [&] {
+    switch (measure.kind) {
+    case MeasureKind::tilt:
+    case MeasureKind::twist:
+      return "deg";
+    case MeasureKind::volume:
+      return "mm3";
+    case MeasureKind::reaction:
+      return "N";
+    case MeasureKind::strain_energy:
+      return "N mm";
+    case MeasureKind::stress:
+      return "MPa";
+    case MeasureKind::strain:
+      return "1";
+    default:
+      return "mm";
+    }
+  };
+  return measure.over_time ? unit_over_time(*measure.over_time, of_values()) : of_values();
 }
 
 std::optional<double> error_percent(double fem, double msm, double zero) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/measure/over_time.hpp"
 #include "compare/solve/answers.hpp"
 
 /// Where ranks share a solution (Solution::sharing), what takes it is collective, and gives the same on each.
@@ -19,6 +20,15 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
 /// Whether a solution has what a measure is of: a displacement alone, another program's for one, has no
 /// fields.
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution);
+/// A measure of a motion at the start and after every step, in the unit of its values.
+/// @param solution  with its trajectory; a measure of which is_field_norm() holds is of the end alone
+TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
+
+/// What a case's measure is of a converged solution, in unit_of(measure): evaluate(), or the number of its
+/// course over time that a dynamic case asks for.
+/// @return nothing where the course has no such number
+std::optional<double> value_of(const cases::Measure& measure, const cases::Scene& scene,
+                               const cases::Solution& solution);
 
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
@@ -32,15 +42,18 @@ std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::
                                           const std::vector<Eigen::Vector3d>& other,
                                           const cases::Sharing* sharing = nullptr);
 
-/// Error of the springs in a measure, percent: field_error_percent() of a field norm, otherwise
-/// error_percent() of the two values.
+/// Error of the springs in a measure, percent: field_error_percent() of a field norm,
+/// trajectory_error_percent() of a trajectory_l2, otherwise error_percent() of the two values.
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm);
 
 /// Whether a measure's error is that of a difference of fields.
 bool is_field_norm(cases::MeasureKind kind);
 
-/// "mm", "deg", "mm3", "N", "N mm", "MPa", or "1" of a strain.
+/// Whether a measure's error is that of a difference of its courses over time.
+bool is_trajectory_norm(const cases::Measure& measure);
+
+/// "mm", "deg", "mm3", "N", "N mm", "MPa", or "1" of a strain; of numbers over time also "s", "Hz", "%".
 std::string unit_of(const cases::Measure& measure);
 
 /// Up to which size a value of a measure is zero but for rounding, in its unit: 1e-8 of the body's largest

@@ -15,7 +15,8 @@ Extreme vertex(const TimeSeries& series, std::size_t i) {
   const double before = series.time[i - 1] - t, after = series.time[i + 1] - t;
   const double slope_before = (series.value[i - 1] - value) / before,
                slope_after = (series.value[i + 1] - value) / after;
-  const double curvature = (slope_after - slope_before) / (after - before); // of curvature s² + slope s + value
+  const double curvature =
+      (slope_after - slope_before) / (after - before); // of curvature s² + slope s + value
   const double slope = slope_before - curvature * before;
   if (curvature == 0) return {t, value};
   const double at = std::clamp(-slope / (2 * curvature), before, after);
@@ -87,7 +88,8 @@ std::vector<Extreme> extremes(const TimeSeries& series) {
     const bool rose = direction <= 0 && series.value[i] - series.value[low] > noise;
     if (!fell && !rose) continue;
     const std::size_t turned = fell ? high : low;
-    if (direction != 0 || turned > 0) found.push_back(vertex(series, turned));
+    const bool is_start = direction == 0 && std::abs(series.value[turned] - series.value[0]) <= noise;
+    if (!is_start) found.push_back(vertex(series, turned));
     direction = fell ? -1 : 1;
     low = high = i;
   }
@@ -168,6 +170,10 @@ std::string unit_over_time(cases::OverTime what, const std::string& unit) {
     break;
   }
   return unit;
+}
+
+bool has_own_unit(cases::OverTime what) {
+  return unit_over_time(what, "") != "";
 }
 
 } // namespace springproof::compare

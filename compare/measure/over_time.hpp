@@ -31,7 +31,8 @@ struct Swings {
 };
 
 /// Fit to all extremes: half periods by a straight line through their times, decay by one through the
-/// logarithms of the ways between them, which do not depend on where the swings settle (logarithmic decrement).
+/// logarithms of the ways between them, which do not depend on where the swings settle (logarithmic
+/// decrement).
 /// @return nothing with fewer than three extremes
 std::optional<Swings> swings_of(const TimeSeries& series);
 
@@ -44,6 +45,9 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
 /// Root mean square of the difference of two series of equal times over that of the reference, percent;
 /// nothing when the reference is zero throughout.
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other);
+
+/// Whether it has another unit than the measure: a time, a frequency, a ratio.
+bool has_own_unit(cases::OverTime what);
 
 /// Its unit, of a measure that has one.  @param unit  of the measure's values
 std::string unit_over_time(cases::OverTime what, const std::string& unit);

@@ -115,6 +115,10 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
+  if (definition.dynamics) return "its input has no time";
+  if (std::any_of(definition.loads.begin(), definition.loads.end(),
+                  [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; }))
+    return "its input has no gravity";
   if (!definition.region_materials.empty()) return "its input has one material";
   if (std::holds_alternative<cases::TransverselyIsotropic>(definition.material))
     return "its input has isotropic materials";

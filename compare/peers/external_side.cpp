@@ -103,6 +103,8 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
                               fmt::format("kind is \"{}\", which displacements alone do not tell: leave it "
                                           "out beside --msm-displacements",
                                           cases::name_of(measure.kind)));
+  if (questions.front().scene.definition.dynamics)
+    throw cases::InputError("--msm-displacements: displacements have no time, and this case has [dynamics]");
   const cases::HexMesh& mesh = questions.front().scene.mesh;
   if (transfer == Transfer::interpolated) return read_interpolated(mesh, path);
   return ExternalDisplacements{path, match_nodes(mesh, read_displacements(path), path)};

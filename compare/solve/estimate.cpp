@@ -118,6 +118,19 @@ std::optional<BodySize> size_of(const cases::Case& definition) {
   return body;
 }
 
+namespace {
+
+/// Of a dynamic case, on one rank. A step takes about as many iterations of Newton's method as half an
+/// equilibrium, and a linear body's are not factorised again: an upper bound for these.
+Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
+  if (!definition.dynamics) return equilibrium;
+  equilibrium.seconds *= 0.5 * definition.dynamics->n_steps();
+  equilibrium.held_by = HeldBy::first_rank;
+  return equilibrium;
+}
+
+} // namespace
+
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
   const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
@@ -136,7 +149,7 @@ Estimate estimate_fem(const BodySize& body) {
     estimate = linear("finite elements (assembled)", unknowns, unknowns, algebraic_multigrid);
   if (fem.formulation == cases::Formulation::small_strain)
     estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
-  return estimate;
+  return in_time(estimate, body.outline.definition);
 }
 
 Estimate estimate_springs(const BodySize& body) {
@@ -145,12 +158,12 @@ Estimate estimate_springs(const BodySize& body) {
   const HeldBy held_by = is_alone ? HeldBy::first_rank : HeldBy::all_ranks_together;
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline.definition.msm);
   Estimate estimate;
-  if (!is_on_grid || body.n_nodes < msm::multigrid_from)
+  if (!is_on_grid || body.n_nodes < msm::multigrid_from || body.outline.definition.dynamics)
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
   else
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
   estimate.held_by = held_by;
-  return estimate;
+  return in_time(estimate, body.outline.definition);
 }
 
 std::vector<Estimate> estimate(const BodySize& body, const Request& request) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 namespace springproof::compare {
 
@@ -66,8 +67,15 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
 }
 
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
-  const auto settings = limited(scene.definition, fem_reference::default_settings());
   solvers(); // loading them is no part of the time
+  if (scene.definition.dynamics) {
+    const auto move = [&] {
+      return solve_side([&] { return std::cref(scene); },
+                        [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
+    };
+    return {shared_from_rank_0(scene.mesh, move), scene.definition.fem, {}, {}};
+  }
+  const auto settings = limited(scene.definition, fem_reference::default_settings());
   return {solve_side([&] { return make_finite_elements(scene); },
                      [&](const auto& model) {
                        cases::Solution solution = model->solve(settings);

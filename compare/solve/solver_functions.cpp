@@ -1,5 +1,7 @@
 #include "compare/solve/solvers.hpp"
+#include "fem_reference/motion.hpp"
 #include "fem_reference/session.hpp"
+#include "fem_reference/vibrating_elements.hpp"
 
 #include <dlfcn.h>
 #include <mpi.h>
@@ -27,6 +29,10 @@ std::unique_ptr<fem_reference::Model> new_model(const cases::Scene& scene, fem_r
   return std::make_unique<fem_reference::Model>(scene, MPI_COMM_WORLD, backend);
 }
 
+cases::Solution follow_finite_elements(const cases::Scene& scene) {
+  return fem_reference::follow(scene);
+}
+
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
   return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
 }
@@ -39,6 +45,8 @@ cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice la
 
 const SolverFunctions springproof_solvers{start,
                                           new_model,
+                                          follow_finite_elements,
+                                          fem_reference::vibrating_body,
                                           solve_by_snes,
                                           solve_lattice_by_snes,
                                           mechanics::petsc::full_spectrum,

@@ -2,6 +2,7 @@
 
 #include "fem_reference/model.hpp"
 #include "mechanics/petsc/spectrum.hpp"
+#include "mechanics/vibrating_body.hpp"
 #include "msm/snes/snes.hpp"
 
 #include <memory>
@@ -15,6 +16,8 @@ struct SolverFunctions {
   /// Starts MPI, PETSc and SLEPc. They end with what is returned.
   std::shared_ptr<void> (*start)();
   std::unique_ptr<fem_reference::Model> (*finite_elements)(const cases::Scene&, fem_reference::Backend);
+  cases::Solution (*follow_finite_elements)(const cases::Scene&);
+  mechanics::VibratingBody (*vibrating_elements)(const cases::Scene&);
   cases::Solution (*solve_by_snes)(const cases::Scene&, const std::vector<msm::CellStiffness>&);
   cases::Solution (*solve_lattice_by_snes)(const cases::Scene&, msm::Lattice);
   mechanics::petsc::Spectrum (*full_spectrum)(const Eigen::MatrixXd&);

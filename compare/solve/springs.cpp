@@ -3,6 +3,8 @@
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "msm/fields.hpp"
+#include "msm/motion.hpp"
+#include "msm/moving_springs.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -200,6 +202,17 @@ msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design
   return msm::Model(scene, stiffness_of_cells(design), options);
 }
 
+MovingSprings make_moving_springs(const cases::Scene& scene, const msm::DesignResult& design) {
+  if (scene.definition.msm.design == cases::Design::network) {
+    const msm::Lattice network = msm::network_lattice(scene.mesh, scene.network);
+    return {network, msm::damping_lattice(scene, network)};
+  }
+  if (design.terms)
+    return {msm::make_lattice(scene.mesh, *design.terms), msm::damping_lattice(scene, *design.terms)};
+  const std::vector<msm::CellStiffness> stiffness = stiffness_of_cells(design);
+  return {msm::make_lattice(scene.mesh, stiffness), msm::damping_lattice(scene, stiffness)};
+}
+
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
                                        mechanics::EquilibriumSettings settings) {
   if (!definition.stress) return settings;
@@ -226,6 +239,15 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& 
 }
 
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
+  if (scene.definition.dynamics)
+    return solve_side(
+        [&] {
+          design = design_for(scene);
+          return make_moving_springs(scene, *design);
+        },
+        [&](MovingSprings& springs) {
+          return msm::follow(scene, std::move(springs.lattice), std::move(springs.damping));
+        });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
   msm::DesignResult springs;

@@ -35,6 +35,12 @@ msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& 
 msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
                       const msm::ModelOptions& options = {});
 
+/// A scene's springs, ready to be moved.
+struct MovingSprings {
+  msm::Lattice lattice, damping; ///< the latter: msm::damping_lattice()
+};
+MovingSprings make_moving_springs(const cases::Scene& scene, const msm::DesignResult& design);
+
 /// A solver's settings with the limits of a hard case: load steps, iterations, seconds from now on. For
 /// another case they stay as they are.
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
@@ -47,7 +53,7 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& 
                             cases::Solution solution);
 
 /// Designs the springs of a scene and solves them in this process, which needs no finite elements: those of a
-/// hard case stiffer where it says so and from where it starts.
+/// hard case stiffer where it says so and from where it starts, those of a dynamic case through its time.
 /// @param n_threads  of the multigrid path    @param design  absent: the caller is not told
 /// @throws InputError when no springs can be designed
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design);

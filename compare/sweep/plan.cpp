@@ -162,6 +162,8 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
   if (!std::holds_alternative<cases::LinearElastic>(definition.material))
     throw cases::InputError(
         definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  if (definition.dynamics)
+    throw cases::InputError(definition.file + ": dynamics: a sweep is of equilibria, so it must be left out");
   if (definition.msm.exponent)
     throw cases::InputError(definition.file +
                             ": msm.law: a sweep solves every design with the springs that are its own, so it "

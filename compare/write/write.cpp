@@ -7,6 +7,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/springs_text.hpp"
+#include "compare/write/write_motion.hpp"
 
 #include <algorithm>
 
@@ -20,12 +21,20 @@ std::string number(const std::optional<double>& value, const char* format) {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
-void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side) {
+/// How fast a motion was followed.
+void write_motion_text(std::ostream& out, const cases::Trajectory& motion, double seconds) {
+  const double simulated = motion.time.back() - motion.time.front();
+  print(out, "       {} steps to {:.6g} s ({} halved), real time x {:.3g}\n", motion.time.size() - 1,
+        motion.time.back(), motion.halved_steps, simulated / seconds);
+}
+
+void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side,
+                bool is_motion) {
   const cases::Solution& s = side.solution;
   if (s.status == cases::Status::skipped) return;
   print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
   if (s.status == cases::Status::failed) {
-    print(out, " at {:.4g} of the load: {}\n", s.load_reached, s.message);
+    print(out, " at {:.4g} of the {}: {}\n", s.load_reached, is_motion ? "time" : "load", s.message);
     return;
   }
   const bool is_relaxed = s.relaxation_iterations > 0;
@@ -37,6 +46,7 @@ void write_side(std::ostream& out, const char* label, const std::string& what, c
     print(out, ", UNSTABLE: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
   if (s.lowest_eigenvalue) print(out, ", lowest tangent eigenvalue {:.3g} N/mm", *s.lowest_eigenvalue);
   print(out, "\n");
+  if (s.trajectory) write_motion_text(out, *s.trajectory, side.solve_seconds);
   if (!s.message.empty()) print(out, "       {}\n", s.message);
 }
 
@@ -282,6 +292,7 @@ Json case_to_json(const Comparison& comparison) {
                 {"expectations", expectations},
                 {"status", comparison.answers.failed() ? "failed" : "converged"},
                 {"doubts", comparison.doubts()}};
+  if (comparison.scene.definition.dynamics) document["motion"] = motion_to_json(comparison);
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);
   return document;
 }
@@ -293,10 +304,11 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   write_loads(out, scene);
   write_side(out, "fem",
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
-             answers.fem);
+             answers.fem, definition.dynamics.has_value());
   for (const std::string& choice : answers.choices) print(out, "       {}\n", choice);
   if (const cases::Solution& msm = answers.msm.solution; answers.msm_source.empty())
-    write_side(out, "msm", describe(answers.design, definition.msm.design), answers.msm);
+    write_side(out, "msm", describe(answers.design, definition.msm.design), answers.msm,
+               definition.dynamics.has_value());
   else
     print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source,
           comparison.scene.mesh.nodes.size(),
@@ -375,6 +387,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
 void write_results(const std::string& folder, const std::vector<Comparison>& done) {
   write_fields(folder, done.back());
   if (mpi_rank() != 0) return;
+  write_motion(folder, done.back());
   write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
   write_file(folder + "/results.json", [&](std::ostream& out) { out << json_text(to_json(done)); });
 }

@@ -29,8 +29,8 @@ nlohmann::ordered_json to_json(const std::vector<Comparison>& comparisons);
 /// error_same_mesh_percent; empty where there is no value.
 void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
 
-/// The files of `--out`: results.json and comparison.csv of all cases, and the fields of the last one. Called
-/// after every case, so that what is finished is on disk before the next begins; by every rank.
+/// The files of `--out`: results.json and comparison.csv of all cases, and fields and motion of the last one.
+/// Called after every case, so that what is finished is on disk before the next begins; by every rank.
 /// @param done  at least one
 void write_results(const std::string& folder, const std::vector<Comparison>& done);
 

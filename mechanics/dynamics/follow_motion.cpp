@@ -1,5 +1,6 @@
 #include "mechanics/dynamics/follow_motion.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
 
 #include <utility>
@@ -47,9 +48,15 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   TimeIntegrator motion(body.problem, dynamics.scheme, {0, std::move(start), std::move(at_rest), {}},
                         settings);
   record.add(0, 0, motion.now().displacement);
-  for (int step = 1; step <= dynamics.n_steps(); ++step) {
-    motion.advance(step * dynamics.step);
-    record.add(step, motion.now().time, motion.now().displacement);
+  try {
+    for (int step = 1; step <= dynamics.n_steps(); ++step) {
+      motion.advance(step * dynamics.step);
+      record.add(step, motion.now().time, motion.now().displacement);
+    }
+  } catch (const cases::SolveError& error) {
+    cases::Solution so_far = error.so_far();
+    so_far.load_reached = motion.now().time / dynamics.end;
+    throw cases::SolveError(error.what(), std::move(so_far));
   }
   FollowedMotion followed{motion.now().displacement, record.finish(motion.n_halvings()), motion.work()};
   followed.work.load_reached = 1;

@@ -21,7 +21,8 @@ struct FollowedMotion {
 };
 
 /// Moves a body through the time of its case's [dynamics], from a displacement without velocity.
-/// @throws cases::SolveError with the time reached when a step's equation is not solved, halved as it is
+/// @throws cases::SolveError, whose load reached is the part of the time, when a step's equation is not
+/// solved, halved as it is
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings = {});
 

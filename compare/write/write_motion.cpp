@@ -1,0 +1,122 @@
+#include "compare/write/write_motion.hpp"
+
+#include "compare/measure/measure.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/write/csv.hpp"
+#include "compare/write/escape.hpp"
+#include "compare/write/write_fields.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+using Trajectory = cases::Trajectory;
+
+const Trajectory* trajectory_of(const Answer& answer) {
+  const auto& trajectory = answer.solution.trajectory;
+  return trajectory ? &*trajectory : nullptr;
+}
+
+/// Of the finite elements, or else of the springs: both have the times of [dynamics]. Null: neither moved.
+const Trajectory* any_trajectory(const Comparison& comparison) {
+  const Trajectory* of_fem = trajectory_of(comparison.answers.fem);
+  return of_fem ? of_fem : trajectory_of(comparison.answers.msm);
+}
+
+/// A measure's course in both models; empty in one that did not move.
+struct Courses {
+  const cases::Measure& measure;
+  std::vector<double> fem, msm;
+};
+
+std::vector<Courses> courses_of(const Comparison& comparison) {
+  const auto values = [&](const cases::Measure& measure, const Answer& answer) {
+    if (!trajectory_of(answer)) return std::vector<double>();
+    return series_of(measure, comparison.scene, answer.solution).value;
+  };
+  std::vector<Courses> all;
+  for (const cases::Measure& measure : comparison.scene.definition.measures)
+    if (measure.over_time) // norms of fields have none
+      all.push_back({measure, values(measure, comparison.answers.fem),
+                     values(measure, comparison.answers.msm)});
+  return all;
+}
+
+/// Of the measure's values, whatever number of their course the case asks for.
+std::string unit_of_values(cases::Measure measure) {
+  measure.over_time.reset();
+  return unit_of(measure);
+}
+
+std::optional<double> entry_at(const std::vector<double>& values, std::size_t step) {
+  return step < values.size() ? std::optional(values[step]) : std::nullopt;
+}
+
+struct MotionFiles {
+  std::string folder, name;
+  std::string series() const { return folder + "/" + name + "_motion.csv"; }
+  std::string list() const { return folder + "/" + name + ".pvd"; }
+  std::string bodies() const { return name + "_motion"; }
+  std::string body(std::size_t i) const { return fmt::format("{}/{}_{:04}.vtu", bodies(), name, i); }
+};
+
+/// Bodies of both models at one time.
+std::vector<cases::PointField> fields_at(const Comparison& comparison, std::size_t body) {
+  std::vector<cases::PointField> fields;
+  const auto add = [&](const std::string& name, const Trajectory* trajectory) {
+    if (trajectory && body < trajectory->bodies.size())
+      fields.push_back({name, trajectory->bodies[body].displacement});
+  };
+  add("fem_displacement", trajectory_of(comparison.answers.fem));
+  add("msm_displacement", trajectory_of(comparison.answers.msm));
+  return fields;
+}
+
+/// What ParaView opens.
+void write_times(std::ostream& out, const MotionFiles& files, const Trajectory& trajectory) {
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+  for (std::size_t i = 0; i < trajectory.bodies.size(); ++i)
+    out << fmt::format("    <DataSet timestep=\"{}\" file=\"{}\"/>\n",
+                       trajectory.time[cases::index(trajectory.bodies[i].step)], escape(files.body(i)));
+  out << "  </Collection>\n</VTKFile>\n";
+}
+
+} // namespace
+
+void write_motion_csv(std::ostream& out, const Comparison& comparison) {
+  CsvWriter csv(out, 10);
+  csv.row("case", "measure", "unit", "time", "fem", "msm");
+  const Trajectory* motion = any_trajectory(comparison);
+  if (!motion) return;
+  for (const auto& [measure, fem, msm] : courses_of(comparison))
+    for (std::size_t step = 0; step < motion->time.size(); ++step)
+      csv.row(comparison.scene.definition.name, measure.name, unit_of_values(measure), motion->time[step],
+              entry_at(fem, step), entry_at(msm, step));
+}
+
+nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
+  const Trajectory* motion = any_trajectory(comparison);
+  if (!motion) return nullptr;
+  nlohmann::ordered_json measures = nlohmann::ordered_json::array();
+  for (const auto& [measure, fem, msm] : courses_of(comparison))
+    measures.push_back(
+        {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
+  return {{"time", motion->time}, {"measures", measures}};
+}
+
+void write_motion(const std::string& folder, const Comparison& comparison) {
+  const Trajectory* motion = any_trajectory(comparison);
+  if (!motion) return;
+  const MotionFiles files{folder, comparison.scene.definition.name};
+  write_file(files.series(), [&](std::ostream& out) { write_motion_csv(out, comparison); });
+  claim_subfolder(folder, files.bodies());
+  for (std::size_t i = 0; i < motion->bodies.size(); ++i)
+    write_file(folder + "/" + files.body(i),
+               [&](std::ostream& out) { write_vtu(out, comparison.scene.mesh, fields_at(comparison, i)); });
+  write_file(files.list(), [&](std::ostream& out) { write_times(out, files, *motion); });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "compare/gates/comparison.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+
+/// What a dynamic case has of its time: series of its measures, and bodies.
+namespace springproof::compare {
+
+/// One row per measure and step: case,measure,unit,time,fem,msm; times in s, empty where a model has no motion.
+void write_motion_csv(std::ostream& out, const Comparison& comparison);
+
+/// The same: {"time": [...], "measures": [{"name", "unit", "fem": [...], "msm": [...]}]}; null for a case without
+/// motion.
+nlohmann::ordered_json motion_to_json(const Comparison& comparison);
+
+/// FOLDER/NAME_motion.csv, and FOLDER/NAME.pvd, which lists the bodies FOLDER/NAME_motion/NAME_0000.vtu, ... by
+/// their times; of a case without motion nothing. On one rank.
+/// @throws InputError if a file cannot be written
+void write_motion(const std::string& folder, const Comparison& comparison);
+
+} // namespace springproof::compare

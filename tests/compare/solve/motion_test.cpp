@@ -1,0 +1,142 @@
+#include "cases/case/read_case.hpp"
+#include "cases/mesh/sharing.hpp"
+#include "compare/gates/comparison.hpp"
+#include "compare/measure/measure.hpp"
+#include "compare/solve/answer_bytes.hpp"
+#include "compare/solve/fields.hpp"
+#include "compare/write/write.hpp"
+#include "compare/write/write_motion.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using namespace springproof;
+
+namespace {
+
+const std::string body = R"(
+schema = 1
+name = "bar in time"
+[body]
+shape = "box"
+size = [30, 10, 10]
+cells = [6, 2, 2]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+density = 1000
+)";
+
+const std::string rest_of_case = R"(
+[[fixed]]
+region = "x-"
+[fem]
+accuracy = "none"
+[msm]
+design = "hybrid"
+[[measure]]
+name = "tip"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "z"
+)";
+
+const std::string moving = R"(
+[dynamics]
+scheme = "newmark"
+step = 0.002
+end = 0.2
+start = "equilibrium"
+write_every = 25
+)";
+
+/// The bar under its weight, which it is released from at time 0.
+cases::Case released() {
+  return cases::read_case_text(body + rest_of_case + R"(over_time = "trajectory_l2"
+[[measure]]
+name = "swing"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "z"
+over_time = "frequency"
+[[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+history = [[0, 1], [0, 0]]
+)" + moving,
+                               "released.toml");
+}
+
+/// Static, or damped so strongly that it comes to rest.
+cases::Case hanging(bool in_time) {
+  const std::string damped = R"(
+[dynamics]
+scheme = "implicit_euler"
+step = 0.05
+end = 10
+)";
+  return cases::read_case_text(body + (in_time ? "mass_damping = 200\nstiffness_damping = 0.01\n" : "") +
+                                   rest_of_case + R"([[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+)" + (in_time ? damped : ""),
+                               "hanging.toml");
+}
+
+} // namespace
+
+TEST_CASE("both models move through the time of a case, and are measured on their way", "[verification]") {
+  const compare::Comparison comparison = compare::compare_case(released());
+  REQUIRE(comparison.answers.fem.converged());
+  REQUIRE(comparison.answers.msm.converged());
+  REQUIRE(comparison.measures.size() == 2);
+  const compare::MeasuredValue &course = comparison.measures[0], &swing = comparison.measures[1];
+  CHECK(course.unit == "mm");
+  CHECK(swing.unit == "Hz");
+  REQUIRE((swing.fem && swing.msm && course.error_percent));
+  // A cantilever of a slenderness of three: Euler and Bernoulli's beam does not shear, these elements lock a bit.
+  const double beam = 0.5596 / (30. * 30.) * std::sqrt(0.1 * 10 * 10 / (12 * 1e-9)); // Hz
+  CHECK(*swing.fem == Approx(beam).epsilon(0.2));
+  CHECK(*course.error_percent > 0); // of the difference, which no model is without
+  const nlohmann::ordered_json motion = compare::motion_to_json(comparison);
+  CHECK(motion["time"].size() == 101);
+  CHECK(motion["measures"][0]["fem"].size() == 101);
+  CHECK(motion["measures"][0]["unit"] == "mm");
+  std::ostringstream csv;
+  compare::write_motion_csv(csv, comparison);
+  const std::string rows = csv.str();
+  CHECK(std::count(rows.begin(), rows.end(), '\n') == 1 + 2 * 101);
+}
+
+TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") {
+  const compare::Comparison comparison = compare::compare_case(released(), {cases::Side::msm});
+  compare::Answer answer = comparison.answers.msm;
+  const cases::Share all = cases::share_here(comparison.scene.mesh, nullptr);
+  const auto copy = compare::answer_from(cases::to_bytes(answer), all);
+  REQUIRE(copy.solution.trajectory);
+  CHECK((copy.solution.trajectory->displacement == answer.solution.trajectory->displacement));
+  CHECK(copy.solution.trajectory->bodies.size() == 5); // steps 0, 25, 50, 75, 100
+  const auto refuses = [&](const auto& damage) {
+    compare::Answer damaged = answer;
+    damage(*damaged.solution.trajectory);
+    CHECK_THROWS(compare::answer_from(cases::to_bytes(damaged), all));
+  };
+  refuses([](cases::Trajectory& motion) { motion.displacement.pop_back(); });
+  refuses([](cases::Trajectory& motion) { motion.nodes.front() = 1000000; });
+  refuses([](cases::Trajectory& motion) { motion.bodies.front().step = -1; });
+  refuses([](cases::Trajectory& motion) { motion.bodies.back().displacement.pop_back(); });
+  refuses([](cases::Trajectory& motion) { std::swap(motion.time.front(), motion.time.back()); });
+}
+
+TEST_CASE("a strongly damped motion of either model ends in its static equilibrium", "[verification]") {
+  const compare::Comparison still = compare::compare_case(hanging(false)),
+                            moved = compare::compare_case(hanging(true));
+  REQUIRE(still.measures.size() == 1);
+  REQUIRE(moved.measures.size() == 1);
+  CHECK(moved.measures[0].fem.value() == Approx(still.measures[0].fem.value()).epsilon(1e-6));
+  CHECK(moved.measures[0].msm.value() == Approx(still.measures[0].msm.value()).epsilon(1e-6));
+}
