@@ -27,8 +27,10 @@ Eigen::MatrixXd node_masses(const Discretisation& d, int cell, double density, c
 class RestStiffness {
  public:
   RestStiffness(const Discretisation& d, const std::vector<Formulation>& formulations)
-      : d_(d), displacement_(3 * index(d.nodes.per_cell), 0.), pressure_(index(d.element.n_pressure_modes), 0.) {
-    for (const Formulation& formulation : formulations) kernels_.push_back(formulation.make_kernel(d.element));
+      : d_(d), displacement_(3 * index(d.nodes.per_cell), 0.),
+        pressure_(index(d.element.n_pressure_modes), 0.) {
+    for (const Formulation& formulation : formulations)
+      kernels_.push_back(formulation.make_kernel(d.element));
   }
   const RowMajorMatrix& of(int cell) {
     const auto& material = d_.material_of_cell;
@@ -43,6 +45,17 @@ class RestStiffness {
   std::vector<std::unique_ptr<CellKernel>> kernels_;
   std::vector<double> displacement_, pressure_; ///< 0
 };
+
+/// Adds a factor times a cell's tangent at rest.
+void add_stiffness(const Discretisation& d, int cell, const RowMajorMatrix& tangent, double factor,
+                   Triplets& entries) {
+  const int n = d.nodes.per_cell;
+  const int* node = d.nodes.of_cell.data() + cell * n;
+  for (int row = 0; row < 3 * n; ++row)
+    for (int column = 0; column < 3 * n; ++column)
+      entries.emplace_back(3 * node[row % n] + row / n, 3 * node[column % n] + column / n,
+                           factor * tangent(row, column));
+}
 
 LocalMatrix matrix_of(const Triplets& entries, std::size_t n) {
   LocalMatrix matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -60,22 +73,18 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
   for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
     const auto dynamics = cases::dynamics_of(scene, index(d.nodes.mesh_cell[index(cell)]));
     const int* node = d.nodes.of_cell.data() + cell * n;
-    const auto add = [&](Triplets& to, int a, int i, int b, int k, double value) {
-      if (value != 0) to.emplace_back(3 * node[a] + i, 3 * node[b] + k, value);
+    const auto add = [&](Triplets& to, int a, int b, int component, double value) {
+      if (value != 0) to.emplace_back(3 * node[a] + component, 3 * node[b] + component, value);
     };
     const Eigen::MatrixXd of_nodes = node_masses(d, cell, dynamics.density, scene.definition.fem.mass);
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
         for (int i = 0; i < 3; ++i) {
-          add(mass, a, i, b, i, of_nodes(a, b));
-          add(damping, a, i, b, i, dynamics.mass_damping * of_nodes(a, b));
+          add(mass, a, b, i, of_nodes(a, b));
+          add(damping, a, b, i, dynamics.mass_damping * of_nodes(a, b));
         }
-    if (dynamics.stiffness_damping == 0) continue;
-    const RowMajorMatrix& at_rest = stiffness.of(cell);
-    for (int row = 0; row < 3 * n; ++row)
-      for (int column = 0; column < 3 * n; ++column)
-        add(damping, row % n, row / n, column % n, column / n,
-            dynamics.stiffness_damping * at_rest(row, column));
+    if (dynamics.stiffness_damping > 0)
+      add_stiffness(d, cell, stiffness.of(cell), dynamics.stiffness_damping, damping);
   }
   const std::vector<cases::NodeMass> added = cases::added_masses(scene);
   for (int node = 0; node < d.nodes.n_owned; ++node) {
@@ -84,6 +93,13 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
   }
   const std::size_t n_dofs = d.constraints.is_constrained.size();
   return {matrix_of(mass, n_dofs), matrix_of(damping, n_dofs)};
+}
+
+LocalMatrix rest_stiffness(const Discretisation& d, const std::vector<Formulation>& formulations) {
+  RestStiffness stiffness(d, formulations);
+  Triplets entries;
+  for (int cell = 0; cell < d.nodes.n_cells; ++cell) add_stiffness(d, cell, stiffness.of(cell), 1, entries);
+  return matrix_of(entries, d.constraints.is_constrained.size());
 }
 
 } // namespace springproof::fem_reference

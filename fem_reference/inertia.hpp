@@ -21,4 +21,8 @@ struct Inertia {
 Inertia make_inertia(const cases::Scene& scene, const Discretisation& discretisation,
                      const std::vector<Formulation>& formulations);
 
+/// The tangent at rest, N/mm.
+LocalMatrix rest_stiffness(const Discretisation& discretisation,
+                           const std::vector<Formulation>& formulations);
+
 } // namespace springproof::fem_reference

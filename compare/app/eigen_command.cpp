@@ -2,12 +2,14 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
+#include "compare/modes/vibrations.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/write/json.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -18,6 +20,8 @@ namespace {
 
 struct EigenOptions {
   DesignOptions design;
+  std::string vibrating;            ///< a case file; empty: eigenspaces of a cell
+  std::vector<std::string> designs; ///< of its springs; empty: its own
   int n_modes = 20;
   int body_cells = 0;
   std::string out;
@@ -37,7 +41,29 @@ std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::Ce
   return cases::make_box_mesh(Eigen::Vector3d::Constant(n * msm::cube_edge(cell)), {{n, n, n}});
 }
 
+/// The lowest vibrations of a case's body.
+int run_vibrations(const EigenOptions& options) {
+  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.vibrating));
+  std::vector<cases::Design> designs;
+  for (const std::string& name : options.designs) designs.push_back(*cases::value_of<cases::Design>(name));
+  claim_folder(options.out);
+  if (mpi_rank() != 0) return 0;
+  const VibrationStudy study = study_vibrations(scene, designs, options.n_modes);
+  if (options.json) {
+    nlohmann::ordered_json document{{"schema", 1}};
+    document.update(vibrations_to_json(study));
+    std::cout << json_text(document);
+  } else {
+    write_vibrations_text(std::cout, study);
+  }
+  if (!options.out.empty()) write_vibrations_files(options.out, study, scene.mesh);
+  const bool is_refused = std::any_of(study.designs.begin(), study.designs.end(),
+                                      [](const DesignVibrations& design) { return !design.refusal.empty(); });
+  return is_refused ? 1 : 0;
+}
+
 int run(EigenOptions options) {
+  if (!options.vibrating.empty()) return run_vibrations(options);
   if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
     options.design.youngs_modulus = 1;
   const msm::DesignRequest request = request_from(options.design);
@@ -79,8 +105,17 @@ void add_eigen_command(CLI::App& program, Action& chosen) {
   auto options = std::make_shared<EigenOptions>();
   options->design.edge = 2; // with E = 1: the thesis's cell, whose eigenvalues Table 4.2 prints
   CLI::App* command = program.add_subcommand(
-      "eigen", "eigenspaces of a cell's two stiffness matrices, and the modes of a whole body");
+      "eigen", "the lowest vibrations of a case in both models; without a case, eigenspaces of a cell's two "
+               "stiffness matrices, and the modes of a whole body");
   add_design_options(*command, options->design);
+  CLI::Option* cell = command->get_option("--case");
+  CLI::Option* vibrating =
+      command->add_option("case", options->vibrating, "case file (TOML) whose material has a density")
+          ->excludes(cell);
+  command->add_option("--designs", options->designs, "springs of these designs (a,b,c)")
+      ->delimiter(',')
+      ->needs(vibrating)
+      ->check(CLI::IsMember(cases::all_names<cases::Design>()));
   command
       ->add_option("--body", options->body_cells, "also the lowest modes of a free cube of N x N x N cells")
       ->check(CLI::Range(1, 40));

@@ -18,18 +18,6 @@ namespace springproof::compare {
 
 namespace {
 
-/// The scene with the springs of a design.
-cases::Scene with_design(cases::Scene scene, cases::Design design) {
-  cases::Msm& own = scene.definition.msm;
-  if (own.design == design) return scene;
-  cases::Msm other;
-  other.design = design;
-  other.accepted = own.accepted;
-  other.where = own.where;
-  own = other;
-  return scene;
-}
-
 /// Worst errors of the measures that have one.
 void add_errors(RankedDesign& ranked, const Comparison& comparison) {
   const std::vector<cases::Measure>& asked = comparison.scene.definition.measures;
@@ -67,7 +55,8 @@ RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
     ranked.failure = fmt::format("{} (reached: {:.2f} of the load)", solution.message, solution.load_reached);
     return ranked;
   }
-  ranked.is_stable = solution.outcome == cases::Outcome::stable_equilibrium && solution.inverted_cells == 0;
+  const bool is_settled = solution.trajectory || solution.outcome == cases::Outcome::stable_equilibrium;
+  ranked.is_stable = is_settled && solution.inverted_cells == 0; // of a motion's end nobody asks
   const Comparison comparison = comparison_of(scene, std::move(answers));
   ranked.measures = comparison.measures;
   add_errors(ranked, comparison);

@@ -167,6 +167,18 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
           std::nullopt};
 }
 
+cases::Scene with_design(cases::Scene scene, cases::Design design) {
+  cases::Msm& own = scene.definition.msm;
+  if (own.design == design) return scene;
+  cases::Msm other;
+  other.design = design;
+  other.accepted = own.accepted;
+  other.mass = own.mass;
+  other.where = own.where;
+  own = other;
+  return scene;
+}
+
 bool is_assembled(const cases::Msm& options) {
   const bool is_by_axis = options.design == cases::Design::given && options.axis_stiffness;
   return is_by_axis || cases::facts_of(options.design).cells != cases::DesignCells::four_stiffnesses;

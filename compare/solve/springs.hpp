@@ -11,6 +11,9 @@ namespace springproof::compare {
 msm::DesignRequest design_request(const cases::Material& material, const msm::CellVertices& cell,
                                   const cases::Msm& options, cases::Element element = cases::Element::q1);
 
+/// The scene with the springs of a design, by that design's own settings.
+cases::Scene with_design(cases::Scene scene, cases::Design design);
+
 /// The stiffnesses that a scene's [msm] block asks for. On a grid all cells of a material are alike; on
 /// another mesh every cell is designed for itself (linear_method, moduli, hybrid, given), the result's own
 /// stiffness and moduli are those of the first cell, and its warnings count the cells they hold for.

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+#include "mechanics/vibrating_body.hpp"
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+/// Small vibrations of both models about rest, with the supports of a case and without its loads.
+namespace springproof::compare {
+
+/// Frequencies in ascending order, and their shapes on the nodes of the body's mesh.
+struct Vibrations {
+  Eigen::VectorXd hertz;
+  /// Per frequency a column of 3*node + component, 0 on supports; orthonormal in the masses of mode_masses().
+  Eigen::MatrixXd shapes;
+  int n_rigid = 0; ///< motions without stiffness, which are left out
+};
+
+/// Modes of neighbouring frequencies less than 1e-3 of the frequency apart, which count as one space: which
+/// of its vectors are modes, rounding or the mesh decides.
+struct ModeSpace {
+  int first, dimension;
+};
+std::vector<ModeSpace> spaces_of(const Eigen::VectorXd& hertz);
+
+/// The modes of a space of the finite elements, and the springs' that overlap it most.
+struct MatchedModes {
+  double fem_hz; ///< mean of the space
+  int dimension; ///< of the space
+  double msm_hz; ///< mean of the springs' modes, as many at least
+  /// Cosine of the largest angle between the two spaces, in the masses of mode_masses(): 1 for the same
+  /// shapes.
+  double overlap;
+  double error_percent;   ///< (msm_hz - fem_hz)/fem_hz
+  int fem_mode, msm_mode; ///< the first ones' places among the frequencies
+};
+
+/// Of a case's bodies. Every design is held against the same finite elements.
+struct DesignVibrations {
+  std::string design;
+  Vibrations msm;
+  std::vector<MatchedModes> modes; ///< ascending; a space that would be cut in two is left out
+  std::string refusal;             ///< why there are none; empty when there are
+};
+struct VibrationStudy {
+  std::string name; ///< of the case
+  Vibrations fem;
+  std::vector<DesignVibrations> designs;
+};
+
+/// Per degree of freedom of the body's mesh, t: what shapes are weighted with, the springs' point masses of
+/// equal shares of cells.
+Eigen::VectorXd mode_masses(const cases::Scene& scene);
+
+/// The lowest vibrations of a body.
+/// @param n_modes  with stiffness; fewer where the body has no more
+/// @throws SolveError if SLEPc does not converge, or if the body is unstable at rest
+Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::VectorXd& masses, int n_modes);
+
+/// @param n_modes  of the finite elements that are matched
+std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& msm,
+                                      const Eigen::VectorXd& masses, int n_modes);
+
+/// Both models of a scene whose materials have densities.
+/// @param designs  of springs; empty: the case's own. One that cannot serve the case is refused by itself
+/// @throws InputError; SolveError of the finite elements
+VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,
+                                int n_modes);
+
+void write_vibrations_text(std::ostream& out, const VibrationStudy& study);
+
+/// {"case", "fem_hz", "designs": [{"design", "refusal", "modes": [...]}], "modes": those of the first
+/// design}; a mode is {"fem_hz", "multiplicity", "msm_hz", "overlap", "error_percent"}.
+nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study);
+
+/// FOLDER/NAME_modes.csv, and FOLDER/NAME_modes.vtu with the shapes that were matched.
+/// @throws InputError if a file cannot be written
+void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
+                            const cases::HexMesh& mesh);
+
+} // namespace springproof::compare

@@ -1,0 +1,119 @@
+#include "cases/case/error.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/modes/vibrations.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+using namespace springproof;
+
+namespace {
+
+/// A bar of a square section along x, of water and 0.1 MPa, held at one end or nowhere.
+cases::Scene bar(bool is_held, const std::string& further = "") {
+  return cases::make_scene(cases::read_case_text(R"(
+schema = 1
+name = "bar"
+[body]
+shape = "box"
+size = [40, 10, 10]
+cells = [8, 2, 2]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+density = 1000
+)" + std::string(is_held ? "[[fixed]]\nregion = \"x-\"\n" : R"([dynamics]
+scheme = "newmark"
+step = 0.001
+end = 0.001
+)") + R"([[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+[fem]
+accuracy = "none"
+[msm]
+design = "hybrid"
+)" + further,
+                                                 "bar.toml"));
+}
+
+const double wave = std::sqrt(0.1 / 1e-9); // mm/s, along a rod
+
+} // namespace
+
+TEST_CASE("both models of a free bar have its rigid motions and the vibrations of a rod", "[verification]") {
+  const compare::VibrationStudy study = compare::study_vibrations(bar(false), {}, 12);
+  CHECK(study.fem.n_rigid == 6);
+  REQUIRE(study.designs.size() == 1);
+  const compare::DesignVibrations& springs = study.designs.front();
+  CHECK(springs.msm.n_rigid == 6);
+  REQUIRE(!springs.modes.empty());
+  // Bending in two planes of a square section comes first, as one space.
+  CHECK(springs.modes.front().dimension == 2);
+  CHECK(springs.modes.front().overlap > 0.99);
+  // Some mode is the lowest along the rod, c/(2 L); its sides' inertia takes a little from it.
+  const double along = wave / (2 * 40);
+  double nearest = 1;
+  for (const compare::MatchedModes& mode : springs.modes)
+    if (mode.dimension == 1) nearest = std::min(nearest, std::abs(mode.fem_hz / along - 1));
+  CHECK(nearest < 0.03);
+  for (const compare::MatchedModes& mode : springs.modes) {
+    CHECK(mode.overlap >= 0);
+    CHECK(mode.overlap <= 1);
+    CHECK(mode.error_percent == Approx(100 * (mode.msm_hz / mode.fem_hz - 1)).margin(1e-9));
+  }
+}
+
+TEST_CASE("a model's vibrations overlap with themselves, degenerate ones too") {
+  const cases::Scene scene = bar(true);
+  const Eigen::VectorXd masses = compare::mode_masses(scene);
+  const compare::VibrationStudy study = compare::study_vibrations(scene, {}, 10);
+  // Turned within its space of two, the first pair is as good a pair.
+  compare::Vibrations turned = study.fem;
+  const auto spaces = compare::spaces_of(turned.hertz);
+  REQUIRE(spaces.front().dimension == 2);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const Eigen::VectorXd first = turned.shapes.col(0), second = turned.shapes.col(1);
+  turned.shapes.col(0) = c * first + s * second;
+  turned.shapes.col(1) = c * second - s * first;
+  const auto matched = compare::match_modes(study.fem, turned, masses, 10);
+  REQUIRE(!matched.empty());
+  for (const compare::MatchedModes& mode : matched) {
+    CHECK(mode.overlap == Approx(1).margin(1e-9));
+    CHECK(std::abs(mode.error_percent) < 1e-9);
+  }
+}
+
+TEST_CASE("designs are held against the same finite elements, one that cannot serve by its reason") {
+  const compare::VibrationStudy study =
+      compare::study_vibrations(bar(true), {cases::Design::hybrid, cases::Design::transverse}, 6);
+  REQUIRE(study.designs.size() == 2);
+  CHECK(study.designs[0].refusal.empty());
+  CHECK(!study.designs[1].refusal.empty());
+  const nlohmann::ordered_json document = compare::vibrations_to_json(study);
+  CHECK(document["designs"].size() == 2);
+  REQUIRE(document["modes"].size() >= 1);
+  for (const char* key : {"fem_hz", "msm_hz", "overlap", "error_percent"})
+    CHECK(document["modes"][0][key].is_number());
+}
+
+TEST_CASE("what has no mass does not vibrate") {
+  cases::Scene scene = bar(true);
+  scene.definition.material_dynamics.density.reset();
+  CHECK_THROWS_AS(compare::study_vibrations(scene, {}, 4), cases::InputError);
+}
+
+TEST_CASE("quadratic finite elements on a finer mesh are compared on the body's nodes", "[verification]") {
+  cases::Scene scene = bar(true);
+  scene.definition.fem.element = cases::Element::q2;
+  const compare::VibrationStudy fine = compare::study_vibrations(scene, {}, 4);
+  // Euler and Bernoulli's cantilever of slenderness 4, less what shear and rotation take.
+  const double beam = 0.5596 / (40. * 40.) * wave * std::sqrt(10. * 10 / 12);
+  REQUIRE(!fine.designs.front().modes.empty());
+  const compare::MatchedModes& bending = fine.designs.front().modes.front();
+  CHECK(bending.fem_hz < beam);
+  CHECK(bending.fem_hz > 0.9 * beam);
+  CHECK(bending.overlap > 0.99);
+}
