@@ -317,6 +317,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);
+  for (const std::string& note : notes_on_motion(comparison)) print(out, "  {}\n", note);
   write_measures(out, measures, answers.peer);
   if (mesh_study) {
     write_missing_limits(out, *mesh_study);

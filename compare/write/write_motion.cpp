@@ -40,8 +40,8 @@ std::vector<Courses> courses_of(const Comparison& comparison) {
   std::vector<Courses> all;
   for (const cases::Measure& measure : comparison.scene.definition.measures)
     if (measure.over_time) // norms of fields have none
-      all.push_back({measure, values(measure, comparison.answers.fem),
-                     values(measure, comparison.answers.msm)});
+      all.push_back(
+          {measure, values(measure, comparison.answers.fem), values(measure, comparison.answers.msm)});
   return all;
 }
 
@@ -104,7 +104,24 @@ nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
   for (const auto& [measure, fem, msm] : courses_of(comparison))
     measures.push_back(
         {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
-  return {{"time", motion->time}, {"measures", measures}};
+  return {{"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
+}
+
+std::vector<std::string> notes_on_motion(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  const auto add = [&](const char* side, const Answer& answer, const cases::Measure& measure) {
+    const auto damping = numerical_damping(measure, comparison.scene, answer.solution);
+    if (!damping) return;
+    notes.push_back(fmt::format("{} of {}: implicit Euler's steps damp its swings of {:.4g} Hz by a ratio of "
+                                "{:.3g}, of {:.3g} in all{}",
+                                measure.name, side, damping->frequency, damping->ratio, damping->measured,
+                                damping->exceeds_body() ? "; WARNING: more than the body does" : ""));
+  };
+  for (const cases::Measure& measure : comparison.scene.definition.measures) {
+    add("fem", comparison.answers.fem, measure);
+    add("msm", comparison.answers.msm, measure);
+  }
+  return notes;
 }
 
 void write_motion(const std::string& folder, const Comparison& comparison) {

@@ -4,19 +4,26 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
+#include <string>
+#include <vector>
 
 /// What a dynamic case has of its time: series of its measures, and bodies.
 namespace springproof::compare {
 
-/// One row per measure and step: case,measure,unit,time,fem,msm; times in s, empty where a model has no motion.
+/// One row per measure and step: case,measure,unit,time,fem,msm; times in s, empty where a model has no
+/// motion.
 void write_motion_csv(std::ostream& out, const Comparison& comparison);
 
-/// The same: {"time": [...], "measures": [{"name", "unit", "fem": [...], "msm": [...]}]}; null for a case without
-/// motion.
+/// The same, and the notes: {"notes": [...], "time": [...], "measures": [{"name", "unit", "fem": [...],
+/// "msm": [...]}]}; null for a case without motion.
 nlohmann::ordered_json motion_to_json(const Comparison& comparison);
 
-/// FOLDER/NAME_motion.csv, and FOLDER/NAME.pvd, which lists the bodies FOLDER/NAME_motion/NAME_0000.vtu, ... by
-/// their times; of a case without motion nothing. On one rank.
+/// What the implicit Euler method adds to the damping, a line for every measure that swings; a warning where
+/// it is more than the body's own.
+std::vector<std::string> notes_on_motion(const Comparison& comparison);
+
+/// FOLDER/NAME_motion.csv, and FOLDER/NAME.pvd, which lists the bodies FOLDER/NAME_motion/NAME_0000.vtu, ...
+/// by their times; of a case without motion nothing. On one rank.
 /// @throws InputError if a file cannot be written
 void write_motion(const std::string& folder, const Comparison& comparison);
 

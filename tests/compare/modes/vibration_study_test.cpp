@@ -2,6 +2,7 @@
 #include "cases/case/read_case.hpp"
 #include "compare/modes/vibrations.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>

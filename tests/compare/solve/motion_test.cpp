@@ -17,7 +17,7 @@ using namespace springproof;
 
 namespace {
 
-const std::string body = R"(
+const std::string bar_text = R"(
 schema = 1
 name = "bar in time"
 [body]
@@ -31,7 +31,7 @@ poissons_ratio = 0.3
 density = 1000
 )";
 
-const std::string rest_of_case = R"(
+const std::string rest_of_bar = R"(
 [[fixed]]
 region = "x-"
 [fem]
@@ -56,7 +56,7 @@ write_every = 25
 
 /// The bar under its weight, which it is released from at time 0.
 cases::Case released() {
-  return cases::read_case_text(body + rest_of_case + R"(over_time = "trajectory_l2"
+  return cases::read_case_text(bar_text + rest_of_bar + R"(over_time = "trajectory_l2"
 [[measure]]
 name = "swing"
 kind = "displacement"
@@ -79,8 +79,8 @@ scheme = "implicit_euler"
 step = 0.05
 end = 10
 )";
-  return cases::read_case_text(body + (in_time ? "mass_damping = 200\nstiffness_damping = 0.01\n" : "") +
-                                   rest_of_case + R"([[load]]
+  return cases::read_case_text(bar_text + (in_time ? "mass_damping = 200\nstiffness_damping = 0.01\n" : "") +
+                                   rest_of_bar + R"([[load]]
 kind = "gravity"
 value = [0, 0, -9.81]
 )" + (in_time ? damped : ""),
@@ -98,7 +98,8 @@ TEST_CASE("both models move through the time of a case, and are measured on thei
   CHECK(course.unit == "mm");
   CHECK(swing.unit == "Hz");
   REQUIRE((swing.fem && swing.msm && course.error_percent));
-  // A cantilever of a slenderness of three: Euler and Bernoulli's beam does not shear, these elements lock a bit.
+  // A cantilever of a slenderness of three: Euler and Bernoulli's beam does not shear, these elements lock a
+  // bit.
   const double beam = 0.5596 / (30. * 30.) * std::sqrt(0.1 * 10 * 10 / (12 * 1e-9)); // Hz
   CHECK(*swing.fem == Approx(beam).epsilon(0.2));
   CHECK(*course.error_percent > 0); // of the difference, which no model is without
@@ -110,6 +111,24 @@ TEST_CASE("both models move through the time of a case, and are measured on thei
   compare::write_motion_csv(csv, comparison);
   const std::string rows = csv.str();
   CHECK(std::count(rows.begin(), rows.end(), '\n') == 1 + 2 * 101);
+}
+
+TEST_CASE(
+    "implicit Euler's damping is printed with its results, with a warning where it is the larger part") {
+  cases::Case definition = released();
+  CHECK(compare::notes_on_motion(compare::compare_case(definition, {cases::Side::msm})).empty());
+  definition.dynamics->scheme.scheme = cases::Scheme::implicit_euler;
+  const compare::Comparison comparison = compare::compare_case(definition, {cases::Side::msm});
+  const cases::Measure& swing = definition.measures[1];
+  const auto damping = compare::numerical_damping(swing, comparison.scene, comparison.answers.msm.solution);
+  REQUIRE(damping);
+  // Nothing else damps these springs: what is measured is the step's, omega h/2 to first order.
+  CHECK(damping->measured == Approx(damping->ratio).epsilon(0.1));
+  CHECK(damping->ratio == Approx(std::acos(-1.0) * damping->frequency * 0.002).epsilon(0.1));
+  CHECK(damping->exceeds_body());
+  const std::vector<std::string> notes = compare::notes_on_motion(comparison);
+  REQUIRE(notes.size() == 2);
+  CHECK_THAT(notes.front(), Catch::Contains("WARNING"));
 }
 
 TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") {
