@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/error_bars/auto_fem.hpp"
+#include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
@@ -28,8 +29,9 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;   ///< of the finite elements' limit; 0: as the case's accuracy asks
-  std::string peer; ///< a program that is asked too; empty: none
+  int meshes = 0;              ///< of the finite elements' limit; 0: as the case's accuracy asks
+  bool converges_time = false; ///< once more with half the step
+  std::string peer;            ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
   bool report = false;              ///< a page of each case, in `out`
@@ -148,18 +150,32 @@ int run(const RunOptions& options) {
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
   for (const Question& question : questions) line.expect({1, total_seconds(estimate(question))});
+  for (const Question& question : questions)
+    if (options.converges_time && !question.scene.definition.dynamics)
+      throw cases::InputError(question.scene.definition.file +
+                              ": --converge-time: the case has no [dynamics]");
   std::vector<Comparison> done;
+  std::vector<std::vector<TimeError>> time_studies; ///< as many, if asked for
   bool failed = false;
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
     failed = failed || !done.back().is_sound();
+    if (options.converges_time)
+      time_studies.push_back(study_time(done.back().scene, done.back().answers, question.request, solve_fem));
     if (!options.json && mpi_rank() == 0) write_text(std::cout, done.back());
+    if (!options.json && mpi_rank() == 0 && options.converges_time)
+      write_time_study_text(std::cout, time_studies.back());
     if (!options.out.empty()) write_results(options.out, done);
     if (options.report) write_page_of(options, done.back());
   }
-  if (mpi_rank() == 0 && options.json) std::cout << json_text(to_json(done));
+  if (mpi_rank() == 0 && options.json) {
+    nlohmann::ordered_json document = to_json(done);
+    for (std::size_t i = 0; i < time_studies.size(); ++i)
+      document["cases"][i]["time_study"] = time_study_to_json(time_studies[i]);
+    std::cout << json_text(document);
+  }
   return failed ? 1 : 0;
 }
 
@@ -176,6 +192,8 @@ void add_run_command(CLI::App& program, Action& chosen) {
   CLI::Option* only = command->add_option("--only", options->only, "solve one side")
                           ->check(CLI::IsMember({"both", "fem", "msm"}));
   add_converge_option(*command, options->meshes);
+  command->add_flag("--converge-time", options->converges_time,
+                    "solve a dynamic case once more with half its step: the error of time integration");
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
   add_displacement_options(*command, options->displacements)->excludes(only);
