@@ -1,6 +1,7 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
+#include "cases/scene/masses.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve.hpp"
@@ -40,6 +41,23 @@ void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
     for (const std::size_t v : cases::around_cell) fmt::print(out, ", {}", mesh.cells[c][v] + 1);
     fmt::print(out, "\n");
   }
+}
+
+/// Mesh, material and supports; a material of a density too, which static steps take no notice of.
+void write_model(std::ostream& out, const cases::Scene& scene) {
+  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
+  // The case's name could be a card of CalculiX's.
+  fmt::print(out, "*HEADING\nspringproof\n");
+  write_mesh(out, scene.mesh);
+  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
+             number(material.poissons_ratio));
+  if (const double density = cases::dynamics_of(scene, 0).density; density > 0)
+    fmt::print(out, "*DENSITY\n{}\n", number(force_unit * density));
+  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
+  fmt::print(out, "*BOUNDARY\n");
+  const std::vector<bool> constrained = cases::constrained_dofs(scene);
+  for (std::size_t d = 0; d < constrained.size(); ++d)
+    if (constrained[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
 }
 
 /// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
@@ -131,18 +149,8 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 }
 
 void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
-  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
   const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  // The case's name could be a card of CalculiX's.
-  fmt::print(out, "*HEADING\nspringproof\n");
-  write_mesh(out, scene.mesh);
-  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
-             number(material.poissons_ratio));
-  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
-  fmt::print(out, "*BOUNDARY\n");
-  const std::vector<bool> constrained = cases::constrained_dofs(scene);
-  for (std::size_t d = 0; d < constrained.size(); ++d)
-    if (constrained[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
+  write_model(out, scene);
   // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
   // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
   // digits it prints.
@@ -157,6 +165,56 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
     for (int a = 0; a < 3; ++a)
       if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
+}
+
+void write_calculix_frequency_input(std::ostream& out, const cases::Scene& scene, int n_modes) {
+  write_model(out, scene);
+  fmt::print(out, "*STEP\n*FREQUENCY\n{}\n*END STEP\n", n_modes);
+}
+
+/// Its lines have the number of a mode, omega², omega, the frequency and an imaginary part.
+std::vector<double> read_calculix_frequencies(std::istream& in) {
+  std::vector<double> hertz;
+  bool is_in_table = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("E I G E N V A L U E   O U T P U T") != std::string::npos) is_in_table = true;
+    if (line.find("P A R T I C I P A T I O N") != std::string::npos) is_in_table = false;
+    std::istringstream words(line);
+    std::size_t mode = 0;
+    double omega_squared = 0, omega = 0, frequency = 0;
+    if (is_in_table && words >> mode >> omega_squared >> omega >> frequency && mode == hertz.size() + 1)
+      hertz.push_back(frequency);
+  }
+  return hertz;
+}
+
+std::optional<std::string> reason_without_calculix_frequencies(const cases::Scene& scene) {
+  const cases::Case& definition = scene.definition;
+  if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
+      !definition.region_materials.empty())
+    return "its input has one linear elastic material";
+  if (!definition.masses.empty()) return "its input has no weights";
+  if (definition.fem.element != cases::Element::q1 || definition.fem.mass != cases::ElementMass::consistent)
+    return "it has the element q1, with consistent masses";
+  return std::nullopt;
+}
+
+std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes) {
+  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
+  const ScratchFolder scratch("ccx");
+  write_file(scratch.path() / "case.inp",
+             [&](std::ostream& out) { write_calculix_frequency_input(out, refined, n_modes); });
+  const auto end = call_program(
+      {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
+  if (!end) return {};
+  std::istringstream log(end->said);
+  std::ifstream data(scratch.path() / "case.dat");
+  const std::string error = last_error(log);
+  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
+  const std::vector<double> hertz = read_calculix_frequencies(data);
+  if (static_cast<int>(hertz.size()) < n_modes)
+    throw cases::SolveError(fmt::format("CalculiX printed {} frequencies of {}", hertz.size(), n_modes));
+  return hertz;
 }
 
 CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {

@@ -18,6 +18,19 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 /// @param scene  already refined
 void write_calculix_input(std::ostream& out, const cases::Scene& scene);
 
+/// Why CalculiX cannot tell the frequencies of this case; nothing if it can.
+std::optional<std::string> reason_without_calculix_frequencies(const cases::Scene& scene);
+
+/// The lowest frequencies (Hz) of a body with supports and without loads, rigid motions among them;
+/// consistent masses. Seven digits.
+/// @param scene  without a reason_without_calculix_frequencies(), of a density
+/// @return nothing when there is no `ccx`   @throws SolveError when it stops
+std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes);
+
+/// Its input, of a scene that is refined already; and what it leaves in a .dat file.
+void write_calculix_frequency_input(std::ostream& out, const cases::Scene& scene, int n_modes);
+std::vector<double> read_calculix_frequencies(std::istream& in);
+
 /// The last displacements of a CalculiX .dat file (mm), and the part of the load they belong to.
 struct CalculixOutput {
   std::vector<Eigen::Vector3d> displacement;

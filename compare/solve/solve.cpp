@@ -52,6 +52,12 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
           "displacement under it grows without bound as the mesh is refined; use a traction",
           i);
   }
+  for (std::size_t i = 0; i < scene.masses.size(); ++i)
+    if (!is_area(scene.masses[i].selection))
+      return fmt::format(
+          "mass[{}] is concentrated (on points or edges): its forces have no continuum limit; give "
+          "it to an area",
+          i);
   for (std::size_t i = 0; i < scene.moved.size(); ++i)
     if (!is_area(scene.moved[i].selection))
       return fmt::format(

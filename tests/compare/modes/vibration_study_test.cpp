@@ -1,11 +1,13 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/modes/vibrations.hpp"
+#include "compare/peers/calculix.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using namespace springproof;
 
@@ -98,6 +100,39 @@ TEST_CASE("designs are held against the same finite elements, one that cannot se
   REQUIRE(document["modes"].size() >= 1);
   for (const char* key : {"fem_hz", "msm_hz", "overlap", "error_percent"})
     CHECK(document["modes"][0][key].is_number());
+}
+
+TEST_CASE("frequencies by CalculiX are ours", "[verification]") {
+  cases::Scene scene = bar(true);
+  scene.definition.fem.element = cases::Element::q1;
+  REQUIRE_FALSE(compare::reason_without_calculix_frequencies(scene));
+  const std::vector<double> theirs = compare::frequencies_by_calculix(scene, 8);
+  if (theirs.empty()) {
+    WARN("CalculiX is not installed: nothing was compared");
+    return;
+  }
+  const compare::VibrationStudy ours = compare::study_vibrations(scene, {}, 8);
+  for (std::size_t mode = 0; mode < 8; ++mode)
+    CHECK(ours.fem.hertz[static_cast<Eigen::Index>(mode)] == Approx(theirs[mode]).epsilon(1e-5));
+}
+
+TEST_CASE("CalculiX's table of frequencies is read, and what stands around it is not") {
+  std::istringstream data(R"(
+     E I G E N V A L U E   O U T P U T
+
+ MODE NO    EIGENVALUE                       FREQUENCY
+                                     REAL PART            IMAGINARY PART
+                           (RAD/TIME)      (CYCLES/TIME     (RAD/TIME)
+
+      1   0.4000000E+06   0.6324555E+03   0.1006584E+03   0.0000000E+00
+      2   0.9000000E+06   0.9486833E+03   0.1509877E+03   0.0000000E+00
+
+     P A R T I C I P A T I O N   F A C T O R S
+
+MODE NO.   X-COMPONENT     Y-COMPONENT     Z-COMPONENT
+      3   0.1000000E+01   0.2000000E+01   0.3000000E+01   0.0000000E+00
+)");
+  CHECK(compare::read_calculix_frequencies(data) == std::vector<double>{100.6584, 150.9877});
 }
 
 TEST_CASE("what has no mass does not vibrate") {
