@@ -70,7 +70,8 @@ void ElementFields::add(const ElementState& element) {
 cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_factor) {
   return mechanics::fields_of(scene_, std::move(sums_), sharing, load_factor,
                               kinematics_ == Kinematics::linear ? mechanics::StrainMeasure::linear
-                                                                : mechanics::StrainMeasure::logarithmic);
+                                                                : mechanics::StrainMeasure::logarithmic,
+                              cases::PointMass::cells);
 }
 
 } // namespace springproof::fem_reference

@@ -1,5 +1,7 @@
 #include "mechanics/field_sums.hpp"
 
+#include "cases/scene/masses.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -42,8 +44,9 @@ std::vector<CellSums> cells_here(FieldSums& sums, const cases::Sharing* sharing)
 
 /// @param force  of the nodes that are here, N
 std::vector<Eigen::Vector3d> reactions(const cases::Scene& scene, std::vector<Eigen::Vector3d> force,
-                                       const cases::Range& here, double load_factor) {
-  for (const auto& [node, load] : cases::loaded_nodes(scene))
+                                       const cases::Range& here, double load_factor,
+                                       cases::PointMass shared) {
+  for (const auto& [node, load] : cases::applied_forces(scene, shared))
     if (here.has(cases::index(node))) force[cases::index(node) - here.begin] -= load_factor * load;
   std::vector<Eigen::Vector3d> reaction(force.size(), Eigen::Vector3d::Zero());
   for (const auto& [selection, components] : scene.constrained)
@@ -69,11 +72,11 @@ Matrix3d logarithmic_strain(const Matrix3d& h) {
 }
 
 cases::Fields fields_of(const cases::Scene& scene, FieldSums sums, const cases::Sharing* sharing,
-                        double load_factor, StrainMeasure measure) {
+                        double load_factor, StrainMeasure measure, cases::PointMass shared) {
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   cases::Fields fields;
   fields.reaction =
-      reactions(scene, forces_here(sums, sharing, scene.mesh.nodes.size()), here.nodes, load_factor);
+      reactions(scene, forces_here(sums, sharing, scene.mesh.nodes.size()), here.nodes, load_factor, shared);
   for (CellSums& cell : cells_here(sums, sharing)) {
     const Matrix3d gradient = cell.gradient() / cell.rest_volume();
     fields.strain_energy.push_back(cell.energy());

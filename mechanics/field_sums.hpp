@@ -61,8 +61,9 @@ enum class StrainMeasure { logarithmic, linear };
 /// are internal forces less the applied ones, on constrained degrees of freedom. Collective.
 /// @param sums     what this rank adds; where nobody shares the answer, of all cells
 /// @param sharing  of the solution
+/// @param shared   how the model's nodes share the mass that gravity acts on
 cases::Fields fields_of(const cases::Scene& scene, FieldSums sums, const cases::Sharing* sharing,
-                        double load_factor, StrainMeasure measure);
+                        double load_factor, StrainMeasure measure, cases::PointMass shared);
 
 /// ln V of a displacement gradient H, F = I + H, V² = F F^T. Finite for every finite H: where F is singular
 /// its stretch counts as 1.5e-8.

@@ -84,7 +84,7 @@ cases::Fields fields_of_cells(const cases::Scene& scene, const cases::Solution& 
     }
   });
   return mechanics::fields_of(scene, std::move(sums), sharing, load_factor,
-                              mechanics::StrainMeasure::logarithmic);
+                              mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass);
 }
 
 } // namespace
@@ -120,8 +120,9 @@ cases::Fields network_fields(const cases::Scene& scene, const Lattice& network,
   const Points force = internal_force_at(network, all);
   for (std::size_t node = here.own_nodes.begin; node < here.own_nodes.end; ++node)
     sums.force(node) = -force[node];
-  cases::Fields fields = mechanics::fields_of(scene, std::move(sums), sharing, load_factor,
-                                              mechanics::StrainMeasure::logarithmic);
+  cases::Fields fields =
+      mechanics::fields_of(scene, std::move(sums), sharing, load_factor,
+                           mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass);
   fields.total_energy = energy_at(network, all);
   fields.has_stress = false;
   fields.strain_energy.clear();

@@ -9,10 +9,10 @@ namespace {
 constexpr double tonnes_per_kg = 1e-3, tonnes_per_mm3 = 1e-12; ///< the latter of kg/m³
 constexpr double mm_per_m = 1e3;
 
-/// Shares a value of every cell out to the points, as msm.mass says.
+/// Shares a value of every cell out to the points.
 /// @param of_volume  of a cell, per mm³
 template<class OfVolume>
-std::vector<double> shared_out(const Scene& scene, const OfVolume& of_volume) {
+std::vector<double> shared_out(const Scene& scene, PointMass shared, const OfVolume& of_volume) {
   const HexMesh& mesh = scene.mesh;
   std::vector<double> shares(mesh.nodes.size(), 0.0);
   double total = 0;
@@ -21,8 +21,7 @@ std::vector<double> shared_out(const Scene& scene, const OfVolume& of_volume) {
     total += value;
     for (const int node : mesh.cells[c]) shares[index(node)] += value / 8;
   }
-  if (scene.definition.msm.mass == PointMass::uniform)
-    shares.assign(shares.size(), total / static_cast<double>(shares.size()));
+  if (shared == PointMass::uniform) shares.assign(shares.size(), total / static_cast<double>(shares.size()));
   return shares;
 }
 
@@ -64,13 +63,19 @@ double mass_of(const std::vector<NodeMass>& added, int node) {
 }
 
 std::vector<double> point_masses(const Scene& scene) {
-  std::vector<double> masses = shared_out(scene, [](const CellDynamics& cell) { return cell.density; });
+  return point_masses(scene, scene.definition.msm.mass);
+}
+
+std::vector<double> point_masses(const Scene& scene, PointMass shared) {
+  std::vector<double> masses =
+      shared_out(scene, shared, [](const CellDynamics& cell) { return cell.density; });
   for (const auto& [node, mass] : added_masses(scene)) masses[index(node)] += mass;
   return masses;
 }
 
 std::vector<double> point_mass_damping(const Scene& scene) {
-  return shared_out(scene, [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
+  return shared_out(scene, scene.definition.msm.mass,
+                    [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
 }
 
 Eigen::Vector3d acceleration_of(const Load& gravity) {
@@ -89,6 +94,14 @@ std::vector<NodeVector> weights(const std::vector<double>& masses, const Eigen::
   for (std::size_t n = 0; n < masses.size(); ++n)
     forces.push_back({static_cast<int>(n), masses[n] * acceleration});
   return forces;
+}
+
+std::vector<NodeVector> applied_forces(const Scene& scene, PointMass shared) {
+  std::vector<NodeVector> all = loaded_nodes(scene);
+  if (gravity(scene).isZero(0)) return all;
+  const std::vector<NodeVector> of_gravity = weights(point_masses(scene, shared), gravity(scene));
+  all.insert(all.end(), of_gravity.begin(), of_gravity.end());
+  return all;
 }
 
 } // namespace springproof::cases

@@ -25,8 +25,10 @@ std::vector<NodeMass> added_masses(const Scene& scene);
 /// Of a node; 0 where the list has none.
 double mass_of(const std::vector<NodeMass>& added, int node);
 
-/// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them.
+/// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them; or as
+/// `shared` does.
 std::vector<double> point_masses(const Scene& scene);
+std::vector<double> point_masses(const Scene& scene, PointMass shared);
 
 /// Factors of the mass in C that belong to these points, t/s: of every cell's mass its material's
 /// mass_damping. What is added by [[mass]] is not damped.
@@ -35,6 +37,10 @@ std::vector<double> point_mass_damping(const Scene& scene);
 /// Of a load of kind gravity, mm/s², at a factor of 1; and of all of a scene's together.
 Eigen::Vector3d acceleration_of(const Load& gravity);
 Eigen::Vector3d gravity(const Scene& scene);
+
+/// All loads of the case as nodal forces, N, at factors of 1: loaded_nodes(), and gravity on point_masses(),
+/// which in finite elements are those of the cells.
+std::vector<NodeVector> applied_forces(const Scene& scene, PointMass shared = PointMass::cells);
 
 /// Forces on all points in an acceleration (mm/s²), N.  @param masses  point_masses()
 std::vector<NodeVector> weights(const std::vector<double>& masses, const Eigen::Vector3d& acceleration);

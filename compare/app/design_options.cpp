@@ -137,6 +137,26 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_flag("--springs-only", o.springs_only, "the multi-load method without its volume term");
 }
 
+CLI::Option* add_designs_option(CLI::App& command, std::vector<std::string>& names, const std::string& text) {
+  std::vector<std::string> allowed = cases::all_names<cases::Design>();
+  allowed.insert(allowed.begin(), "all");
+  return command.add_option("--designs", names, text)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(allowed));
+}
+
+std::vector<cases::Design> designs_of(const std::vector<std::string>& names, const cases::Case& definition) {
+  const bool are_all = std::count(names.begin(), names.end(), "all") > 0;
+  std::vector<cases::Design> designs;
+  if (are_all) designs = msm::methods(definition.material);
+  if (are_all && std::count(designs.begin(), designs.end(), definition.msm.design) == 0)
+    designs.push_back(definition.msm.design);
+  if (!are_all)
+    for (const std::string& name : names) designs.push_back(*cases::value_of<cases::Design>(name));
+  return designs;
+}
+
 msm::DesignRequest request_from(const DesignOptions& o) {
   check_largest_strain(o);
   const cases::Element element = *cases::value_of<cases::Element>(o.element);

@@ -30,6 +30,11 @@ struct DesignOptions {
 
 void add_design_options(CLI::App& command, DesignOptions& options);
 
+/// Names of designs, or "all", as --designs.
+CLI::Option* add_designs_option(CLI::App& command, std::vector<std::string>& names, const std::string& text);
+/// The designs that are asked for; "all": every one that is made from a material, and the case's own.
+std::vector<cases::Design> designs_of(const std::vector<std::string>& names, const cases::Case& definition);
+
 /// @throws InputError for a material that is missing, given twice or has no meaning
 msm::DesignRequest request_from(const DesignOptions& options);
 

@@ -20,8 +20,9 @@ namespace {
 
 struct EigenOptions {
   DesignOptions design;
-  std::string vibrating;            ///< a case file; empty: eigenspaces of a cell
-  std::vector<std::string> designs; ///< of its springs; empty: its own
+  std::string vibrating;             ///< a case file; empty: eigenspaces of a cell
+  std::vector<std::string> settings; ///< of its keys
+  std::vector<std::string> designs;  ///< of its springs; empty: its own
   int n_modes = 20;
   int body_cells = 0;
   std::string out;
@@ -43,9 +44,8 @@ std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::Ce
 
 /// The lowest vibrations of a case's body.
 int run_vibrations(const EigenOptions& options) {
-  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.vibrating));
-  std::vector<cases::Design> designs;
-  for (const std::string& name : options.designs) designs.push_back(*cases::value_of<cases::Design>(name));
+  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.vibrating, options.settings));
+  const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const VibrationStudy study = study_vibrations(scene, designs, options.n_modes);
@@ -112,10 +112,11 @@ void add_eigen_command(CLI::App& program, Action& chosen) {
   CLI::Option* vibrating =
       command->add_option("case", options->vibrating, "case file (TOML) whose material has a density")
           ->excludes(cell);
-  command->add_option("--designs", options->designs, "springs of these designs (a,b,c)")
-      ->delimiter(',')
+  command
+      ->add_option("--set", options->settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1")
       ->needs(vibrating)
-      ->check(CLI::IsMember(cases::all_names<cases::Design>()));
+      ->allow_extra_args(false);
+  add_designs_option(*command, options->designs, "springs of these designs (a,b,c or all)")->needs(vibrating);
   command
       ->add_option("--body", options->body_cells, "also the lowest modes of a free cube of N x N x N cells")
       ->check(CLI::Range(1, 40));

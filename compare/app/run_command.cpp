@@ -1,6 +1,6 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/case/names.hpp"
+#include "compare/app/design_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
@@ -49,18 +49,6 @@ void ask_peer(const cases::Scene& scene, Answers& answers) {
   answers.peer->answer = answer;
 }
 
-/// The designs that are asked for; "all": every one that is made from a material, and the case's own.
-std::vector<cases::Design> designs_of(const RunOptions& options, const cases::Case& definition) {
-  const bool are_all = std::count(options.designs.begin(), options.designs.end(), "all") > 0;
-  std::vector<cases::Design> designs;
-  if (are_all) designs = msm::methods(definition.material);
-  if (are_all && std::count(designs.begin(), designs.end(), definition.msm.design) == 0)
-    designs.push_back(definition.msm.design);
-  if (!are_all)
-    for (const std::string& name : options.designs) designs.push_back(*cases::value_of<cases::Design>(name));
-  return designs;
-}
-
 /// The springs of every design against the same finite elements.
 int run_designs(const RunOptions& options) {
   const std::vector<Question> questions =
@@ -70,7 +58,7 @@ int run_designs(const RunOptions& options) {
   bool failed = false;
   for (const Question& question : questions) {
     const Ranking ranking =
-        rank_designs(question.scene, designs_of(options, question.scene.definition), options.meshes);
+        rank_designs(question.scene, designs_of(options.designs, question.scene.definition), options.meshes);
     if (mpi_rank() != 0) {
       failed = failed || !ranking.fem.converged();
       continue;
@@ -125,7 +113,7 @@ void write_page_of(const RunOptions& options, const Comparison& comparison) {
   Answers answers = gathered(comparison.answers);
   std::optional<Ranking> ranking;
   if (!options.designs.empty())
-    ranking = rank_designs(comparison.scene, designs_of(options, definition), answers);
+    ranking = rank_designs(comparison.scene, designs_of(options.designs, definition), answers);
   run_on_all_ranks([&] {
     if (mpi_rank() != 0) return;
     Comparison whole = comparison;
@@ -207,16 +195,9 @@ void add_run_command(CLI::App& program, Action& chosen) {
                                           "--designs they are on it");
   report->needs(out);
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  std::vector<std::string> names = cases::all_names<cases::Design>();
-  names.insert(names.begin(), "all");
-  command
-      ->add_option(
-          "--designs", options->designs,
-          "the springs of these designs (a,b,c or all) against the same finite elements, by their worst "
-          "errors")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(names))
+  add_designs_option(*command, options->designs,
+                     "the springs of these designs (a,b,c or all) against the same finite elements, by their "
+                     "worst errors")
       ->excludes("--only")
       ->excludes("--peer")
       ->excludes("--msm-displacements");

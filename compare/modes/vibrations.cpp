@@ -7,6 +7,7 @@
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write_fields.hpp"
 #include "msm/vibrating_lattice.hpp"
 
@@ -29,6 +30,7 @@ constexpr int n_more =
 /// beam of a thousand thick cells has 1e-9.
 constexpr double no_stiffness = 1e-12;
 constexpr double same_frequency = 1e-3;
+constexpr double least_overlap = 0.5; ///< of modes that are called one; those of a body are near 1
 
 double hertz_of(double omega_squared) {
   return std::sqrt(omega_squared) / (2 * std::acos(-1.0));
@@ -90,7 +92,7 @@ DesignVibrations of_design(const cases::Scene& scene, const Vibrations& fem, con
   DesignVibrations found{cases::name_of(scene.definition.msm.design), {}, {}, {}};
   try {
     const msm::Lattice lattice = make_moving_springs(scene, design_for(scene)).lattice;
-    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, n_modes + n_more);
+    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, 2 * n_modes + n_more);
     found.modes = match_modes(fem, found.msm, masses, n_modes);
   } catch (const cases::InputError& error) {
     found.refusal = error.what();
@@ -115,9 +117,7 @@ std::vector<ModeSpace> spaces_of(const Eigen::VectorXd& hertz) {
 }
 
 Eigen::VectorXd mode_masses(const cases::Scene& scene) {
-  cases::Scene shares = scene;
-  shares.definition.msm.mass = cases::PointMass::cells;
-  const std::vector<double> of_points = cases::point_masses(shares);
+  const std::vector<double> of_points = cases::point_masses(scene, cases::PointMass::cells);
   Eigen::VectorXd masses(static_cast<Eigen::Index>(3 * of_points.size()));
   for (std::size_t p = 0; p < of_points.size(); ++p)
     masses.segment<3>(static_cast<Eigen::Index>(3 * p)).setConstant(of_points[p]);
@@ -154,8 +154,11 @@ std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& m
     const Eigen::MatrixXd product = basis.transpose() * weighted(msm, of_msm, masses);
     const double cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
     const double fem_hz = mean(fem.hertz, of_fem), msm_hz = mean(msm.hertz, of_msm);
-    matched.push_back({fem_hz, space.dimension, msm_hz, std::min(1., cosine), 100 * (msm_hz / fem_hz - 1),
-                       of_fem.front(), of_msm.front()});
+    matched.push_back(
+        {fem_hz, space.dimension, {}, std::min(1., cosine), {}, of_fem.front(), of_msm.front()});
+    if (cosine < least_overlap) continue;
+    matched.back().msm_hz = msm_hz;
+    matched.back().error_percent = 100 * (msm_hz / fem_hz - 1);
   }
   return matched;
 }
@@ -189,8 +192,9 @@ void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
     print(out, "  {}\n  {:>12}{:>6}{:>12}{:>10}{:>10}\n", design.design, "fem Hz", "dim", "msm Hz", "error %",
           "overlap");
     for (const MatchedModes& mode : design.modes)
-      print(out, "  {:>12.6g}{:>6}{:>12.6g}{:>+10.2f}{:>10.4f}\n", mode.fem_hz, mode.dimension, mode.msm_hz,
-            mode.error_percent, mode.overlap);
+      print(out, "  {:>12.6g}{:>6}{:>12}{:>10}{:>10.4f}\n", mode.fem_hz, mode.dimension,
+            mode.msm_hz ? fmt::format("{:.6g}", *mode.msm_hz) : "none",
+            mode.error_percent ? fmt::format("{:+.2f}", *mode.error_percent) : "", mode.overlap);
   }
 }
 
@@ -232,6 +236,7 @@ void write_vibrations_files(const std::string& folder, const VibrationStudy& stu
                 mode.error_percent);
         if (&design == &study.designs.front())
           add(fmt::format("fem_mode_{}", mode.fem_mode + 1), study.fem.shapes.col(mode.fem_mode));
+        if (!mode.msm_hz) continue;
         add(fmt::format("{}_mode_{}", design.design, mode.fem_mode + 1),
             design.msm.shapes.col(mode.msm_mode));
       }

@@ -32,12 +32,13 @@ std::vector<ModeSpace> spaces_of(const Eigen::VectorXd& hertz);
 struct MatchedModes {
   double fem_hz; ///< mean of the space
   int dimension; ///< of the space
-  double msm_hz; ///< mean of the springs' modes, as many at least
+  /// Mean of the springs' modes, as many at least; none when none of theirs is alike (an overlap below 0.5).
+  std::optional<double> msm_hz;
   /// Cosine of the largest angle between the two spaces, in the masses of mode_masses(): 1 for the same
   /// shapes.
   double overlap;
-  double error_percent;   ///< (msm_hz - fem_hz)/fem_hz
-  int fem_mode, msm_mode; ///< the first ones' places among the frequencies
+  std::optional<double> error_percent; ///< (msm_hz - fem_hz)/fem_hz
+  int fem_mode, msm_mode;              ///< the first ones' places among the frequencies
 };
 
 /// Of a case's bodies. Every design is held against the same finite elements.

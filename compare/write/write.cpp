@@ -1,6 +1,7 @@
 #include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
+#include "cases/scene/masses.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -103,7 +104,7 @@ void write_loads(std::ostream& out, const cases::Scene& scene) {
   std::vector<std::string> all;
   if (!scene.loads.empty()) {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (const auto& [node, of_node] : cases::loaded_nodes(scene)) force += of_node;
+    for (const auto& [node, of_node] : cases::applied_forces(scene)) force += of_node;
     all.push_back(fmt::format("applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z()));
   }
   const auto add_areas = [&](const char* list, const auto& conditions) {

@@ -36,7 +36,7 @@ Eigen::VectorXd lame_shape(const cases::HexMesh& mesh) {
 /// Frequency (Hz) of the mode of a free cube that the Lamé mode overlaps most.
 double lame_frequency(const cases::HexMesh& mesh, const Eigen::SparseMatrix<double>& stiffness,
                       const Eigen::SparseMatrix<double>& mass) {
-  const compare::Spectrum modes = compare::lowest_vibrations(stiffness, mass, 20);
+  const compare::Spectrum modes = compare::lowest_vibrations(stiffness, mass, 40);
   const Eigen::VectorXd shape = lame_shape(mesh), weighted = mass * shape;
   const Eigen::VectorXd overlap = modes.vectors.transpose() * weighted;
   // Two modes have one frequency: any of their space will do.

@@ -159,3 +159,36 @@ TEST_CASE("a strongly damped motion of either model ends in its static equilibri
   CHECK(moved.measures[0].fem.value() == Approx(still.measures[0].fem.value()).epsilon(1e-6));
   CHECK(moved.measures[0].msm.value() == Approx(still.measures[0].msm.value()).epsilon(1e-6));
 }
+
+TEST_CASE("a support carries the whole weight of both models, and the text says it") {
+  for (const char* mass : {"cells", "uniform"}) {
+    const cases::Case definition = cases::read_case_text(bar_text + R"(
+[[fixed]]
+region = "x-"
+[[load]]
+kind = "gravity"
+value = [0, 0, -0.1]
+[[mass]]
+region = "x+"
+value = 0.001
+[fem]
+accuracy = "none"
+[msm]
+design = "hybrid"
+mass = ")" + mass + R"("
+[[measure]]
+name = "grip"
+kind = "reaction"
+region = "x-"
+component = "z"
+)",
+                                                         "bar.toml");
+    const compare::Comparison done = compare::compare_case(definition);
+    const double weight = (3000 * 1e-9 + 1e-6) * 100; // N: t times mm/s²
+    CHECK(done.measures.front().fem.value() == Approx(weight).epsilon(1e-8));
+    CHECK(done.measures.front().msm.value() == Approx(weight).epsilon(1e-8));
+    std::ostringstream text;
+    compare::write_text(text, done);
+    CHECK_THAT(text.str(), Catch::Contains("applied force (0, 0, -0.0004) N"));
+  }
+}

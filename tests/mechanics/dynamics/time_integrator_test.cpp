@@ -123,7 +123,7 @@ TEST_CASE("the implicit Euler method damps an oscillator by the ratio that is pr
   }
 }
 
-TEST_CASE("newmark keeps the energy of a linear body without damping over 10,000 steps; what damps does not",
+TEST_CASE("newmark keeps the energy of a linear body without damping over 10,000 steps, what damps does not",
           "[verification]") {
   const Matrix mass = rows(2, 0.5, 0.5, 1);
   const Matrix stiffness = rows(50, -20, -20, 900); // 5 and 32 1/s
