@@ -12,6 +12,28 @@ namespace springproof::compare {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+/// A motion with at most so many times: a screen shows no more.
+void thin(Json& motion) {
+  constexpr std::size_t most = 2000;
+  const std::size_t every = (motion["time"].size() + most - 1) / most;
+  motion["drawn_every"] = every;
+  if (every <= 1) return;
+  const auto thin_out = [&](Json& values) {
+    Json kept = Json::array();
+    for (std::size_t i = 0; i < values.size(); i += every) kept.push_back(values[i]);
+    values = kept;
+  };
+  thin_out(motion["time"]);
+  for (Json& measure : motion["measures"]) {
+    thin_out(measure["fem"]);
+    thin_out(measure["msm"]);
+  }
+}
+
+} // namespace
+
 Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
                        const std::vector<std::string>& commands) {
   const cases::Case& definition = comparison.scene.definition;
@@ -26,8 +48,13 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
   document["case"]["formulation"] =
       fmt::format("{} {}", cases::name_of(fem.formulation), cases::name_of(fem.element));
   document["case"]["design"] = cases::name_of(definition.msm.design);
+  if (document["case"].contains("motion") && !document["case"]["motion"].is_null())
+    thin(document["case"]["motion"]);
   // The measures stand in a table of their own.
-  BodyView view = view_of(comparison, "case", overlay_of(comparison, definition.name));
+  const auto& motion = definition.dynamics;
+  BodyView view = view_of(
+      comparison, "case",
+      overlay_of(comparison, definition.name + (motion ? fmt::format(", at {:.6g} s", motion->end) : "")));
   view.measures.clear();
   view.description.clear();
   document["views"] = views_to_json({view});

@@ -45,6 +45,29 @@ TEST_CASE("a case's page has its verdict, its measures, both bodies and the desi
   CHECK(page["commands"][0] == "build/springproof run x.toml --report");
 }
 
+TEST_CASE("a page draws some two thousand times of a motion at most, and says so") {
+  const auto page_of = [](double end) {
+    cases::Case definition = small_cube();
+    definition.material_dynamics.density = 1000;
+    definition.measures = {definition.measures.front()};
+    definition.measures.front().over_time = cases::OverTime::end;
+    definition.loads.front().value *= 0.01;
+    definition.dynamics.emplace();
+    definition.dynamics->step = 1e-3;
+    definition.dynamics->end = end;
+    definition.dynamics->write_every = 1000;
+    return compare::case_page_to_json(compare::compare_case(definition, {cases::Side::msm}), nullptr,
+                                      {})["case"]["motion"];
+  };
+  const auto whole = page_of(0.5), thinned = page_of(2.5);
+  CHECK(whole["time"].size() == 501);
+  CHECK(whole["drawn_every"] == 1);
+  CHECK(thinned["drawn_every"] == 2);
+  CHECK(thinned["time"].size() == 1251);
+  CHECK(thinned["measures"][0]["msm"].size() == 1251);
+  CHECK(thinned["time"][1] == Approx(2e-3));
+}
+
 TEST_CASE("a verdict names the worst measure, or why there is nothing to compare") {
   const cases::Case definition = small_cube();
   const compare::Comparison both = compare::compare_case(definition);

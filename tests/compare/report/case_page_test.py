@@ -29,6 +29,57 @@ def hostile_case(source, folder):
     return case
 
 
+MOVING = '''
+schema = 1
+name = "swinging"
+[body]
+shape = "box"
+size = [20, 10, 10]
+cells = [2, 1, 1]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+density = 1000
+[[fixed]]
+region = "x-"
+[[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+[dynamics]
+scheme = "newmark"
+step = 0.001
+end = 0.05
+[[measure]]
+name = "course"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "z"
+[[measure]]
+name = "peak"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "z"
+over_time = "peak"
+'''
+
+
+def check_motion(springproof, folder):
+    """Two measures of one course share a picture, which has every step of both models."""
+    case, out = folder / "swinging.toml", folder / "swinging"
+    case.write_text(MOVING)
+    done = subprocess.run([springproof, "run", case, "--out", out, "--report", "--json"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    motion = json.loads(done.stdout)["cases"][0]["motion"]
+    copy, found = examine(out / "swinging.html", "examined.html", Path(__file__).parent / "check_page.js", options=("--window-size=1280,1000",))
+    copy.unlink()
+    picture, = found["motion"]
+    lines = {line["label"]: [(at["x"], at["y"]) for at in line["values"]] for line in picture}
+    course = motion["measures"][0]
+    assert lines == {"finite elements": list(zip(motion["time"], course["fem"])), "springs": list(zip(motion["time"], course["msm"]))}, lines
+    assert len(motion["time"]) == 51, motion["time"]
+
+
 def main():
     springproof, source, folder = sys.argv[1], *map(Path, sys.argv[2:])
     if not find_chromium():
@@ -61,6 +112,7 @@ def main():
         assert measure["reference"] == "limit", measure
         error, bar = measure["error_percent"], measure["error_uncertainty_percent"]
         assert bars["springs"][i]["x"] == error and bars["uncertainty of the reference"][i] == [error - bar, error + bar], (bars, measure)
+    check_motion(springproof, folder)
     print("the page of a case is whole")
 
 

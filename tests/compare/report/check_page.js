@@ -93,6 +93,8 @@
   }
   const errors = document.querySelector(".measures canvas");
   if (errors) found.measures = Chart.getChart(errors).data.datasets.map((set) => ({ label: set.label, values: set.data }));
+  found.motion = Array.from(document.querySelectorAll(".motion canvas"), (canvas) => Chart.getChart(canvas).data.datasets
+    .map((set) => ({ label: set.label, values: set.data })));
   Object.assign(found, { title: document.title, heading: document.querySelector("h1").textContent,
     subheading: document.querySelector("header p").textContent, images: document.querySelectorAll("main img").length });
   found.height = document.documentElement.scrollHeight;
