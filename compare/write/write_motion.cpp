@@ -6,6 +6,7 @@
 #include "compare/write/escape.hpp"
 #include "compare/write/write_fields.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -108,19 +109,28 @@ nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
 }
 
 std::vector<std::string> notes_on_motion(const Comparison& comparison) {
-  std::vector<std::string> notes;
+  // Measures that are numbers of one course share a note.
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;
   const auto add = [&](const char* side, const Answer& answer, const cases::Measure& measure) {
     const auto damping = numerical_damping(measure, comparison.scene, answer.solution);
     if (!damping) return;
-    notes.push_back(fmt::format("{} of {}: implicit Euler's steps damp its swings of {:.4g} Hz by a ratio of "
-                                "{:.3g}, of {:.3g} in all{}",
-                                measure.name, side, damping->frequency, damping->ratio, damping->measured,
-                                damping->exceeds_body() ? "; WARNING: more than the body does" : ""));
+    const std::string note = fmt::format(" of {}: implicit Euler's steps damp its swings of {:.4g} Hz by a "
+                                         "ratio of {:.3g}, of {:.3g} in all{}",
+                                         side, damping->frequency, damping->ratio, damping->measured,
+                                         damping->exceeds_body() ? "; WARNING: more than the body does" : "");
+    const auto same =
+        std::find_if(found.begin(), found.end(), [&](const auto& other) { return other.first == note; });
+    if (same == found.end())
+      found.push_back({note, {measure.name}});
+    else
+      same->second.push_back(measure.name);
   };
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     add("fem", comparison.answers.fem, measure);
     add("msm", comparison.answers.msm, measure);
   }
+  std::vector<std::string> notes;
+  for (const auto& [note, names] : found) notes.push_back(fmt::format("{}{}", fmt::join(names, ", "), note));
   return notes;
 }
 
