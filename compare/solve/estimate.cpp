@@ -129,6 +129,17 @@ Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   return equilibrium;
 }
 
+/// What is kept of a motion: whole bodies now and then, what measures watch after every step. Twice while it
+/// goes from the model to the answer.
+double bytes_of_motion(const BodySize& body) {
+  const auto& dynamics = body.outline.definition.dynamics;
+  if (!dynamics) return 0;
+  const double n_bodies = std::ceil(double(dynamics->n_steps()) / dynamics->write_every) + 1;
+  const double n_watched =
+      8. * double(body.outline.definition.measures.size()); // nodes of a measure, at most
+  return 2 * 24 * (n_bodies * body.n_nodes + dynamics->n_steps() * n_watched);
+}
+
 } // namespace
 
 Estimate estimate_fem(const BodySize& body) {
@@ -182,6 +193,12 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
   constexpr double bytes_of_fields = 400;
   if (body.outline.definition.has_fields)
     for (Estimate& model : models) model.megabytes += 1e-6 * bytes_of_fields * body.n_cells;
+  const double motion = 1e-6 * bytes_of_motion(body);
+  for (Estimate& model : models) {
+    if (motion > model.megabytes)
+      model.remedy = "take fewer or longer steps in [dynamics], or a larger write_every";
+    model.megabytes += motion;
+  }
   return models;
 }
 
@@ -230,11 +247,10 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
   for (const Estimate& model : models) {
     const double megabytes = megabytes_within(limit, model);
     if (!(megabytes <= limit.megabytes))
-      throw cases::InputError(fmt::format(
-          "{}: {} with about {:.3g} unknowns need about {} of memory, and {} leaves {}: give the body "
-          "fewer cells, or refine it less",
-          file, model.model, model.unknowns, memory_text(megabytes), limit.of,
-          memory_text(std::max(0., limit.megabytes))));
+      throw cases::InputError(
+          fmt::format("{}: {} with about {:.3g} unknowns need about {} of memory, and {} leaves {}: {}", file,
+                      model.model, model.unknowns, memory_text(megabytes), limit.of,
+                      memory_text(std::max(0., limit.megabytes)), model.remedy));
   }
 }
 

@@ -15,6 +15,7 @@ struct Estimate {
   double megabytes = 0; ///< of 10^6 bytes, above what the program takes by itself
   double seconds = 0;   ///< of one thread, from the model to the equilibrium
   HeldBy held_by = HeldBy::all_ranks_together;
+  std::string remedy = "give the body fewer cells, or refine it less"; ///< where memory is short
 };
 
 /// The body of a case, as far as estimates depend on it.

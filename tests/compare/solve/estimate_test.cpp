@@ -115,6 +115,22 @@ TEST_CASE("a case that asks for fields needs memory for them, on both sides") {
   }
 }
 
+TEST_CASE("the bodies that a motion writes need memory") {
+  cases::Case definition = cube(20);
+  definition.dynamics.emplace();
+  definition.dynamics->step = 1e-3;
+  definition.dynamics->end = 1000;
+  definition.dynamics->write_every = 1;
+  const auto megabytes_with = [&](int write_every) {
+    definition.dynamics->write_every = write_every;
+    return compare::most_megabytes(compare::estimate(body(definition), {}));
+  };
+  CHECK_THROWS_WITH(compare::check_memory("x.toml", compare::estimate(body(definition), {}), limit(100)),
+                    Contains("larger write_every"));
+  const double bodies = 1e-6 * 2 * 24 * 21 * 21 * 21; // MB each
+  CHECK(megabytes_with(1) - megabytes_with(1000) == Approx(999000 * bodies).epsilon(1e-3));
+}
+
 TEST_CASE("more memory than there is is refused with unknowns, estimate, limit and what to change") {
   const auto models = compare::estimate(body(cube(100)), {});
   CHECK_NOTHROW(compare::check_memory("cube.toml", models, limit(1e5)));
