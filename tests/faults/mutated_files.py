@@ -2,15 +2,16 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, msh, stl, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the
-program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a
-damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same
-in every run. Only Python's standard library is used.
+Kinds: case, dynamic, msh, stl, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2
+within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
+without a word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that
+is named. The damage is the same in every run. Only Python's standard library is used.
 """
 
 import json
 import os
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -43,6 +44,43 @@ name = "{measure}"
 kind = "volume"
 """
 BOX = '[body]\nshape = "box"\nsize = [2, 2, 2]\ncells = [2, 2, 2]'
+
+MOTION = """over_time = "settled"
+[[measure]]
+name = "frequency"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "y"
+over_time = "frequency"
+[[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+history = [[0, 0], [0.01, 1], [0.02, 1], [0.02, 0.5]]
+[[load]]
+region = "z+ y+"
+kind = "total_force"
+value = [0.001, 0, 0]
+history = { sine = 40 }
+[[moved]]
+region = "z+ x-"
+displacement = [0.01, 0, 0]
+components = ["x"]
+history = { ramp = [0, 0.01] }
+[[mass]]
+region = "z+"
+value = 0.0002
+[dynamics]
+scheme = "generalized_alpha"
+rho_infinity = 0.8
+step = 0.002
+end = 0.06
+start = "rest"
+write_every = 10
+[fem]
+mass = "lumped"
+[msm]
+mass = "uniform"
+"""
 
 
 def damaged(content, chance):
@@ -128,6 +166,34 @@ class CaseFile(Kind):
     def given(self, content):
         (self.folder / "case.toml").write_bytes(content)
         return springproof("run", "--only", "msm", self.folder / "case.toml")
+
+
+class DynamicCase(Kind):
+    """Every key of a motion, solved by both models. Most damage to its bytes leaves no TOML: two of three files have other values."""
+    numbers = ["0", "-1", "1e-9", "1e-3", "0.5", "3", "1e4", "1e9", "1e300", "5e-324", "nan", "inf", "[]", "[[0, 1], [0, 0]]"]
+    words = ["implicit_euler", "newmark", "generalized_alpha", "bdf2", "rest", "equilibrium", "lumped", "consistent", "uniform", "peak",
+             "overshoot", "damping_ratio", "trajectory_l2", "end", "x-", "z-", "z+ x+ y+", "torque", "nodal_force", "ogden", "q2_p1"]
+
+    def damaged(self, content, chance):
+        if chance.randrange(3) == 0:
+            return damaged(content, chance)
+        text = content.decode()
+        pattern, values = chance.choice(2 * [(r"(?<![\w\"])-?\d[\d.e-]*", self.numbers)] + [(r'(?<=")[\w+ -]+(?=")', self.words)])
+        value = chance.choice(list(re.finditer(pattern, text)))
+        if values == self.numbers and chance.randrange(4):
+            values = [f"{float(value[0]) * chance.choice([-1, 1e-6, 0.1, 0.5, 2, 5, 10, 1e9]):g}"]
+        return (text[:value.start()] + chance.choice(values) + text[value.end():]).encode()
+
+    @property
+    def whole(self):
+        text = self.case().read_text()
+        text = text.replace("poissons_ratio = 0.3", "poissons_ratio = 0.3\ndensity = 1070\nmass_damping = 5\nstiffness_damping = 0.001")
+        return (text + MOTION).encode()
+
+    def given(self, content):
+        (self.folder / "case.toml").write_bytes(content)
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
+        return springproof("run", self.folder / "case.toml", "--out", self.folder / "out")
 
 
 class Msh(Kind):
@@ -247,8 +313,8 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "msh": Msh, "stl": Stl, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp, "displacements": Displacements,
-         "network": Network, "curve": Curve, "kept": Kept}
+KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+         "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
 
 
 def try_out(kind, count, keep):
@@ -261,7 +327,7 @@ def try_out(kind, count, keep):
         sound = subject.given(whole)
         assert sound.returncode == 0, (kind, sound)
         for n in range(count):
-            content = damaged(whole, chance)
+            content = getattr(subject, "damaged", damaged)(whole, chance)
             try:
                 done = subject.given(content)
                 status, said = done.returncode, done.stderr
