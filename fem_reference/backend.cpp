@@ -1,6 +1,9 @@
 #include "fem_reference/backend.hpp"
 
-#include "fem_reference/grid/grid_model.hpp"
+#include "cases/case/error.hpp"
+#include "fem_reference/grid/on_grid.hpp"
+
+#include <cmath>
 
 namespace springproof::fem_reference {
 
@@ -19,6 +22,18 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   const bool is_hard = can_factorise && (grid::bulk_over_shear(scene) > most_incompressible ||
                                          scene.mesh.grid->slenderness() > cases::Grid::thin);
   return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
+}
+
+Backend backend_of(const cases::Scene& scene, Backend asked) {
+  const cases::Fem& fem = scene.definition.fem;
+  const int halvings = fem.refine + (fem.element == cases::Element::q2 ? 1 : 0);
+  if (asked == Backend::automatic)
+    return choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, halvings));
+  if (asked == Backend::grid && !grid::is_on_grid(scene))
+    throw cases::InputError(fem.where,
+                            "the grid's backend needs a body that is a grid of cells, an isotropic material, "
+                            "and no q2_p1; beside [dynamics] no q2");
+  return asked;
 }
 
 bool takes_factorisation(double n_nodes) {

@@ -20,6 +20,14 @@ enum class Backend {
 /// @param n_nodes  of the elements, after fem.refine; the scene's own mesh may be without nodes
 Backend choose_backend(const cases::Scene& scene, double n_nodes);
 
+/// The backend of a scene with its mesh: what is asked for, or what `automatic` means for it.
+/// @throws InputError where the grid's is asked for and cannot be
+Backend backend_of(const cases::Scene& scene, Backend asked);
+
+/// What an answer says that the assembled backend gave in place of the grid's.
+constexpr const char* by_assembled_tangent =
+    "by the assembled tangent: the matrix-free multigrid does not converge for this body";
+
 /// Most unknowns that MUMPS factorises by default; above it multigrid-preconditioned Krylov methods run.
 /// Cubes of 26,460 and 86,490 unknowns (compressible, one thread) were measured to take 1.0 and 1.5 times as
 /// long with MUMPS as with multigrid, the larger one 1.3 GB; below the limit the factorisation's indifference

@@ -3,6 +3,7 @@
 #include "fem_reference/assembled_body.hpp"
 #include "fem_reference/cuboid.hpp"
 #include "fem_reference/grid/grid_model.hpp"
+#include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/ranks/share_out.hpp"
 
@@ -102,21 +103,13 @@ cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumS
       assembled = std::make_unique<Assembled>(model.scene(), communicator);
     }
   cases::Solution solution = assembled->solve(load_factor, settings);
-  solution.message = "by the assembled tangent: the matrix-free multigrid does not converge for this body";
+  solution.message = by_assembled_tangent;
   return solution;
 }
 
 Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend) {
   const bool may_assemble_instead = backend == Backend::automatic;
-  const cases::Fem& fem = scene.definition.fem;
-  const int halvings = fem.refine + (fem.element == cases::Element::q2 ? 1 : 0);
-  if (backend == Backend::automatic)
-    backend = choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, halvings));
-  if (backend == Backend::grid && !grid::is_on_grid(scene))
-    throw cases::InputError(
-        scene.definition.fem.where,
-        "the grid's backend needs a body that is a grid of cells, an isotropic material, and "
-        "no q2_p1 and no gravity");
+  backend = backend_of(scene, backend);
   if (backend == Backend::grid)
     implementation_ = std::make_unique<OnGrid>(scene, communicator, may_assemble_instead);
   else

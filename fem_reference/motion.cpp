@@ -1,8 +1,9 @@
 #include "fem_reference/motion.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
 #include "fem_reference/assembled_body.hpp"
-#include "fem_reference/model.hpp"
+#include "fem_reference/grid/grid_model.hpp"
 #include "fem_reference/moving_equations.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 
@@ -23,15 +24,7 @@ State start_of(const cases::Scene& scene, const AssembledBody& body) {
       .state;
 }
 
-} // namespace
-
-mechanics::IntegrationSettings default_steps() {
-  mechanics::IntegrationSettings settings;
-  settings.newton = default_settings();
-  return settings;
-}
-
-cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSettings& settings) {
+cases::Solution follow_assembled(const cases::Scene& scene, const mechanics::IntegrationSettings& settings) {
   AssembledBody body(scene, MPI_COMM_SELF);
   const cases::HexMesh& mesh = body.scene.mesh;
   MovingEquations motion(cases::refine(scene, scene.definition.fem.refine), body.discretisation,
@@ -53,6 +46,28 @@ cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSe
   solution.cell_volume = cell_volumes(followed.end);
   solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
   solution.trajectory = followed.trajectory;
+  return solution;
+}
+
+} // namespace
+
+mechanics::IntegrationSettings default_steps() {
+  mechanics::IntegrationSettings settings;
+  settings.newton = default_settings();
+  return settings;
+}
+
+cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSettings& settings,
+                       Backend backend) {
+  if (backend_of(scene, backend) == Backend::assembled) return follow_assembled(scene, settings);
+  grid::GridModel model(scene, MPI_COMM_SELF, 1);
+  try {
+    return model.follow(settings);
+  } catch (const cases::SolveError&) {
+    if (backend == Backend::grid || !model.linear_solver_failed()) throw;
+  }
+  cases::Solution solution = follow_assembled(scene, settings);
+  solution.message = by_assembled_tangent;
   return solution;
 }
 

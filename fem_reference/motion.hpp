@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem_reference/backend.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
 
 namespace springproof::fem_reference {
@@ -7,13 +8,16 @@ namespace springproof::fem_reference {
 /// The usual limits of a step in time of finite elements: those of a path's load step.
 mechanics::IntegrationSettings default_steps();
 
-/// The motion of a scene's finite elements through the time of its [dynamics], assembled, in this process
-/// alone.
+/// The motion of a scene's finite elements through the time of its [dynamics], in this process alone.
+/// @param backend  automatic: the grid's where choose_backend() says so, and the assembled one where the
+/// grid's
+///                 linear solver fails
 /// @return the end of the motion, with its trajectory
 /// @throws InputError as Model
 /// @throws SolveError with the time reached when the motion cannot be followed, or with the load reached when
 /// it cannot start in equilibrium
 cases::Solution follow(const cases::Scene& scene,
-                       const mechanics::IntegrationSettings& settings = default_steps());
+                       const mechanics::IntegrationSettings& settings = default_steps(),
+                       Backend backend = Backend::automatic);
 
 } // namespace springproof::fem_reference

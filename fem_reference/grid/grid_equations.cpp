@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace springproof::fem_reference::grid {
 
@@ -17,6 +18,8 @@ using cases::index;
 /// elements gain nothing from the better one, because trilinear ones are only near them.
 constexpr mechanics::grid::Chebyshev linear_smoother{3, 12}, quadratic_smoother{2, 6};
 constexpr int max_linear_iterations = 500;
+/// Of a residual an iteration leaves no more.
+constexpr double much_gained = 0.2;
 /// Of GMRES; twice as many vectors are kept.
 constexpr int max_unsymmetric_iterations = 400, max_indefinite_iterations = 80;
 constexpr int restart_of(std::ptrdiff_t n) {
@@ -56,8 +59,32 @@ bool GridEquations::add_force(const Vector& at, Field<double>& force) {
   return is_valid;
 }
 
+/// Of a step in time: to the force, and to that with the pressures' imbalance.
+void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
+  Field<double> way = at.head(n_displacements()) - step_->origin.head(n_displacements());
+  space_.slab.update_ghosts(space_.layout, way.data());
+  Field<double> added = Field<double>::Zero(n_displacements());
+  inertia_->add_step_product(way, added);
+  force += added;
+  condensed_ += added;
+}
+
+void GridEquations::set_step(const mechanics::StepTerms& terms, Inertia& inertia, bool is_another) {
+  step_.emplace(terms);
+  inertia_ = &inertia;
+  if (!std::exchange(begins_step_, true)) carries_tangent_ = std::exchange(is_easy_, true);
+  if (is_another) has_tangent_ = false;
+}
+
+/// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
+/// reactions.
+double GridEquations::scale() const {
+  if (step_) return step_->scale;
+  return load_norm_ > 0 ? load_norm_ : reaction_;
+}
+
 void GridEquations::linearise(const Vector& at) {
-  multigrid_.linearise(at.data(), at.data() + n_displacements());
+  multigrid_.linearise(at.data(), at.data() + n_displacements(), inertia_);
   if (quadratic_) quadratic_->linearise(at.data());
 }
 
@@ -72,8 +99,10 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
   gap_.clear();
   largest_gap_ = 0;
   if (supported_.prescribed) {
-    gap_ = supported_.prescribed(load_factor);
+    if (!step_) gap_ = supported_.prescribed(load_factor);
+    gap_.resize(supported_.moved.size());
     for (std::size_t i = 0; i < gap_.size(); ++i) {
+      if (step_) gap_[i] = step_->supports[supported_.moved[i]];
       gap_[i] -= at[supported_.moved[i]];
       largest_gap_ = std::max(largest_gap_, std::abs(gap_[i]));
     }
@@ -83,12 +112,16 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
   if (!is_valid_) return Vector::Constant(at.size(), std::numeric_limits<double>::quiet_NaN());
   volume_mismatch_ = space_.slab.largest(volume_mismatch_);
   largest_gap_ = space_.slab.largest(largest_gap_);
+  if (step_) add_inertia(at, force);
   Field<double> reaction = force;
+  const auto load = [&](Eigen::Index i) {
+    return step_ ? step_->force[i] : load_factor * supported_.load[i];
+  };
   Vector residual = Vector::Zero(at.size());
   for (Eigen::Index i = 0; i < n_displacements(); ++i) {
     const bool is_free = body_.free[i] > 0;
-    residual[i] = is_free ? load_factor * supported_.load[i] - force[i] : 0;
-    condensed_[i] = is_free ? load_factor * supported_.load[i] - condensed_[i] : 0;
+    residual[i] = is_free ? load(i) - force[i] : 0;
+    condensed_[i] = is_free ? load(i) - condensed_[i] : 0;
     if (is_free) reaction[i] = 0;
   }
   reaction_ = norm(space_, reaction);
@@ -97,18 +130,18 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
 
 GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
   if (!is_valid_) return {std::numeric_limits<double>::quiet_NaN(), false};
-  // a body moved by prescribed displacements alone is measured against its reactions
-  const double imbalance = std::sqrt(dot(residual, residual)),
-               scale = load_norm_ > 0 ? load_norm_ : reaction_;
-  return {imbalance == 0 ? 0 : imbalance / scale,
+  const double imbalance = std::sqrt(dot(residual, residual));
+  return {imbalance == 0 ? 0 : imbalance / scale(),
           volume_mismatch_ <= volume_tolerance_ && largest_gap_ <= 1e-12};
 }
 
-/// Close to the solution the last tangent serves as long as each step gains much.
+/// Close to the solution the last tangent serves as long as each step gains much. Steps in time begin with
+/// the tangent that the last one ended with.
 bool GridEquations::may_keep_tangent(double norm) const {
   if (!has_tangent_) return false;
-  return is_linear() ||
-         (norm <= 0.01 * (load_norm_ > 0 ? load_norm_ : reaction_) && norm <= 0.2 * norm_before_);
+  if (is_linear()) return true;
+  if (begins_step_) return carries_tangent_;
+  return (step_ || norm <= 0.01 * scale()) && norm <= much_gained * norm_before_;
 }
 
 std::optional<Field<double>> GridEquations::solve(const Field<double>& right_side, double target) {
@@ -143,6 +176,8 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
     forcing = std::max(forcing, 0.01); // a tangent of another state gains no more than that a step
   }
   has_tangent_ = true;
+  is_easy_ = is_easy_ && (begins_step_ || imbalance <= much_gained * norm_before_);
+  begins_step_ = false;
   norm_before_ = imbalance;
   Field<double> right_side = condensed_;
   if (largest_gap_ > 0) {
@@ -152,6 +187,7 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
     add(right_side, -1.0, pull, space_.n_threads);
   }
   const auto solution = solve(right_side, forcing * norm(space_, right_side));
+  has_failed_ = !solution;
   if (!solution) {
     forget_tangent();
     return std::nullopt;

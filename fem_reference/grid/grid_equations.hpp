@@ -3,9 +3,14 @@
 #include "fem_reference/grid/multigrid.hpp"
 #include "fem_reference/grid/quadratic_elements.hpp"
 #include "fem_reference/grid/supported.hpp"
-#include "mechanics/equilibrium/nonlinear_problem.hpp"
+#include "mechanics/dynamics/dynamic_problem.hpp"
 
 namespace springproof::fem_reference::grid {
+
+/// What a cell's pressure may leave of its volume, relative, where residuals have a tolerance.
+constexpr double volume_tolerance_of(double residual_tolerance) {
+  return 1e-2 * residual_tolerance;
+}
 
 /// The equilibrium equations of a body on a grid, without a factorisation. A state is the displacement of the
 /// nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank, those of all nodes and
@@ -36,11 +41,22 @@ class GridEquations : public mechanics::NonlinearProblem {
   Work work() const override { return work_; }
   std::size_t n_unknowns() const override; ///< collective
 
+  /// A step in time, as of EquilibriumEquations: from now on, whatever the load factor, inertia adds its
+  /// matrix times (u - origin), forces and supports are the terms', and residuals are relative to their
+  /// scale.
+  /// @param inertia  with the factors of the step; must outlive this
+  /// @param is_another  whether its matrix is another one than before
+  void set_step(const mechanics::StepTerms& terms, Inertia& inertia, bool is_another);
+
   /// The next direction is of its own state's tangent, and of nothing that was learnt on the way.
   void forget_tangent() {
     has_tangent_ = false;
     multigrid_.forget();
   }
+
+  void set_volume_tolerance(double tolerance) { volume_tolerance_ = tolerance; }
+  /// Whether the last direction was not found.
+  bool linear_solver_failed() const { return has_failed_; }
 
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
@@ -56,14 +72,21 @@ class GridEquations : public mechanics::NonlinearProblem {
   double load_norm_, volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;
-  double norm_before_ = 0;  ///< of the right side that the tangent was last used for, N
-  Field<double> condensed_; ///< of the state last evaluated: force with the pressures' imbalance, N
-  std::vector<double> gap_; ///< of the moved entries there, mm
+  double norm_before_ = 0;     ///< of the right side that the tangent was last used for, N
+  Inertia* inertia_ = nullptr; ///< in a step in time
+  std::optional<mechanics::StepTerms> step_;
+  bool begins_step_ = false;    ///< no direction yet of this step
+  bool is_easy_ = true;         ///< every iteration of the step gained much
+  bool carries_tangent_ = true; ///< from the step before
+  Field<double> condensed_;     ///< of the state last evaluated: force with the pressures' imbalance, N
+  std::vector<double> gap_;     ///< of the moved entries there, mm
   double largest_gap_ = 0, reaction_ = 0, volume_mismatch_ = 0;
-  bool is_valid_ = false;
+  bool is_valid_ = false, has_failed_ = false;
   std::optional<int> negative_eigenvalues_;
 
   bool add_force(const Vector& at, Field<double>& force);
+  void add_inertia(const Vector& at, Field<double>& force);
+  double scale() const;
   void linearise(const Vector& at);
   void product(Field<double>& field, Field<double>& product) const;
   bool may_keep_tangent(double norm) const;

@@ -1,11 +1,11 @@
 #include "fem_reference/grid/grid_model.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "cases/scene/in_time.hpp"
 #include "fem_reference/grid/coarse_guess.hpp"
-#include "fem_reference/grid/supported.hpp"
-#include "mechanics/elastic_moduli.hpp"
+#include "fem_reference/grid/moving_grid.hpp"
+#include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/equilibrium/turns.hpp"
-#include "mechanics/laws/ogden.hpp"
 #include "mechanics/ranks/share_out.hpp"
 
 #include <algorithm>
@@ -18,37 +18,6 @@ namespace {
 
 using cases::index;
 using mechanics::Vector;
-
-constexpr std::size_t most_terms = 8; ///< of Ogden's law
-
-Law law_of(cases::Formulation formulation) {
-  switch (formulation) {
-  case cases::Formulation::small_strain:
-    return Law::small_strain;
-  case cases::Formulation::saint_venant_kirchhoff:
-    return Law::saint_venant_kirchhoff;
-  case cases::Formulation::log_strain:
-    return Law::log_strain;
-  default:
-    return Law::ogden;
-  }
-}
-
-/// In the order that Cells asks for.
-std::vector<double> parameters_of(const cases::Material& material) {
-  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material)) {
-    const auto moduli = mechanics::elastic_moduli(*elastic);
-    return {moduli.mu, moduli.kappa};
-  }
-  const auto& ogden = std::get<cases::Ogden>(material);
-  std::vector<double> values{
-      ogden.bulk_modulus.value_or(mechanics::nearly_incompressible_ratio * mechanics::shear_modulus(ogden))};
-  for (std::size_t t = 0; t < ogden.mu.size(); ++t) {
-    values.push_back(ogden.mu[t]);
-    values.push_back(ogden.alpha[t]);
-  }
-  return values;
-}
 
 bool is_quadratic(const cases::Scene& scene) {
   return scene.definition.fem.element == cases::Element::q2;
@@ -69,38 +38,6 @@ std::vector<double> gather(const std::vector<double>& own, MPI_Comm communicator
 }
 
 } // namespace
-
-bool is_on_grid(const cases::Scene& scene) {
-  const cases::Fem& fem = scene.definition.fem;
-  if (!scene.mesh.grid) return false;
-  if (fem.element == cases::Element::q2_p1) return false;
-  const cases::Case& definition = scene.definition; // estimates have nothing else
-  const auto is_gravity = [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; };
-  if (definition.dynamics || std::any_of(definition.loads.begin(), definition.loads.end(), is_gravity))
-    return false; // nothing has mass there
-  std::size_t n_parameters = 0;
-  for (const cases::Material& material : cases::materials_of(scene.definition)) {
-    if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;
-    if (std::holds_alternative<cases::Ogden>(material) !=
-        (fem.formulation == cases::Formulation::hyperelastic))
-      return false; // the other backend has the message
-    const std::size_t n = parameters_of(material).size();
-    if (n > 1 + 2 * most_terms || (n_parameters > 0 && n != n_parameters)) return false;
-    n_parameters = n;
-  }
-  return fem.formulation != cases::Formulation::saint_venant_kirchhoff || fem.element == cases::Element::q1 ||
-         fem.element == cases::Element::q2;
-}
-
-double bulk_over_shear(const cases::Scene& scene) {
-  double largest = 0;
-  for (const cases::Material& material : cases::materials_of(scene.definition)) {
-    const std::vector<double> values = parameters_of(material);
-    const auto* ogden = std::get_if<cases::Ogden>(&material);
-    largest = std::max(largest, ogden ? values[0] / mechanics::shear_modulus(*ogden) : values[1] / values[0]);
-  }
-  return largest;
-}
 
 struct GridModel::Implementation {
   Implementation(const cases::Scene& the_scene, MPI_Comm the_communicator, int threads)
@@ -142,6 +79,7 @@ struct GridModel::Implementation {
   std::unique_ptr<QuadraticElements> make_quadratic() const;
   std::vector<cases::Numbered<double>> cell_volumes(const cases::Sharing* sharing) const;
   std::vector<cases::Numbered<Eigen::Vector3d>> displacements(const cases::Sharing* sharing) const;
+  Vector start_of_motion(const mechanics::EquilibriumSettings& settings) const;
 
   struct OwnElement {
     std::size_t cell;        ///< of the body's own mesh
@@ -312,6 +250,46 @@ bool GridModel::can_leave_rest() {
   if (!step) return false;
   const Vector left = equations.residual(rest + *step, part, mechanics::Expect::residual);
   return equations.dot(left, left) <= enough * enough * equations.dot(residual, residual);
+}
+
+/// The state when the motion begins: of the static scene, whose states are of the same nodes and cells.
+Vector GridModel::Implementation::start_of_motion(const mechanics::EquilibriumSettings& settings) const {
+  if (scene.definition.dynamics->start == cases::MotionStart::rest) return equations.rest();
+  GridModel still(cases::scene_before_start(scene), communicator, n_threads);
+  still.solve(1, settings);
+  return still.implementation_->last;
+}
+
+cases::Solution GridModel::follow(const mechanics::IntegrationSettings& settings) {
+  Implementation& m = *implementation_;
+  const cases::HexMesh& mesh = m.scene.mesh;
+  MovingGrid motion(cases::refine(m.scene, m.scene.definition.fem.refine), m.places, m.supported, m.equations,
+                    m.n_threads);
+  m.equations.set_volume_tolerance(volume_tolerance_of(settings.newton.tolerance));
+  const auto displacement = [&](const Vector& state) {
+    m.last = state;
+    return cases::deal(nullptr, m.displacements(nullptr), mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
+  };
+  const auto cell_volumes = [&](const Vector& state) {
+    m.last = state;
+    return cases::deal(nullptr, m.cell_volumes(nullptr), mesh.cells.size(), 0.);
+  };
+  const auto volume = [&](const Vector& state) {
+    const std::vector<double> of_cells = cell_volumes(state);
+    return std::accumulate(of_cells.begin(), of_cells.end(), 0.);
+  };
+  mechanics::FollowedMotion followed =
+      mechanics::follow_motion(m.scene, {motion, displacement, volume}, m.start_of_motion(settings.newton), settings);
+  cases::Solution solution = mechanics::to_solution(followed.work);
+  solution.displacement = displacement(followed.end);
+  solution.cell_volume = cell_volumes(followed.end);
+  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
+  solution.trajectory = std::move(followed.trajectory);
+  return solution;
+}
+
+bool GridModel::linear_solver_failed() const {
+  return implementation_->equations.linear_solver_failed();
 }
 
 cases::Solution GridModel::solve(double load_factor, const mechanics::EquilibriumSettings& given) {

@@ -3,7 +3,7 @@
 #include "cases/case/solution.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "cases/scene/scene.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
+#include "mechanics/dynamics/follow_motion.hpp"
 
 #include <array>
 #include <functional>
@@ -11,12 +11,6 @@
 #include <mpi.h>
 
 namespace springproof::fem_reference::grid {
-
-/// Whether a scene's body is a grid of cells and its element one of those that the kernels know.
-bool is_on_grid(const cases::Scene& scene);
-
-/// The largest ratio of a material's bulk modulus to its shear modulus.
-double bulk_over_shear(const cases::Scene& scene);
 
 /// Finite elements of a scene on a grid: matrix-vector products and multigrid in place of a factorisation.
 /// The grid is cut along z, a slab for each rank; every member function is collective, and the ranks share a
@@ -30,6 +24,12 @@ class GridModel {
   const cases::Scene& scene() const;
   /// As of Model.
   cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings);
+  /// The motion of a scene with [dynamics], on one rank.
+  /// @param settings  an equilibrium that it starts in is found with those of Newton's method
+  /// @throws SolveError as fem_reference::follow()
+  cases::Solution follow(const mechanics::IntegrationSettings& settings);
+  /// Whether the linear solver found no solution when it was last asked for one.
+  bool linear_solver_failed() const;
   void back_to_rest();
   /// Whether the linear solver finds Newton's first step from rest to a small load, and the step leaves
   /// almost nothing of the residual. Where stiffnesses differ by six orders and more it does not: the tangent

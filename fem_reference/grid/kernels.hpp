@@ -62,6 +62,12 @@ struct Quadratic {
   double weights[27];          ///< of the Gauss points, mm³
 };
 
+/// Masses of trilinear elements, or any multiple of them.
+struct Masses {
+  const double* of_cell; ///< per cell, 16 entries more than there are; 0 where there is none
+  double part[8][8];     ///< between a cell's corners, of the cell's mass: symmetric, in sum 1
+};
+
 /// Results of a layer of cells.
 struct Checks {
   bool valid = true;          ///< false: J <= 0 or not a number at a Gauss point of some cell
@@ -79,9 +85,10 @@ struct ForceFields {
 struct TangentFields {
   const double* displacement;
   const double* pressure;
-  const float* free; ///< field: 0 where constrained, else 1; null when there is no coarser level
-  float* stencil;    ///< added to
-  float* coarse;     ///< added to: cell matrices of the coarser grid; or null
+  const float* free;              ///< field: 0 where constrained, else 1; null when there is no coarser level
+  float* stencil;                 ///< added to
+  float* coarse;                  ///< added to: cell matrices of the coarser grid; or null
+  const Masses* masses = nullptr; ///< added to the cells' matrices, t/s²; or null
 };
 
 /// A grid in cells twice as large along some axes.
@@ -114,6 +121,8 @@ struct Kernels {
   /// Adds the tangent's product with a field.
   void (*quadratic_product)(const Quadratic&, const float* moduli, const double* field, double* product,
                             int layer);
+  /// Adds the masses' product with a field to the planes k and k + 1 of nodes.
+  void (*mass)(const Layout&, const Masses&, const double* field, double* product, int layer);
 };
 
 /// The kernels for the widest instruction set that this machine has, or a narrower one that the environment

@@ -233,6 +233,15 @@ SPRINGPROOF_INLINE void constrain(const Layout& layout, const float* free, std::
     for (int s = r; s < 24; ++s) matrix[upper(r, s)] *= mask[r] * mask[s];
 }
 
+template<class K>
+SPRINGPROOF_INLINE void add_masses(const Masses& masses, std::ptrdiff_t cell, K& matrix) {
+  const PackF mass = narrow(load(masses.of_cell + cell), load(masses.of_cell + cell + lanes<PackD>));
+  for (int a = 0; a < 8; ++a)
+    for (int b = K::is_symmetric ? a : 0; b < 8; ++b)
+      for (int i = 0; i < 3; ++i)
+        matrix.entry[K::at(3 * a + i, 3 * b + i)] += mass * static_cast<float>(masses.part[a][b]);
+}
+
 template<class L, bool modes>
 void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarsening& coarsening, int k) {
   using M = typename L::Moduli;
@@ -280,6 +289,7 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
       }
       const PackF scale = weight * static_cast<float>(cells.point_volume);
       for (int e = 0; e < K::n; ++e) matrix.entry[e] *= scale;
+      if (fields.masses) add_masses(*fields.masses, cell, matrix);
       add_to_stencil(
           layout, [&](int r, int t) { return matrix.entry[K::at(r, t)]; }, fields.stencil, i, j, k);
       if (!fields.coarse) continue;

@@ -19,6 +19,8 @@ namespace {
 
 #include "fem_reference/grid/kernels_cells.hpp"
 
+#include "fem_reference/grid/kernels_inertia.hpp"
+
 #include "fem_reference/grid/kernels_quadratic.hpp"
 
 } // namespace
@@ -26,6 +28,7 @@ namespace {
 extern const Kernels the_kernels;
 const Kernels the_kernels{force,           pressure_change,       tangent,
                           deposit_layer,   product_plane<double>, product_plane<float>,
-                          quadratic_force, quadratic_moduli,      quadratic_product};
+                          quadratic_force, quadratic_moduli,      quadratic_product,
+                          mass_layer};
 
 } // namespace springproof::fem_reference::grid::SPRINGPROOF_ISA

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace springproof::fem_reference::grid {
 
@@ -17,6 +18,7 @@ using mechanics::grid::apply_blocks;
 using cases::index;
 
 constexpr std::ptrdiff_t most_coarsest_nodes = 125;
+constexpr std::ptrdiff_t own_block = 9 * 13; ///< of a node's row of the stencil
 
 std::ptrdiff_t n_nodes(const std::array<int, 3>& cells) {
   return std::ptrdiff_t{cells[0] + 1} * (cells[1] + 1) * (cells[2] + 1);
@@ -72,8 +74,12 @@ Multigrid::Multigrid(const Body& body, int n_threads, const mechanics::grid::Che
   }
 }
 
-void Multigrid::linearise(const double* displacement, const double* pressure) {
+void Multigrid::linearise(const double* displacement, const double* pressure, const Inertia* inertia) {
   const Cells view = body_.view();
+  const Masses masses = inertia ? inertia->step_masses() : Masses{};
+  Field<double> of_nodes; // their masses; on coarser grids P^T m P by its sums of rows
+  if (inertia && inertia->step_node_masses().size() > 0)
+    of_nodes = inertia->step_node_masses().cwiseProduct(body_.free.cast<double>());
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
     Level* const coarser = l + 1 < levels_.size() ? &levels_[l + 1] : nullptr;
@@ -82,8 +88,12 @@ void Multigrid::linearise(const double* displacement, const double* pressure) {
         for_each_piece(
             static_cast<std::ptrdiff_t>(zeroed->size()), level.space.n_threads,
             [&](std::ptrdiff_t first, std::ptrdiff_t n) { std::fill_n(zeroed->begin() + first, n, 0.0f); });
-    const TangentFields fields{displacement, pressure, body_.free.data(), level.stencil.data(),
-                               coarser ? coarser->cell_matrices.data() : nullptr};
+    const TangentFields fields{displacement,
+                               pressure,
+                               body_.free.data(),
+                               level.stencil.data(),
+                               coarser ? coarser->cell_matrices.data() : nullptr,
+                               inertia ? &masses : nullptr};
     for_each_layer(level.space.slab, level.space.n_threads, [&](int k) {
       if (l == 0)
         kernels().tangent(view, fields, level.coarsening, k);
@@ -91,13 +101,42 @@ void Multigrid::linearise(const double* displacement, const double* pressure) {
         kernels().deposit(level.layout(), level.cell_matrices.data(), fields.stencil, fields.coarse,
                           level.coarsening, k);
     });
+    if (const auto damping = l == 0 && inertia ? inertia->step_damping() : std::nullopt)
+      add_damping(level, coarser, *damping);
+    if (of_nodes.size() > 0) add_to_diagonal(level, of_nodes);
     if (coarser)
       coarser->space.slab.complete_layers(coarser->cell_matrices.data(),
                                           n_upper * coarser->layout().cell(0, 0, 1));
     invert_diagonal(level);
     if (coarser) estimate_largest_eigenvalue(level);
+    if (!coarser || of_nodes.size() == 0) continue;
+    Field<double> fine = std::exchange(of_nodes, Field<double>::Zero(3 * coarser->layout().size));
+    restrict(level.space, coarser->space, level.axes, fine, of_nodes);
   }
   factorise_coarsest();
+}
+
+/// The tangent at rest of the body that damping is made of.
+void Multigrid::add_damping(Level& level, Level* coarser, const Cells& damping) const {
+  const Field<double> rest = Field<double>::Zero(3 * level.layout().size);
+  const std::vector<double> no_pressure(index(level.layout().n_cell_entries()) + 16, 0.);
+  const TangentFields fields{rest.data(), no_pressure.data(), body_.free.data(), level.stencil.data(),
+                             coarser ? coarser->cell_matrices.data() : nullptr};
+  for_each_layer(level.space.slab, level.space.n_threads,
+                 [&](int k) { kernels().tangent(damping, fields, level.coarsening, k); });
+}
+
+void Multigrid::add_to_diagonal(Level& level, const Field<double>& values) const {
+  const Layout& layout = level.layout();
+  for_each_plane(level.space.slab.computed(), level.space.n_threads, [&](int k) {
+    for (int j = 0; j < layout.nodes[1]; ++j) {
+      float* const row = level.stencil.data() + stencil_row(layout) * layout.node_row(j, k);
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < layout.nodes[0]; ++i)
+          row[(own_block + 4 * c) * layout.row + i] +=
+              static_cast<float>(values[c * layout.size + layout.at(i, j, k)]);
+    }
+  });
 }
 
 void Multigrid::product(Field<double>& field, Field<double>& product, Rows rows) const {
@@ -120,7 +159,6 @@ void Multigrid::product(const Level& level, Field<float>& field, Field<float>& p
 /// Of the blocks without constrained entries; those, and entries without a cell, become 0.
 void Multigrid::invert_diagonal(Level& level) const {
   const Layout& layout = level.layout();
-  constexpr std::ptrdiff_t centre = 9 * 13;
   for_each_plane(level.space.slab.computed(), level.space.n_threads, [&](int k) {
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i) {
@@ -130,7 +168,7 @@ void Multigrid::invert_diagonal(Level& level) const {
         bool is_free[3];
         for (int c = 0; c < 3; ++c)
           for (int d = 0; d < 3; ++d)
-            block(c, d) = static_cast<double>(entry[(centre + 3 * c + d) * layout.row]);
+            block(c, d) = static_cast<double>(entry[(own_block + 3 * c + d) * layout.row]);
         for (int c = 0; c < 3; ++c) {
           is_free[c] = block(c, c) != 0 && (!is_finest(level) || body_.free[c * layout.size + at] > 0);
           if (is_free[c]) continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/grid/body.hpp"
+#include "fem_reference/grid/inertia.hpp"
 #include "mechanics/grid/smoother.hpp"
 
 #include <Eigen/Cholesky>
@@ -18,7 +18,8 @@ class Multigrid {
   Multigrid(const Body& body, int n_threads, const mechanics::grid::Chebyshev& smoother);
 
   /// Assembles the tangent at a state and prepares the cycle.
-  void linearise(const double* displacement, const double* pressure);
+  /// @param inertia  whose matrix is added; or null
+  void linearise(const double* displacement, const double* pressure, const Inertia* inertia = nullptr);
 
   /// Drops what a state far off may have left: largest eigenvalues that lead astray, and what is no number.
   void forget();
@@ -54,6 +55,8 @@ class Multigrid {
 
   bool is_finest(const Level& level) const { return &level == &levels_.front(); }
   void product(const Level& level, Field<float>& field, Field<float>& product) const;
+  void add_damping(Level& level, Level* coarser, const Cells& damping) const;
+  void add_to_diagonal(Level& level, const Field<double>& values) const;
   void invert_diagonal(Level& level) const;
   void estimate_largest_eigenvalue(Level& level) const;
   void factorise_coarsest();

@@ -1,5 +1,6 @@
 #include "fem_reference/grid/supported.hpp"
 
+#include "cases/scene/masses.hpp"
 #include "fem_reference/grid/traction.hpp"
 
 #include <algorithm>
@@ -31,6 +32,28 @@ std::vector<Place> places_on(const cases::Scene& scene, const cases::Selection& 
   return found;
 }
 
+/// Of gravity on every element, by the integrals of its shape functions, and on what [[mass]] adds.
+template<class AddForce>
+void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& places,
+                 const AddForce& add_force) {
+  const Eigen::Vector3d gravity = cases::gravity(scene);
+  if (gravity.isZero(0)) return;
+  const cases::HexMesh& mesh = scene.mesh;
+  const int n = is_quadratic ? 3 : 2; // nodes along an edge
+  const double along[3] = {is_quadratic ? 1. / 6 : 1. / 2, is_quadratic ? 4. / 6 : 1. / 2, 1. / 6};
+  const double volume = places.spacing.prod() * (is_quadratic ? 8 : 1);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const Place lower = places.of(mesh.nodes[index(mesh.cells[cell][0])]);
+    const Eigen::Vector3d weight = cases::dynamics_of(scene, cell).density * volume * gravity;
+    for (int c = 0; c < n; ++c)
+      for (int b = 0; b < n; ++b)
+        for (int a = 0; a < n; ++a)
+          add_force(lower + Place(a, b, c), along[a] * along[b] * along[c] * weight);
+  }
+  for (const auto& [node, mass] : cases::added_masses(scene))
+    add_force(places.of(mesh.nodes[index(node)]), mass * gravity);
+}
+
 Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Places& places) {
   const Layout& layout = places.body.layout;
   Field<double> load = Field<double>::Zero(3 * layout.size);
@@ -42,6 +65,7 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
       is_quadratic ? cases::nodes_with_point_forces(scene) : cases::loaded_nodes(scene);
   for (const auto& [node, force] : forces)
     if (!force.isZero(0)) add_force(places.of(scene.mesh.nodes[index(node)]), force);
+  add_weights(scene, is_quadratic, places, add_force);
   if (!is_quadratic) return load;
   for (const auto& applied : scene.loads) {
     const bool is_torque = applied.load.kind == cases::LoadKind::torque;
@@ -91,17 +115,34 @@ Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Pla
       for (int c = 0; c < 3; ++c)
         if (motion.components[index(c)]) made.moved.push_back(c * size + places.entry(at));
     }
-  if (!scene.moved.empty())
-    made.prescribed = [nodes](double load_factor) {
-      std::vector<double> values;
-      for (const auto& [rest, motion] : nodes) {
-        const Eigen::Vector3d by = cases::moved_by(motion, rest, load_factor);
-        for (std::size_t c = 0; c < 3; ++c)
-          if (motion.components[c]) values.push_back(by[static_cast<int>(c)]);
-      }
-      return values;
-    };
+  if (scene.moved.empty()) return made;
+  const auto values_at = [nodes](const auto& factor) {
+    std::vector<double> values;
+    for (const auto& [rest, motion] : nodes) {
+      const Eigen::Vector3d by = cases::moved_by(motion, rest, factor(motion));
+      for (std::size_t c = 0; c < 3; ++c)
+        if (motion.components[c]) values.push_back(by[static_cast<int>(c)]);
+    }
+    return values;
+  };
+  made.prescribed = [values_at](double load_factor) {
+    return values_at([=](const cases::Moved&) { return load_factor; });
+  };
+  made.prescribed_at = [values_at](double time) {
+    return values_at([=](const cases::Moved& motion) { return motion.history.at(time); });
+  };
   return made;
+}
+
+std::vector<LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic, const Places& places) {
+  std::vector<LoadInTime> loads;
+  cases::Scene alone = scene;
+  for (const auto& applied : scene.loads) {
+    alone.loads = {applied};
+    loads.push_back({applied.load.history, make_load(alone, is_quadratic, places)});
+    loads.back().force.array() *= places.body.free.cast<double>().array();
+  }
+  return loads;
 }
 
 } // namespace springproof::fem_reference::grid

@@ -14,6 +14,13 @@ struct Supported {
   std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
   /// Their displacement (mm) at a load factor; empty when no rank has any. Collective.
   std::function<std::vector<double>(double load_factor)> prescribed;
+  std::function<std::vector<double>(double time)> prescribed_at; ///< the same in a motion; s
+};
+
+/// What one load is of a dynamic scene, and how much of it acts when.
+struct LoadInTime {
+  cases::History history;
+  Field<double> force; ///< N, at a factor of 1; 0 on constrained entries
 };
 
 /// The loads and motions of a scene on a rank's part of a grid.
@@ -21,5 +28,8 @@ struct Supported {
 /// @param is_quadratic  elements have nodes on their edges and faces too: places are halves of them
 /// @param body          that places is of; its `free` is set
 Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Places& places, Body& body);
+
+/// @param scene, places  as of make_supported(), after it
+std::vector<LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic, const Places& places);
 
 } // namespace springproof::fem_reference::grid

@@ -2,6 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace springproof::fem_reference::grid {

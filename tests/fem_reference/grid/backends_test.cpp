@@ -175,6 +175,28 @@ TEST_CASE("both backends agree on a body with holes, of two materials, and refin
   agree(scene);
 }
 
+TEST_CASE("both backends agree on gravity, of two materials and of weights", "[verification]") {
+  for (const auto element : {Element::q1_bbar, Element::q2}) {
+    CAPTURE(cases::name_of(element));
+    auto definition = cube(cases::Formulation::log_strain, element);
+    definition.material_dynamics.density = 1e5; // kg/m³: a soft block of 1 cm weighs little
+    cases::RegionMaterial heavy;
+    heavy.material = cases::LinearElastic{3, 0.2};
+    heavy.dynamics.density = 4e5;
+    heavy.lower = Vector3d(2, -INFINITY, 4);
+    heavy.upper = Vector3d(6, INFINITY, INFINITY);
+    definition.region_materials = {heavy};
+    definition.masses.emplace_back();
+    definition.masses.back().region.name = "z+";
+    definition.masses.back().mass = element == Element::q2 ? 0.02 : 0.1; // kg; vertices of q2 tear
+    cases::Load gravity;
+    gravity.kind = cases::LoadKind::gravity;
+    gravity.value = Vector3d(20, 5, -9.81);
+    definition.loads = {gravity};
+    agree(cases::make_scene(definition));
+  }
+}
+
 TEST_CASE("both backends count the negative eigenvalues of a column pressed beyond its Euler load",
           "[verification]") {
   const double euler = std::acos(-1.) * std::acos(-1.) / 12 / 400; // N, at E = 1 MPa

@@ -1,0 +1,80 @@
+#include "fem_reference/grid/on_grid.hpp"
+
+#include "mechanics/laws/ogden.hpp"
+
+#include <algorithm>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+constexpr std::size_t most_terms = 8; ///< of Ogden's law
+
+} // namespace
+
+Law law_of(cases::Formulation formulation) {
+  switch (formulation) {
+  case cases::Formulation::small_strain:
+    return Law::small_strain;
+  case cases::Formulation::saint_venant_kirchhoff:
+    return Law::saint_venant_kirchhoff;
+  case cases::Formulation::log_strain:
+    return Law::log_strain;
+  default:
+    return Law::ogden;
+  }
+}
+
+std::vector<double> parameters_of(const cases::Material& material) {
+  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material)) {
+    const auto moduli = mechanics::elastic_moduli(*elastic);
+    return {moduli.mu, moduli.kappa};
+  }
+  const auto& ogden = std::get<cases::Ogden>(material);
+  std::vector<double> values{
+      ogden.bulk_modulus.value_or(mechanics::nearly_incompressible_ratio * mechanics::shear_modulus(ogden))};
+  for (std::size_t t = 0; t < ogden.mu.size(); ++t) {
+    values.push_back(ogden.mu[t]);
+    values.push_back(ogden.alpha[t]);
+  }
+  return values;
+}
+
+mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
+  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
+    return mechanics::elastic_moduli(*elastic);
+  const double mu = mechanics::shear_modulus(std::get<cases::Ogden>(material)),
+               kappa = parameters_of(material)[0];
+  return {kappa - 2 * mu / 3, mu, kappa};
+}
+
+bool is_on_grid(const cases::Scene& scene) {
+  const cases::Fem& fem = scene.definition.fem;
+  if (!scene.mesh.grid) return false;
+  if (fem.element == cases::Element::q2_p1) return false;
+  if (scene.definition.dynamics && fem.element == cases::Element::q2) return false; // has no masses there
+  std::size_t n_parameters = 0;
+  for (const cases::Material& material : cases::materials_of(scene.definition)) {
+    if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;
+    if (std::holds_alternative<cases::Ogden>(material) !=
+        (fem.formulation == cases::Formulation::hyperelastic))
+      return false; // the other backend has the message
+    const std::size_t n = parameters_of(material).size();
+    if (n > 1 + 2 * most_terms || (n_parameters > 0 && n != n_parameters)) return false;
+    n_parameters = n;
+  }
+  return fem.formulation != cases::Formulation::saint_venant_kirchhoff || fem.element == cases::Element::q1 ||
+         fem.element == cases::Element::q2;
+}
+
+double bulk_over_shear(const cases::Scene& scene) {
+  double largest = 0;
+  for (const cases::Material& material : cases::materials_of(scene.definition)) {
+    const std::vector<double> values = parameters_of(material);
+    const auto* ogden = std::get_if<cases::Ogden>(&material);
+    largest = std::max(largest, ogden ? values[0] / mechanics::shear_modulus(*ogden) : values[1] / values[0]);
+  }
+  return largest;
+}
+
+} // namespace springproof::fem_reference::grid
