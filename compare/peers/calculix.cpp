@@ -1,6 +1,7 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -23,6 +24,8 @@ namespace {
 /// CalculiX takes a residual below 1e-6 for zero, in whatever unit. Forces in millionths of a newton (and
 /// moduli likewise) put that far below what its convergence is controlled by; displacements do not change.
 constexpr double force_unit = 1e6;
+
+constexpr const char* not_installed = "CalculiX (ccx) is not installed";
 
 /// Fields of CalculiX's input are 20 characters wide at most.
 std::string number(double value) {
@@ -60,6 +63,13 @@ void write_model(std::ostream& out, const cases::Scene& scene) {
     if (constrained[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
 }
 
+void write_forces(std::ostream& out, const cases::Scene& scene) {
+  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
+  for (std::size_t n = 0; n < forces.size(); ++n)
+    for (int a = 0; a < 3; ++a)
+      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
+}
+
 /// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
 /// displacement but a zero.
 double fortran_number(const std::string& field) {
@@ -92,6 +102,21 @@ std::string last_error(std::istream& in) {
   for (std::string line; std::getline(in, line);)
     if (line.find("*ERROR") != std::string::npos) error = line.substr(line.find("*ERROR"));
   return error.empty() ? "it gave no reason" : error;
+}
+
+/// Runs CalculiX.
+/// @return what it leaves in its .dat file; nothing when there is no `ccx`   @throws SolveError when it stops
+template<class WriteInput>
+std::optional<std::ifstream> data_of_calculix(const ScratchFolder& scratch, const WriteInput& write_input) {
+  write_file(scratch.path() / "case.inp", write_input);
+  const auto end = call_program(
+      {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
+  if (!end) return std::nullopt;
+  std::istringstream log(end->said);
+  std::ifstream data(scratch.path() / "case.dat");
+  const std::string error = last_error(log);
+  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
+  return data;
 }
 
 /// Volume of a cell whose strains are small: rest volume times one plus the trace, which is its linear part
@@ -133,7 +158,7 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
-  if (definition.dynamics) return "its input has no time";
+  if (definition.dynamics) return reason_without_calculix_motion(definition);
   if (std::any_of(definition.loads.begin(), definition.loads.end(),
                   [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; }))
     return "its input has no gravity";
@@ -160,10 +185,7 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
   else
     fmt::print(out, "*STEP\n*STATIC\n");
   fmt::print(out, "*CLOAD\n");
-  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
-  for (std::size_t n = 0; n < forces.size(); ++n)
-    for (int a = 0; a < 3; ++a)
-      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
+  write_forces(out, scene);
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
 }
 
@@ -188,8 +210,7 @@ std::vector<double> read_calculix_frequencies(std::istream& in) {
   return hertz;
 }
 
-std::optional<std::string> reason_without_calculix_frequencies(const cases::Scene& scene) {
-  const cases::Case& definition = scene.definition;
+std::optional<std::string> reason_without_calculix_frequencies(const cases::Case& definition) {
   if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
       !definition.region_materials.empty())
     return "its input has one linear elastic material";
@@ -202,53 +223,138 @@ std::optional<std::string> reason_without_calculix_frequencies(const cases::Scen
 std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes) {
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   const ScratchFolder scratch("ccx");
-  write_file(scratch.path() / "case.inp",
-             [&](std::ostream& out) { write_calculix_frequency_input(out, refined, n_modes); });
-  const auto end = call_program(
-      {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
-  if (!end) return {};
-  std::istringstream log(end->said);
-  std::ifstream data(scratch.path() / "case.dat");
-  const std::string error = last_error(log);
-  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
-  const std::vector<double> hertz = read_calculix_frequencies(data);
+  auto data = data_of_calculix(
+      scratch, [&](std::ostream& out) { write_calculix_frequency_input(out, refined, n_modes); });
+  if (!data) return {};
+  const std::vector<double> hertz = read_calculix_frequencies(*data);
   if (static_cast<int>(hertz.size()) < n_modes)
     throw cases::SolveError(fmt::format("CalculiX printed {} frequencies of {}", hertz.size(), n_modes));
   return hertz;
 }
 
-CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
-  CalculixOutput output;
+std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition) {
+  if (auto reason = reason_without_calculix_frequencies(definition)) return reason;
+  const cases::TimeScheme& scheme = definition.dynamics->scheme;
+  if (scheme.scheme != cases::Scheme::newmark || scheme.beta != 0.25 || scheme.gamma != 0.5)
+    return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
+  if (definition.fem.formulation != cases::Formulation::small_strain) return "its motion is linear";
+  if (definition.dynamics->start != cases::MotionStart::rest) return "its motion begins at rest";
+  if (definition.material_dynamics.mass_damping > 0 || definition.material_dynamics.stiffness_damping > 0)
+    return "its implicit steps have no damping";
+  if (!definition.moved.empty()) return "its input has no moved regions";
+  for (const cases::Load& load : definition.loads)
+    if (load.kind == cases::LoadKind::gravity || load.history.frequency != 0)
+      return "its loads have histories in points, and none is gravity";
+  for (const cases::Measure& measure : definition.measures)
+    if (measure.kind == cases::MeasureKind::volume) return "volumes over time are not read";
+  return std::nullopt;
+}
+
+/// An amplitude for every load: before and after its points it is what it is at them.
+void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene) {
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  write_model(out, scene);
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    const cases::History& history = scene.loads[l].load.history;
+    fmt::print(out, "*AMPLITUDE, NAME=LOAD{}\n", l);
+    if (history.points.empty()) fmt::print(out, "0., 1.\n{}, 1.\n", number(dynamics.end));
+    for (const auto& [time, factor] : history.points)
+      fmt::print(out, "{}, {}\n", number(time), number(factor));
+  }
+  fmt::print(out, "*STEP, INC={}\n*DYNAMIC, DIRECT, ALPHA=0.\n{}, {}\n", 10 * dynamics.n_steps(),
+             number(dynamics.step), number(dynamics.end));
+  cases::Scene alone = scene;
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    alone.loads = {scene.loads[l]};
+    fmt::print(out, "*CLOAD, AMPLITUDE=LOAD{}\n", l);
+    write_forces(out, alone);
+  }
+  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
+}
+
+std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene) {
+  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
+  const ScratchFolder scratch("ccx");
+  auto data =
+      data_of_calculix(scratch, [&](std::ostream& out) { write_calculix_motion_input(out, refined); });
+  if (!data) return {};
+  std::vector<CalculixOutput> steps = read_calculix_blocks(*data, refined.mesh.nodes.size());
+  const auto n_steps = static_cast<std::size_t>(scene.definition.dynamics->n_steps());
+  if (steps.size() != n_steps)
+    throw cases::SolveError(fmt::format("CalculiX printed {} steps of {}", steps.size(), n_steps));
+  for (CalculixOutput& step : steps) step.displacement.resize(scene.mesh.nodes.size());
+  return steps;
+}
+
+std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n_nodes) {
+  std::vector<CalculixOutput> blocks;
   std::vector<bool> seen; // empty before the first block
+  const auto check_last = [&] {
+    if (std::find(seen.begin(), seen.end(), false) != seen.end())
+      throw cases::SolveError("CalculiX printed no displacement for some node");
+  };
   for (std::string line; std::getline(in, line);) {
     if (line.find("displacements") != std::string::npos) {
-      output.displacement.assign(n_nodes, Vector3d::Zero());
+      check_last();
+      CalculixOutput& block = blocks.emplace_back();
+      block.displacement.assign(n_nodes, Vector3d::Zero());
       seen.assign(n_nodes, false);
       const std::size_t time = line.find("time");
-      if (time != std::string::npos) output.load_reached = std::strtod(line.c_str() + time + 4, nullptr);
+      if (time != std::string::npos) block.load_reached = std::strtod(line.c_str() + time + 4, nullptr);
       continue;
     }
     const auto entry = seen.empty() ? std::nullopt : read_node_line(line);
     if (!entry || entry->first < 1 || entry->first > n_nodes) continue;
-    output.displacement[entry->first - 1] = entry->second;
+    blocks.back().displacement[entry->first - 1] = entry->second;
     seen[entry->first - 1] = true;
   }
-  if (seen.empty() || std::find(seen.begin(), seen.end(), false) != seen.end())
-    throw cases::SolveError("CalculiX printed no displacement for some node");
-  return output;
+  check_last();
+  if (blocks.empty()) throw cases::SolveError("CalculiX printed no displacement for some node");
+  return blocks;
 }
+
+namespace {
+
+cases::Solution follow_with_calculix(const cases::Scene& scene) {
+  cases::Solution solution;
+  const std::vector<CalculixOutput> steps = motion_by_calculix(scene);
+  if (steps.empty()) {
+    solution.message = not_installed;
+    return solution; // skipped
+  }
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  cases::Trajectory& trajectory = solution.trajectory.emplace();
+  trajectory.nodes = cases::watched_nodes(scene);
+  const auto add = [&](int step, const std::vector<Vector3d>& displacement) {
+    trajectory.time.push_back(step * dynamics.step);
+    for (const int node : trajectory.nodes)
+      trajectory.displacement.push_back(displacement[cases::index(node)]);
+    if (step % dynamics.write_every == 0 || step == dynamics.n_steps())
+      trajectory.bodies.push_back({step, displacement});
+  };
+  add(0, std::vector<Vector3d>(scene.mesh.nodes.size(), Vector3d::Zero()));
+  for (std::size_t n = 0; n < steps.size(); ++n) add(static_cast<int>(n) + 1, steps[n].displacement);
+  solution.displacement = steps.back().displacement;
+  solution.status = cases::Status::converged;
+  solution.load_reached = 1;
+  msm::measure_cells(scene.mesh, solution);
+  return solution;
+}
+
+} // namespace
 
 cases::Solution solve_with_calculix(const cases::Scene& scene) {
   cases::Solution solution;
   solution.message = reason_without_calculix(scene.definition).value_or("");
   if (!solution.message.empty()) return solution; // skipped
+  if (scene.definition.dynamics) return follow_with_calculix(scene);
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   const ScratchFolder scratch("ccx");
   write_file(scratch.path() / "case.inp", [&](std::ostream& out) { write_calculix_input(out, refined); });
   const auto end = call_program(
       {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
   if (!end) {
-    solution.message = "CalculiX (ccx) is not installed";
+    solution.message = not_installed;
     return solution; // skipped
   }
   std::istringstream log(end->said);

@@ -105,7 +105,7 @@ TEST_CASE("designs are held against the same finite elements, one that cannot se
 TEST_CASE("frequencies by CalculiX are ours", "[verification]") {
   cases::Scene scene = bar(true);
   scene.definition.fem.element = cases::Element::q1;
-  REQUIRE_FALSE(compare::reason_without_calculix_frequencies(scene));
+  REQUIRE_FALSE(compare::reason_without_calculix_frequencies(scene.definition));
   const std::vector<double> theirs = compare::frequencies_by_calculix(scene, 8);
   if (theirs.empty()) {
     WARN("CalculiX is not installed: nothing was compared");

@@ -136,6 +136,39 @@ TEST_CASE("small strain on the cube agrees with CalculiX on every node", "[peer]
       check_agrees(cube(std::string(test) + "_" + set, {"fem.formulation=small_strain"}));
 }
 
+TEST_CASE("a bar that is loaded at once moves as CalculiX says, at equal steps of newmark", "[peer]") {
+  cases::Case definition = cube("shear_small", {"fem.formulation=small_strain", "body.cells=[3,3,4]"});
+  definition.measures.clear(); // among them a volume
+  definition.expectations.clear();
+  definition.material_dynamics.density = 1000;
+  definition.loads[0].history.points = {{{0., 1.}}, {{0.008, 1.}}, {{0.012, 0.}}};
+  definition.dynamics.emplace();
+  definition.dynamics->step = 2e-4;
+  definition.dynamics->end = 0.02;
+  REQUIRE_FALSE(reason_without_calculix(definition));
+  const cases::Scene scene = cases::make_scene(definition);
+  const std::vector<CalculixOutput> theirs = motion_by_calculix(scene);
+  if (theirs.empty()) {
+    WARN("CalculiX is not installed: nothing was compared");
+    return;
+  }
+  const cases::Solution ours = solvers().follow_finite_elements(scene);
+  const cases::Solution peer = solve_with_calculix(scene);
+  REQUIRE(peer.trajectory);
+  CHECK(peer.trajectory->time.size() == ours.trajectory->time.size());
+  const auto& bodies = ours.trajectory->bodies;
+  REQUIRE(bodies.size() == theirs.size() + 1);
+  double squared = 0, difference_squared = 0;
+  for (std::size_t step = 0; step < theirs.size(); ++step)
+    for (std::size_t n = 0; n < theirs[step].displacement.size(); ++n) {
+      const Vector3d& u = bodies[step + 1].displacement[n];
+      squared += u.squaredNorm();
+      difference_squared += (theirs[step].displacement[n] - u).squaredNorm();
+    }
+  CHECK(squared > 0);
+  CHECK(std::sqrt(difference_squared / squared) <= 1e-3);
+}
+
 TEST_CASE("Saint Venant-Kirchhoff on the cube agrees with CalculiX's NLGEOM on every node", "[peer]") {
   for (const char* test : {"tensile", "shear", "torsion"})
     for (const char* set : {"small", "large"})
