@@ -6,6 +6,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
+#include "compare/sweep/motion_sweep.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/write/json.hpp"
@@ -85,7 +86,37 @@ Sweep merge_parts(const SweepOptions& options) {
   return merged;
 }
 
+/// Of a dynamic case.
+int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
+  if (n_mpi_ranks() > 1 || options.budget || !options.shards->part.empty() ||
+      !options.shards->folders.empty())
+    throw cases::InputError(definition.file +
+                            ": dynamics: a sweep in time has no --budget and no parts, and runs on one rank");
+  claim_folder(options.out);
+  const auto write_csv = [&](const MotionSweep& so_far) {
+    if (options.out.empty()) return;
+    write_file(options.out + "/motion_sweep.csv",
+               [&](std::ostream& out) { write_motion_sweep_csv(out, so_far); });
+  };
+  const MotionSweep result = sweep_motion(definition, options.extent(), write_csv);
+  if (options.json)
+    std::cout << json_text(motion_sweep_to_json(result));
+  else
+    write_motion_sweep_text(std::cout, result);
+  if (!options.out.empty()) {
+    write_file(options.out + "/motion_sweep.txt",
+               [&](std::ostream& out) { write_motion_sweep_text(out, result); });
+    write_file(options.out + "/motion_sweep.json",
+               [&](std::ostream& out) { out << json_text(motion_sweep_to_json(result)); });
+    plot_motion_sweep(options.out, result);
+  }
+  return std::any_of(result.rows.begin(), result.rows.end(),
+                     [](const MotionRow& row) { return row.status == cases::Status::failed; });
+}
+
 int sweep(const SweepOptions& options) {
+  if (const cases::Case definition = cases::read_case(options.file); definition.dynamics)
+    return sweep_in_time(options, definition);
   if (!options.shards->part.empty()) return time_part(options);
   const Sweep result = options.shards->folders.empty() ? time_all(options) : merge_parts(options);
   const bool failed =
@@ -127,7 +158,7 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* command =
       program.add_subcommand("sweep", "speed against error, of both models at many resolutions");
-  command->add_option("case", options->file, "case file (TOML): a box under tractions");
+  command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
   CLI::Option* json = command->add_flag("--json", options->json,

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/case/solution.hpp"
+#include "compare/sweep/plan.hpp"
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+/// Speed against error in time: springs and finite elements of a dynamic case, at several resolutions and
+/// steps.
+namespace springproof::compare {
+
+/// One motion: what it took, and how far its watched nodes are from the reference's.
+struct MotionRow {
+  std::string method;
+  Family family{};
+  std::array<int, 3> cells{};
+  double step = 0; ///< s
+  cases::Status status{};
+  std::string message;
+  std::size_t unknowns = 0;
+  double seconds_per_second =
+      0; ///< of computing for a second of motion; one run, one thread, without setting up
+  std::optional<double> error_percent{};
+};
+
+struct MotionSweep {
+  cases::Case definition;
+  std::string reference;
+  double uncertainty_percent = 0; ///< what the last halvings of its cells and of its step changed, together
+  std::vector<MotionRow> rows;
+};
+
+/// The case's own springs and finite elements at levels of cells as plan_sweep() has them, each with twice,
+/// once and half the case's step, against the finite-strain motion on the finest level by generalized_alpha
+/// with a quarter of the step. One after the other in this process.
+/// @param on_row  called with the sweep as it is after every motion
+/// @throws InputError for a body that is no box, a case without measures of nodes, or with nodes that a level
+/// has not; SolveError when the reference fails
+MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
+                         const std::function<void(const MotionSweep&)>& on_row);
+
+/// Difference of two motions of equal nodes at the times of the second that both have, percent of the
+/// first's: root mean squares over times and nodes.
+std::optional<double> motion_error_percent(const cases::Trajectory& reference,
+                                           const cases::Trajectory& other);
+
+/// For pictures a second: the most accurate of the motions whose step is no longer than a picture and that
+/// take no longer than the motion itself.
+std::string interactive_sentence(const MotionSweep& sweep, double hertz);
+
+void write_motion_sweep_text(std::ostream& out, const MotionSweep& sweep);
+void write_motion_sweep_csv(std::ostream& out, const MotionSweep& sweep);
+nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep);
+/// Error against computing per second of motion, log-log: FOLDER/motion_sweep.svg and .png.
+/// @throws InputError as draw()
+void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep);
+
+} // namespace springproof::compare
