@@ -22,31 +22,31 @@ EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
   load_norm_ = std::sqrt(total(squared, MPI_SUM, communicator_));
 }
 
-State EquilibriumEquations::residual(const State& at, double load_factor, mechanics::Expect expect) {
+void EquilibriumEquations::residual(const State& at, double load_factor, mechanics::Expect expect,
+                                    State& residual) {
   has_right_hand_side_ = expect == mechanics::Expect::direction;
   if (has_right_hand_side_)
     evaluate_for_direction(at, load_factor);
   else
     evaluate(at, load_factor, Wanted::stress);
-  if (!std::isfinite(size_.relative)) return State::Constant(at.size(), size_.relative);
-  State residual = State::Zero(at.size());
+  residual.setConstant(at.size(), std::isfinite(size_.relative) ? 0 : size_.relative);
+  if (!std::isfinite(size_.relative)) return;
   const ReadEntries force(force_.get());
   for (std::size_t i = 0; i < discretisation_.load.size(); ++i)
     residual[static_cast<Eigen::Index>(i)] = -force[i];
-  return residual;
 }
 
-std::optional<State> EquilibriumEquations::direction(const State& at, const State&, double load_factor,
-                                                     double, mechanics::Convexity) {
+bool EquilibriumEquations::direction(const State& at, const State&, double load_factor, double,
+                                     mechanics::Convexity, State& step) {
   if (!has_right_hand_side_) evaluate_for_direction(at, load_factor);
   has_right_hand_side_ = true;
-  if (!solver_.solve(right_hand_side_.get(), correction_.get(), n_tangents_)) return std::nullopt;
+  if (!solver_.solve(right_hand_side_.get(), correction_.get(), n_tangents_)) return false;
   mechanics::petsc::update_ghosts(correction_.get());
-  State step = State::Zero(at.size());
+  step.setZero(at.size());
   const ReadEntries correction(correction_.get());
   std::copy_n(correction.data(), n_dofs(), step.begin());
   assembly_.complete_correction(step);
-  return step;
+  return true;
 }
 
 mechanics::Merit EquilibriumEquations::merit() const {

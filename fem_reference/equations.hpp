@@ -18,11 +18,11 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
 
   State rest() const { return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures())); }
 
-  State residual(const State& at, double load_factor, mechanics::Expect expect) override;
+  void residual(const State& at, double load_factor, mechanics::Expect expect, State& residual) override;
   /// Constraints hold where volumes agree with pressures and supports are where they have to be.
   Size size(const State& /*residual*/, const State& /*at*/) override { return size_; }
-  std::optional<State> direction(const State& at, const State& residual, double load_factor, double forcing,
-                                 mechanics::Convexity convexity) override;
+  bool direction(const State& at, const State& residual, double load_factor, double forcing,
+                 mechanics::Convexity convexity, State& step) override;
   /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
   /// exact.
   mechanics::Merit merit() const override;

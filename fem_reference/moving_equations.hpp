@@ -26,13 +26,15 @@ class MovingEquations : public mechanics::DynamicProblem {
   void complete(State& motion) override { equations_.complete(motion); }
   void set_step(const mechanics::StepTerms& terms) override;
 
-  State residual(const State& at, double load_factor, mechanics::Expect expect) override {
-    return equations_.residual(at, load_factor, expect);
+  using NonlinearProblem::direction;
+  using NonlinearProblem::residual;
+  void residual(const State& at, double load_factor, mechanics::Expect expect, State& residual) override {
+    equations_.residual(at, load_factor, expect, residual);
   }
   Size size(const State& residual, const State& at) override { return equations_.size(residual, at); }
-  std::optional<State> direction(const State& at, const State& residual, double load_factor, double forcing,
-                                 mechanics::Convexity convexity) override {
-    return equations_.direction(at, residual, load_factor, forcing, convexity);
+  bool direction(const State& at, const State& residual, double load_factor, double forcing,
+                 mechanics::Convexity convexity, State& step) override {
+    return equations_.direction(at, residual, load_factor, forcing, convexity, step);
   }
   mechanics::Merit merit() const override { return equations_.merit(); }
   std::optional<bool> is_stable(const State& /*at*/) override { return std::nullopt; }

@@ -80,10 +80,10 @@ void MovingSprings::external_force(double time, Vector& force) {
   for (const auto& [history, load] : entries_.loads) force += history.at(time) * load;
 }
 
-Vector MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect) {
-  Vector residual = springs_.residual(at, 0, expect);
+void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect,
+                             Vector& residual) {
+  springs_.residual(at, 0, expect, residual);
   residual += terms_->force - added_force(at);
-  return residual;
 }
 
 double MovingSprings::energy(const Vector& at, double /*load_factor*/) {

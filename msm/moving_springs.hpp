@@ -57,7 +57,9 @@ class MovingSprings : public mechanics::DynamicProblem {
   }
   void set_step(const mechanics::StepTerms& terms) override { terms_.emplace(terms); }
 
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override;
+  using NonlinearProblem::direction;
+  using NonlinearProblem::residual;
+  void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override;
   Size size(const Vector& residual, const Vector& /*at*/) override {
     return {relative(std::sqrt(dot(residual, residual)), terms_->scale)};
   }

@@ -53,12 +53,13 @@ class SpringSystem : public mechanics::NonlinearProblem {
     const double scale = load > 0 ? load : reaction(at);
     return {std::sqrt(dot(residual, residual)) / (scale > 0 ? scale : 1.0)};
   }
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double, double forcing,
-                                  mechanics::Convexity convexity) override {
+  using NonlinearProblem::direction;
+  bool direction(const Vector& at, const Vector& residual, double, double forcing,
+                 mechanics::Convexity convexity, Vector& step) override {
     using mechanics::Convexity;
     return solve(at, residual, forcing,
                  convexity == Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact,
-                 convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(at)->eigenvalue) : 0);
+                 convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(at)->eigenvalue) : 0, step);
   }
   Work work() const override { return work_; }
 
@@ -69,8 +70,8 @@ class SpringSystem : public mechanics::NonlinearProblem {
   /// against.
   virtual double reaction(const Vector& displacement) = 0;
   /// Solves (tangent + shift) * step = residual, as direction() asks for.  @param shift  N/mm
-  virtual std::optional<Vector> solve(const Vector& displacement, const Vector& residual, double forcing,
-                                      TransverseTerm term, double shift) = 0;
+  virtual bool solve(const Vector& displacement, const Vector& residual, double forcing, TransverseTerm term,
+                     double shift, Vector& step) = 0;
 };
 
 } // namespace springproof::msm

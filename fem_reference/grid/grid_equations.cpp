@@ -94,7 +94,7 @@ void GridEquations::product(Field<double>& field, Field<double>& product) const 
   product.array() *= body_.free.cast<double>().array();
 }
 
-GridEquations::Vector GridEquations::residual(const Vector& at, double load_factor, mechanics::Expect) {
+void GridEquations::residual(const Vector& at, double load_factor, mechanics::Expect, Vector& residual) {
   ++work_.force_evaluations;
   gap_.clear();
   largest_gap_ = 0;
@@ -109,7 +109,8 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
   }
   Field<double> force = Field<double>::Zero(n_displacements());
   is_valid_ = space_.slab.largest(add_force(at, force) ? 0 : 1) == 0;
-  if (!is_valid_) return Vector::Constant(at.size(), std::numeric_limits<double>::quiet_NaN());
+  residual.setConstant(at.size(), is_valid_ ? 0 : std::numeric_limits<double>::quiet_NaN());
+  if (!is_valid_) return;
   volume_mismatch_ = space_.slab.largest(volume_mismatch_);
   largest_gap_ = space_.slab.largest(largest_gap_);
   if (step_) add_inertia(at, force);
@@ -117,7 +118,6 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
   const auto load = [&](Eigen::Index i) {
     return step_ ? step_->force[i] : load_factor * supported_.load[i];
   };
-  Vector residual = Vector::Zero(at.size());
   for (Eigen::Index i = 0; i < n_displacements(); ++i) {
     const bool is_free = body_.free[i] > 0;
     residual[i] = is_free ? load(i) - force[i] : 0;
@@ -125,7 +125,6 @@ GridEquations::Vector GridEquations::residual(const Vector& at, double load_fact
     if (is_free) reaction[i] = 0;
   }
   reaction_ = norm(space_, reaction);
-  return residual;
 }
 
 GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
@@ -167,8 +166,8 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
   return std::move(found.solution);
 }
 
-std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, const Vector&, double,
-                                                              double forcing, mechanics::Convexity) {
+bool GridEquations::direction(const Vector& at, const Vector&, double, double forcing, mechanics::Convexity,
+                              Vector& step) {
   const double imbalance = norm(space_, condensed_);
   if (!may_keep_tangent(imbalance)) {
     linearise(at);
@@ -190,9 +189,9 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
   has_failed_ = !solution;
   if (!solution) {
     forget_tangent();
-    return std::nullopt;
+    return false;
   }
-  Vector step = Vector::Zero(at.size());
+  step.setZero(at.size());
   step.head(n_displacements()) = *solution;
   for (std::size_t i = 0; i < gap_.size(); ++i) step[supported_.moved[i]] = gap_[i];
   space_.slab.update_ghosts(space_.layout, step.data());
@@ -203,7 +202,7 @@ std::optional<GridEquations::Vector> GridEquations::direction(const Vector& at, 
       kernels().pressure_change(view, fields, step.data(), step.data() + n_displacements(), k);
     });
   }
-  return step;
+  return true;
 }
 
 mechanics::Merit GridEquations::merit() const {

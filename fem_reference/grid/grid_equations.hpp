@@ -30,10 +30,12 @@ class GridEquations : public mechanics::NonlinearProblem {
   Eigen::Index n_displacements() const { return 3 * body_.layout.size; }
   Eigen::Index n_pressures() const { return body_.has_modes ? body_.layout.n_cell_entries() + 16 : 0; }
 
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override;
+  using NonlinearProblem::direction;
+  using NonlinearProblem::residual;
+  void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override;
   Size size(const Vector& residual, const Vector& at) override;
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
-                                  double forcing, mechanics::Convexity convexity) override;
+  bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
+                 mechanics::Convexity convexity, Vector& step) override;
   mechanics::Merit merit() const override;
   std::optional<bool> is_stable(const Vector& at) override;
   double dot(const Vector& left, const Vector& right) const override; ///< of the displacements

@@ -21,13 +21,15 @@ class MovingGrid : public mechanics::DynamicProblem {
   void complete(Vector& motion) override;
   void set_step(const mechanics::StepTerms& terms) override;
 
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override {
-    return equations_.residual(at, load_factor, expect);
+  using NonlinearProblem::direction;
+  using NonlinearProblem::residual;
+  void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override {
+    equations_.residual(at, load_factor, expect, residual);
   }
   Size size(const Vector& residual, const Vector& at) override { return equations_.size(residual, at); }
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
-                                  double forcing, mechanics::Convexity convexity) override {
-    return equations_.direction(at, residual, load_factor, forcing, convexity);
+  bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
+                 mechanics::Convexity convexity, Vector& step) override {
+    return equations_.direction(at, residual, load_factor, forcing, convexity, step);
   }
   mechanics::Merit merit() const override { return equations_.merit(); }
   std::optional<bool> is_stable(const Vector& /*at*/) override { return std::nullopt; }

@@ -1,7 +1,6 @@
 #include "mechanics/dynamics/time_integrator.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/equilibrium/newton.hpp"
 #include "mechanics/grid/conjugate_gradients.hpp"
 
 #include <algorithm>
@@ -13,7 +12,8 @@ namespace springproof::mechanics {
 
 TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
                                const IntegrationSettings& settings)
-    : problem_(problem), scheme_(scheme), settings_(settings), now_(std::move(start)) {
+    : problem_(problem), scheme_(scheme), settings_(settings), newton_(problem, settings_.newton, work_),
+      now_(std::move(start)) {
   for (Vector* vector : {&force_, &known_, &product_, &place_, &supports_, &now_.acceleration})
     vector->setZero(now_.displacement.size());
   next_ = now_;
@@ -77,7 +77,8 @@ bool TimeIntegrator::try_step(double to) {
     predict(c, to, 0);
     terms.scale = 1;
     problem_.set_step(terms);
-    scale_ = terms.scale = std::max(scale_, norm(problem_.residual(place_, 0)));
+    problem_.residual(place_, 0, Expect::residual, residual_);
+    scale_ = terms.scale = std::max(scale_, norm(residual_));
   }
   if (!solve(terms, c, to)) return false;
   finish_step(c, to);
@@ -105,13 +106,12 @@ void TimeIntegrator::combine(const KnownMotion& known) {
 /// Newton's method from where the velocity leads, or else from where the step begins.
 bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, double to) {
   problem_.set_step(terms);
-  Newton newton(problem_, settings_.newton, work_);
   const int iterations_before = std::exchange(work_.newton_iterations, 0); // limits are on each step
   bool is_solved = false;
   try {
     for (const double velocity_factor : {1., 0.}) {
       predict(c, to, velocity_factor);
-      is_solved = newton.solve(place_, 0, Convexity::clamped);
+      is_solved = newton_.solve(place_, 0, Convexity::clamped);
       if (is_solved) break;
     }
   } catch (const Newton::Stopped& stopped) {
@@ -119,7 +119,7 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
     give_up(stopped.reason);
   }
   work_.newton_iterations += iterations_before;
-  if (!is_solved) failure_ = newton.failure();
+  if (!is_solved) failure_ = newton_.failure();
   return is_solved;
 }
 

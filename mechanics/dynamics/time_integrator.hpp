@@ -2,7 +2,7 @@
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
 #include "mechanics/dynamics/scheme.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
+#include "mechanics/equilibrium/newton.hpp"
 
 namespace springproof::mechanics {
 
@@ -17,9 +17,11 @@ struct IntegrationSettings {
   int max_halvings = 10;        ///< of a step whose equation is not solved
 };
 
-/// A body in motion, from step to step.
+/// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
 class TimeIntegrator {
  public:
+  TimeIntegrator(const TimeIntegrator&) = delete; // Newton's method refers to settings and work
+  TimeIntegrator& operator=(const TimeIntegrator&) = delete;
   /// @param problem   must outlive this
   /// @param start     displacement (mm) and velocity (mm/s) at a time; the acceleration follows from the
   ///                  forces
@@ -43,13 +45,14 @@ class TimeIntegrator {
   cases::TimeScheme scheme_;
   IntegrationSettings settings_;
   Equilibrium work_;
+  Newton newton_;
   Motion now_, next_;
   std::optional<Motion> before_; ///< bdf2: the beginning of the last step
   int n_halvings_ = 0;
   double scale_ = 0;       ///< N: largest forces so far
   bool has_loads_ = false; ///< so far
   std::string failure_;
-  Vector force_, known_, product_;
+  Vector force_, known_, product_, residual_;
   Vector place_, supports_; ///< w of the step; the same with what it begins from, constrained entries right
 
   void start();

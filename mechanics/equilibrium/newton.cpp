@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace springproof::mechanics {
 
@@ -13,36 +12,36 @@ constexpr double smallest_energy_fraction = 1e-6, smallest_work_fraction = 1. / 
 constexpr double accepted_work = 0.9;
 
 bool search_energy(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
-                   double load_factor, Expect expect) {
+                   double load_factor, Trial& trial, Expect expect) {
   const double start = problem.energy(at, load_factor), slope = problem.dot(step, residual);
   for (double fraction = 1; fraction > smallest_energy_fraction; fraction /= 2) {
-    Vector trial = at + fraction * step;
-    const double change = problem.energy(trial, load_factor) - start;
+    trial.at = at + fraction * step;
+    const double change = problem.energy(trial.at, load_factor) - start;
     const bool falls = change <= -1e-4 * fraction * slope;
     const bool in_rounding = fraction * slope <= 1e-9 * (std::abs(start) + slope);
     if (!falls && !in_rounding) continue;
-    Vector found = problem.residual(trial, load_factor, expect);
-    if (!falls && !(problem.dot(found, found) < problem.dot(residual, residual))) continue;
-    at = std::move(trial);
-    residual = std::move(found);
+    problem.residual(trial.at, load_factor, expect, trial.residual);
+    if (!falls && !(problem.dot(trial.residual, trial.residual) < problem.dot(residual, residual))) continue;
+    at.swap(trial.at);
+    residual.swap(trial.residual);
     return true;
   }
   return false;
 }
 
 bool search_work(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
-                 double load_factor, Expect expect) {
+                 double load_factor, Trial& trial, Expect expect) {
   const bool any = problem.merit() == Merit::none;
   const double start = problem.dot(step, residual);
   for (double fraction = 1; fraction >= smallest_work_fraction; expect = Expect::residual) {
-    Vector trial = at + fraction * step;
-    Vector found = problem.residual(trial, load_factor, expect);
-    const double work = problem.dot(step, found);
+    trial.at = at + fraction * step;
+    problem.residual(trial.at, load_factor, expect, trial.residual);
+    const double work = problem.dot(step, trial.residual);
     // Work of the same sign after the step as before it means that the minimum lies beyond.
     if (std::isfinite(work) &&
         (any || std::abs(work) <= accepted_work * std::abs(start) || work * start > 0)) {
-      at = std::move(trial);
-      residual = std::move(found);
+      at.swap(trial.at);
+      residual.swap(trial.residual);
       return true;
     }
     // Secant on the work where it changed sign, halving otherwise.
@@ -54,9 +53,9 @@ bool search_work(NonlinearProblem& problem, Vector& at, Vector& residual, const 
 } // namespace
 
 bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
-                 double load_factor, Expect expect) {
+                 double load_factor, Trial& trial, Expect expect) {
   const auto search = problem.merit() == Merit::energy ? search_energy : search_work;
-  return search(problem, at, residual, step, load_factor, expect);
+  return search(problem, at, residual, step, load_factor, trial, expect);
 }
 
 bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int iteration_factor) {
@@ -72,9 +71,9 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
   const int max_convexified =
       result_.convexified_steps + iteration_factor * settings_.max_convexified_per_step;
   double forcing = 0.1, norm_before = 0, norm_at_first = 0;
-  Vector residual = problem_.residual(at, load_factor, Expect::direction);
+  problem_.residual(at, load_factor, Expect::direction, residual_);
   for (int iteration = 0;; ++iteration) {
-    const NonlinearProblem::Size size = problem_.size(residual, at);
+    const NonlinearProblem::Size size = problem_.size(residual_, at);
     const double norm = result_.residual = size.relative;
     if (!std::isfinite(norm)) return fail("cells turn inside out");
     if (norm <= settings_.tolerance && size.constraints_hold) return true;
@@ -92,14 +91,14 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
       const double ratio = norm / norm_before;
       forcing = std::min(0.1, 0.9 * ratio * ratio);
       // Close to the solution each step gains much. Where it does not, rounding may be all that is left.
-      if (ratio > 0.1 && may_be_rounding() && is_rounding(at, residual, load_factor)) return true;
+      if (ratio > 0.1 && may_be_rounding() && is_rounding(at, load_factor)) return true;
     }
     norm_before = norm;
     forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
     check_limits();
     ++result_.newton_iterations;
-    if (!take_step(at, residual, forcing, load_factor, fallback))
-      return (may_be_rounding() && is_rounding(at, residual, load_factor)) || fail("no step gets nearer");
+    if (!take_step(at, forcing, load_factor, fallback))
+      return (may_be_rounding() && is_rounding(at, load_factor)) || fail("no step gets nearer");
   }
 }
 
@@ -109,12 +108,12 @@ void Newton::check_limits() const {
     throw Stopped{"the limit on Newton iterations was reached"};
 }
 
-bool Newton::take_step(Vector& at, Vector& residual, double forcing, double load_factor, Convexity fallback) {
+bool Newton::take_step(Vector& at, double forcing, double load_factor, Convexity fallback) {
   // Where convergence is quadratic the step from here is the last.
   const Expect expect = result_.residual <= 1e-5 ? Expect::residual : Expect::direction;
   const auto take = [&](Convexity convexity) {
-    const auto step = problem_.direction(at, residual, load_factor, forcing, convexity);
-    return step && line_search(problem_, at, residual, *step, load_factor, expect);
+    return problem_.direction(at, residual_, load_factor, forcing, convexity, step_) &&
+           line_search(problem_, at, residual_, step_, load_factor, trial_, expect);
   };
   if (take(Convexity::exact)) return true;
   if (fallback == Convexity::exact) return false;
@@ -124,15 +123,17 @@ bool Newton::take_step(Vector& at, Vector& residual, double forcing, double load
 
 /// Whether a residual is no larger than what the last digits of the state decide: no state in double
 /// precision is in better balance.
-bool Newton::is_rounding(const Vector& at, const Vector& residual, double load_factor) {
-  Vector neighbour = at;
+bool Newton::is_rounding(const Vector& at, double load_factor) {
+  Vector& neighbour = trial_.at = at;
   unsigned bits = 1;
   for (double& entry : neighbour) {
     bits = 1664525 * bits + 1013904223; // Numerical Recipes' generator: any signs will do
     entry = std::nextafter(entry, (bits >> 31) != 0 ? INFINITY : -INFINITY);
   }
-  const Vector change = problem_.residual(neighbour, load_factor) - residual;
-  return problem_.dot(residual, residual) <= 16 * problem_.dot(change, change);
+  Vector& change = trial_.residual;
+  problem_.residual(neighbour, load_factor, Expect::residual, change);
+  change -= residual_;
+  return problem_.dot(residual_, residual_) <= 16 * problem_.dot(change, change);
 }
 
 bool Newton::fail(const char* reason) {

@@ -6,13 +6,19 @@
 
 namespace springproof::mechanics {
 
+/// Room for a line search: a state, and the residual there.
+struct Trial {
+  Vector at, residual;
+};
+
 /// Moves `at` along a step as far as the problem's merit allows, shortening the step. Next to the solution an
 /// energy's change drowns in rounding: there a falling residual decides.
 /// @param residual  at `at`; on success at its new place
 /// @param expect    of the full step
+/// @param trial     room
 /// @return whether a fraction of the step would do; otherwise `at` and `residual` are as they were
 bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
-                 double load_factor, Expect expect = Expect::residual);
+                 double load_factor, Trial& trial, Expect expect = Expect::residual);
 
 /// Newton's method at one load factor after the other, with the limits on all of them.
 class Newton {
@@ -39,10 +45,12 @@ class Newton {
   const EquilibriumSettings& settings_;
   Equilibrium& result_;
   std::string failure_;
+  Vector residual_, step_; ///< kept, as the trial, from one solve() to the next
+  Trial trial_;
 
   void check_limits() const;
-  bool take_step(Vector& at, Vector& residual, double forcing, double load_factor, Convexity fallback);
-  bool is_rounding(const Vector& at, const Vector& residual, double load_factor);
+  bool take_step(Vector& at, double forcing, double load_factor, Convexity fallback);
+  bool is_rounding(const Vector& at, double load_factor);
   bool fail(const char* reason);
 };
 

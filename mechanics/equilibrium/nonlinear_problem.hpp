@@ -36,8 +36,14 @@ class NonlinearProblem {
   virtual ~NonlinearProblem() = default;
 
   /// Minus the gradient of the energy, where there is one: N.
-  /// @return not finite for a state that is not admissible (a cell turned inside out)
-  virtual Vector residual(const Vector& at, double load_factor, Expect expect = Expect::residual) = 0;
+  /// @param residual  of the size of `at`, which it is not; not finite for a state that is not admissible (a
+  /// cell turned inside out)
+  virtual void residual(const Vector& at, double load_factor, Expect expect, Vector& residual) = 0;
+  Vector residual(const Vector& at, double load_factor, Expect expect = Expect::residual) {
+    Vector found;
+    residual(at, load_factor, expect, found);
+    return found;
+  }
 
   struct Size {
     double relative;              ///< |residual| over the norm of what acts on the body: loads or reactions
@@ -49,9 +55,16 @@ class NonlinearProblem {
   /// Newton's direction: solves tangent * step = residual.
   /// @param residual  the last that was evaluated, at this state
   /// @param forcing   allowed |residual - tangent step| / |residual|; a direct solver does better
-  /// @return nothing when the solver fails, or an energy would not fall along the step
-  virtual std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
-                                          double forcing, Convexity convexity) = 0;
+  /// @param step      neither of the others; of no use where there is none
+  /// @return whether there is one: not when the solver fails, or an energy would not fall along the step
+  virtual bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
+                         Convexity convexity, Vector& step) = 0;
+  std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
+                                  double forcing, Convexity convexity) {
+    Vector step;
+    if (!direction(at, residual, load_factor, forcing, convexity, step)) return std::nullopt;
+    return step;
+  }
 
   /// For the next line search.
   virtual Merit merit() const = 0;

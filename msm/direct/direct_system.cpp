@@ -63,11 +63,12 @@ class DirectSystem : public SpringSystem {
 
   const Vector& load() const override { return load_; }
 
-  Vector residual(const Vector& displacement, double load_factor, mechanics::Expect) override {
+  void residual(const Vector& displacement, double load_factor, mechanics::Expect,
+                Vector& residual) override {
     ++work_.force_evaluations;
-    return load_factor * load_ +
-           on_free(
-               to_vector(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement))));
+    residual =
+        load_factor * load_ +
+        on_free(to_vector(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement))));
   }
 
   double energy(const Vector& displacement, double load_factor) override {
@@ -108,9 +109,10 @@ class DirectSystem : public SpringSystem {
       std::normal_distribution<double> normal;
       Vector force = rest;
       for (double& entry : force.head(tangent_.n_free())) entry = normal(generator);
-      const auto motion = solve(rest, force, 0, TransverseTerm::exact, 0);
-      const double stored = motion ? small_motion_energy(problem_.lattice, to_points(problem_, *motion)) : 0;
-      return stored > no_energy * largest * motion->squaredNorm() ? RestState::sound : RestState::mechanism;
+      Vector motion;
+      const bool moves = solve(rest, force, 0, TransverseTerm::exact, 0, motion);
+      const double stored = moves ? small_motion_energy(problem_.lattice, to_points(problem_, motion)) : 0;
+      return stored > no_energy * largest * motion.squaredNorm() ? RestState::sound : RestState::mechanism;
     }
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
     const double shift = rounding * largest;
@@ -158,13 +160,12 @@ class DirectSystem : public SpringSystem {
     return std::sqrt(squared);
   }
 
-  std::optional<Vector> solve(const Vector& displacement, const Vector& residual, double /*forcing*/,
-                              TransverseTerm term, double shift) override {
-    if (!factorise(displacement, term, shift)) return std::nullopt;
+  bool solve(const Vector& displacement, const Vector& residual, double /*forcing*/, TransverseTerm term,
+             double shift, Vector& step) override {
+    if (!factorise(displacement, term, shift)) return false;
     const OneThread one;
-    const Vector step = with_supports(factorisation_.solve(residual.head(tangent_.n_free())));
-    if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
-    return step;
+    step = with_supports(factorisation_.solve(residual.head(tangent_.n_free())));
+    return step.allFinite() && step.dot(residual) > 0;
   }
 
   /// A vector of forces: 0 on supports.

@@ -81,20 +81,18 @@ class MovingLattice : public MovingSprings {
     factorisation_.analyse(matrix_at(problem.lattice.rest, TransverseTerm::exact, 0, 0));
   }
 
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double /*load_factor*/,
-                                  double /*forcing*/, mechanics::Convexity convexity) override {
+  bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double /*forcing*/,
+                 mechanics::Convexity convexity, Vector& step) override {
     const auto term =
         convexity == mechanics::Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
     Points positions = to_points(problem_, at);
     for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += problem_.lattice.rest[p];
     const OneThread one;
     ++work_.factorisations;
-    if (!factorisation_.factorise(matrix_at(positions, term, terms().mass, terms().damping), 0))
-      return std::nullopt;
-    Vector step = Vector::Zero(at.size());
+    if (!factorisation_.factorise(matrix_at(positions, term, terms().mass, terms().damping), 0)) return false;
+    step.setZero(at.size());
     step.head(tangent_.n_free()) = factorisation_.solve(residual.head(tangent_.n_free()));
-    if (!step.allFinite() || !(step.dot(residual) > 0)) return std::nullopt;
-    return step;
+    return step.allFinite() && step.dot(residual) > 0;
   }
 
  private:

@@ -69,12 +69,11 @@ class GridSystem : public SpringSystem {
 
   const Vector& load() const override { return problem_.load; }
 
-  Vector residual(const Vector& displacement, double load_factor, mechanics::Expect) override {
+  void residual(const Vector& displacement, double load_factor, mechanics::Expect, Vector& force) override {
     ++work_.force_evaluations;
-    Vector force = Vector::Zero(displacement.size());
+    if (force.size() != displacement.size()) force.setZero(displacement.size()); // ghosts stay 0
     springs_.force(displacement, force);
-    add(force, load_factor, problem_.load, n_threads_);
-    return force;
+    if (load_factor != 0) add(force, load_factor, problem_.load, n_threads_);
   }
 
   double energy(const Vector& displacement, double load_factor) override {
@@ -238,10 +237,11 @@ class GridSystem : public SpringSystem {
                    [&](std::ptrdiff_t first, std::ptrdiff_t n) { v.segment(first, n) *= factor; });
   }
 
-  std::optional<Vector> solve(const Vector& displacement, const Vector& right_side, double forcing,
-                              TransverseTerm term, double shift) override {
+  bool solve(const Vector& displacement, const Vector& right_side, double forcing, TransverseTerm term,
+             double shift, Vector& step) override {
     LinearSolution found = solve_fresh(displacement, right_side, forcing, term, shift);
-    return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
+    step.swap(found.solution);
+    return found.converged;
   }
 
   /// The cycle keeps what it learnt at the displacements before this one. After one where points coincide or

@@ -94,9 +94,9 @@ class Lbfgs {
     if (last_at_.size() > 0) remember(at - last_at_, last_force_ - force);
     last_at_ = at;
     last_force_ = force;
-    if (line_search(problem_, at, force, direction(force), load_factor_)) return true;
+    if (line_search(problem_, at, force, direction(force), load_factor_, trial_)) return true;
     pairs_.clear(); // what was learnt here misleads: once more along the force alone
-    return line_search(problem_, at, force, scale_ * force, load_factor_);
+    return line_search(problem_, at, force, scale_ * force, load_factor_, trial_);
   }
 
  private:
@@ -109,6 +109,7 @@ class Lbfgs {
   double load_factor_;
   double scale_; ///< mm/N
   Vector last_at_, last_force_;
+  mechanics::Trial trial_;
   std::deque<Pair> pairs_;
 
   void remember(const Vector& move, const Vector& change) {

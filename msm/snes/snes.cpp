@@ -258,10 +258,10 @@ class SnesProblem : public petsc::DistributedProblem {
                   petsc::get<PetscReal>(SNESGetFunctionNorm, snes_.get()) / part_.reference_force()};
   }
 
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect) override {
+  void residual(const Vector& at, double load_factor, mechanics::Expect, Vector& residual) override {
     part_.put(at_.get(), at);
     part_.residual(at_.get(), load_factor, residual_.get());
-    return -part_.own(residual_.get());
+    residual = -part_.own(residual_.get());
   }
   Size size(const Vector& residual, const Vector&) override {
     return {std::sqrt(dot(residual, residual)) / part_.reference_force()};
@@ -285,9 +285,8 @@ class SnesProblem : public petsc::DistributedProblem {
     const Mat factor = petsc::get<Mat>(PCFactorGetMatrix, preconditioner);
     return petsc::get<PetscInt>(MatMumpsGetInfog, factor, 12) == 0; // negative pivots
   }
-  std::optional<Vector> direction(const Vector&, const Vector&, double, double,
-                                  mechanics::Convexity) override {
-    return std::nullopt; // solve_at() does it all
+  bool direction(const Vector&, const Vector&, double, double, mechanics::Convexity, Vector&) override {
+    return false; // solve_at() does it all
   }
   mechanics::Merit merit() const override { return mechanics::Merit::none; }
   Work work() const override { return work_; }

@@ -35,13 +35,13 @@ class ManufacturedMotion : public mechanics::DynamicProblem {
   void supports_at(double time, Vector& at) const override { body_.supports_at(time, at); }
   void complete(Vector& of) override { body_.complete(of); }
   void set_step(const mechanics::StepTerms& terms) override { body_.set_step(terms); }
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect expect) override {
-    return body_.residual(at, load_factor, expect);
+  void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override {
+    body_.residual(at, load_factor, expect, residual);
   }
   Size size(const Vector& residual, const Vector& at) override { return body_.size(residual, at); }
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double load_factor,
-                                  double forcing, mechanics::Convexity convexity) override {
-    return body_.direction(at, residual, load_factor, forcing, convexity);
+  bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
+                 mechanics::Convexity convexity, Vector& step) override {
+    return body_.direction(at, residual, load_factor, forcing, convexity, step);
   }
   mechanics::Merit merit() const override { return body_.merit(); }
   double energy(const Vector& at, double load_factor) override { return body_.energy(at, load_factor); }

@@ -32,24 +32,25 @@ struct Body : mechanics::DynamicProblem {
   }
   void set_step(const mechanics::StepTerms& terms) override { terms_.emplace(terms); }
 
-  Vector residual(const Vector& at, double, mechanics::Expect) override {
+  void residual(const Vector& at, double, mechanics::Expect, Vector& residual) override {
     ++n_evaluations;
     const Matrix added = terms_->mass * mass + terms_->damping * damping;
-    return on_free(terms_->force - force(at) - added * (at - terms_->origin));
+    residual = on_free(terms_->force - force(at) - added * (at - terms_->origin));
   }
   Size size(const Vector& residual, const Vector&) override {
     return {relative(residual.norm(), terms_->scale)};
   }
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double, double,
-                                  mechanics::Convexity) override {
-    if (terms_->mass < least_mass_factor) return std::nullopt;
+  bool direction(const Vector& at, const Vector& residual, double, double, mechanics::Convexity,
+                 Vector& step) override {
+    if (terms_->mass < least_mass_factor) return false;
     Matrix tangent = terms_->mass * mass + terms_->damping * damping + stiffness(at);
     if (support) {
       tangent.row(0).setZero();
       tangent.col(0).setZero();
       tangent(0, 0) = 1;
     }
-    return Vector(tangent.partialPivLu().solve(residual));
+    step = tangent.partialPivLu().solve(residual);
+    return true;
   }
   mechanics::Merit merit() const override { return mechanics::Merit::work; }
   std::optional<bool> is_stable(const Vector&) override { return std::nullopt; }

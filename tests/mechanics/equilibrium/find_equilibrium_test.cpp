@@ -19,16 +19,16 @@ struct Bar : mechanics::NonlinearProblem {
   double load = 1;
   mechanics::Merit by = mechanics::Merit::energy;
 
-  Vector residual(const Vector& at, double load_factor, mechanics::Expect) override {
+  void residual(const Vector& at, double load_factor, mechanics::Expect, Vector& residual) override {
     ++n_evaluations;
-    return Vector::Constant(1, load_factor * load - force(at[0]));
+    residual = Vector::Constant(1, load_factor * load - force(at[0]));
   }
   Size size(const Vector& residual, const Vector&) override { return {std::abs(residual[0] / load)}; }
-  std::optional<Vector> direction(const Vector& at, const Vector& residual, double, double,
-                                  mechanics::Convexity) override {
+  bool direction(const Vector& at, const Vector& residual, double, double, mechanics::Convexity,
+                 Vector& step) override {
     const double tangent = stiffness(at[0]);
-    if (!(tangent > 0)) return std::nullopt;
-    return Vector(residual / tangent);
+    step = residual / tangent;
+    return tangent > 0;
   }
   mechanics::Merit merit() const override { return by; }
   double energy(const Vector& at, double load_factor) override {
