@@ -11,14 +11,13 @@ namespace springproof::msm {
 
 namespace {
 
-/// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
-constexpr std::size_t most_factorised = 40000;
-
 [[noreturn]] void refuse_multigrid() {
   throw cases::InputError(
       "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
       "internal diagonals and a volume term, springs of one law, and no negative stiffness");
 }
+
+} // namespace
 
 bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
   const auto is_another = [&](const CellStiffness& k) {
@@ -31,12 +30,6 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
   const std::size_t n_nodes = scene.mesh.nodes.size();
   if (can && scene.mesh.grid->slenderness() > cases::Grid::thin && n_nodes <= most_factorised) return false;
   return can && n_nodes >= multigrid_from;
-}
-
-} // namespace
-
-bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
-  return takes_multigrid(scene, stiffness, Path::automatic);
 }
 
 Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,

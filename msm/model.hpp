@@ -15,6 +15,8 @@ enum class Path {
 
 /// Nodes from which the multigrid path was measured to be the faster one.
 constexpr std::size_t multigrid_from = 500;
+/// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
+constexpr std::size_t most_factorised = 40000;
 
 struct ModelOptions {
   Path path = Path::automatic;
@@ -23,8 +25,10 @@ struct ModelOptions {
   std::shared_ptr<const cases::Sharing> sharing = {}; ///< the ranks that get the answer together, then
 };
 
-/// Whether Path::automatic takes the multigrid path.
-bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness);
+/// Whether the multigrid path is taken.
+/// @throws cases::InputError when it is wanted and cannot be taken
+bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+                     Path wanted = Path::automatic);
 
 /// A mass-spring model of a scene: its lattice, loads and supports, ready to be solved.
 class Model {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanics/dynamics/follow_motion.hpp"
-#include "msm/lattice.hpp"
+#include "msm/model.hpp"
 
 namespace springproof::msm {
 
@@ -12,5 +12,10 @@ namespace springproof::msm {
 /// reached when it cannot start in equilibrium
 cases::Solution follow(const cases::Scene& scene, Lattice lattice, Lattice damping,
                        const mechanics::IntegrationSettings& settings = {});
+
+/// The same of cells, on the path that a Model of them would take; of the options, on which threads.
+/// @param stiffness  one for every cell of the mesh, or a single one for all
+cases::Solution follow(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+                       const ModelOptions& options = {}, const mechanics::IntegrationSettings& settings = {});
 
 } // namespace springproof::msm

@@ -43,12 +43,20 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
   return inertia;
 }
 
-Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
-  if (!is_damped(scene)) return without_springs(scene);
+std::vector<CellStiffness> damping_stiffness(const cases::Scene& scene,
+                                             const std::vector<CellStiffness>& stiffness) {
+  if (!is_damped(scene)) return {};
+  if (stiffness.size() == 1 && scene.material_of_cell.empty())
+    return {scaled(stiffness.front(), scene.definition.material_dynamics.stiffness_damping)};
   std::vector<CellStiffness> damped;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
     damped.push_back(scaled(stiffness[stiffness.size() == 1 ? 0 : c], damping_of(scene, c)));
-  return make_lattice(scene.mesh, damped);
+  return damped;
+}
+
+Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
+  if (!is_damped(scene)) return without_springs(scene);
+  return make_lattice(scene.mesh, damping_stiffness(scene, stiffness));
 }
 
 Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms) {
@@ -80,23 +88,39 @@ void MovingSprings::external_force(double time, Vector& force) {
   for (const auto& [history, load] : entries_.loads) force += history.at(time) * load;
 }
 
+void MovingSprings::set_step(const mechanics::StepTerms& terms) {
+  terms_.emplace(terms);
+  diagonal_ = terms.mass * entries_.mass + terms.damping * entries_.mass_damping;
+}
+
 void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect,
                              Vector& residual) {
   springs_.residual(at, 0, expect, residual);
   residual += terms_->force - added_force(at);
 }
 
+/// Damping by stiffness joins free degrees of freedom and supports that move: half of the form in the former,
+/// all of what the latter add. What they store alone stays the same in a step.
 double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
-  const Vector& added = added_force(at);
-  return springs_.energy(at, 0) + dot(moved_, added) / 2 - dot(terms_->force, at);
+  moved_ = at - terms_->origin;
+  added_ = diagonal_.cwiseProduct(moved_);
+  double added = dot(moved_, added_) / 2;
+  if (has_stiffness_damping() && terms_->damping != 0) {
+    added_ = moved_ - 0.5 * entries_.free.cwiseProduct(moved_);
+    product_.setZero(at.size());
+    add_stiffness_damping(added_, product_);
+    added += terms_->damping * dot(moved_, product_);
+  }
+  return springs_.energy(at, 0) + added - dot(terms_->force, at);
 }
 
 /// (mass M + damping C) (at - origin)
 const Vector& MovingSprings::added_force(const Vector& at) {
   moved_ = at - terms_->origin;
-  mass_product(moved_, added_);
-  added_ *= terms_->mass;
-  damping_product(moved_, product_);
+  added_ = diagonal_.cwiseProduct(moved_);
+  if (!has_stiffness_damping() || terms_->damping == 0) return added_;
+  product_.setZero(at.size());
+  add_stiffness_damping(moved_, product_);
   added_ += terms_->damping * product_;
   return added_;
 }

@@ -24,6 +24,11 @@ struct Inertia {
 /// @param damping  damping_lattice() of the scene's springs
 Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 
+/// Cells whose tangent at rest is beta times that of a scene's: one for every cell, or a single one for all;
+/// none without stiffness_damping.
+std::vector<CellStiffness> damping_stiffness(const cases::Scene& scene,
+                                             const std::vector<CellStiffness>& stiffness);
+
 /// Springs whose tangent at rest is beta times that of a body's, cell by cell: it is linear in their
 /// stiffness. Without stiffness_damping, none.
 /// @param stiffness  one for every cell of the scene's mesh, or a single one for all
@@ -40,6 +45,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   struct Entries {
     Vector mass, mass_damping;
     std::vector<std::pair<cases::History, Vector>> loads;
+    Vector free; ///< 1 on free degrees of freedom
   };
   /// @param springs  of a problem of make_moving_problem(); must outlive this
   MovingSprings(SpringSystem& springs, Entries entries) : springs_(springs), entries_(std::move(entries)) {}
@@ -55,7 +61,8 @@ class MovingSprings : public mechanics::DynamicProblem {
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);
   }
-  void set_step(const mechanics::StepTerms& terms) override { terms_.emplace(terms); }
+  void set_step(const mechanics::StepTerms& terms) override;
+  bool moves_supports() const override { return springs_.moves_supports(); }
 
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
@@ -70,6 +77,8 @@ class MovingSprings : public mechanics::DynamicProblem {
   double dot(const Vector& left, const Vector& right) const override { return springs_.dot(left, right); }
   double largest(const Vector& of) const override { return springs_.largest(of); }
   bool any_rank(bool here) const override { return springs_.any_rank(here); }
+  /// Whether a linear solver that iterates has ever come to no end.
+  virtual bool has_failed() const { return false; }
   std::size_t n_unknowns() const override { return springs_.n_unknowns(); }
   Work work() const override {
     Work all = work_;
@@ -82,14 +91,18 @@ class MovingSprings : public mechanics::DynamicProblem {
 
   const Entries& entries() const { return entries_; }
   const mechanics::StepTerms& terms() const { return *terms_; }
+  /// Of mass M + damping C, without damping by stiffness.
+  const Vector& diagonal() const { return diagonal_; }
 
   /// product += damping tangent at rest * motion, on free degrees of freedom.
+  virtual bool has_stiffness_damping() const = 0;
   virtual void add_stiffness_damping(const Vector& motion, Vector& product) = 0;
 
  private:
   SpringSystem& springs_;
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
+  Vector diagonal_;
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
 
   const Vector& added_force(const Vector& at);

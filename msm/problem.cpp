@@ -4,22 +4,24 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace springproof::msm {
 
 namespace {
 
 /// @param factor  of a motion, from the load factor or the time
-std::function<std::vector<cases::NodeVector>(double)>
+std::function<const std::vector<cases::NodeVector>&(double)>
 moving_supports(const cases::Scene& scene, double (*factor)(const cases::Moved& motion, double at)) {
   if (scene.moved.empty()) return {};
   std::vector<int> nodes;
   for (const auto& [selection, motion] : scene.moved)
     nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
   cases::make_set(nodes);
-  return [moved = scene.moved, rest = scene.mesh.nodes, nodes, factor](double at) {
-    std::vector<cases::NodeVector> displacement;
-    for (const int node : nodes) displacement.push_back({node, Eigen::Vector3d::Zero()});
+  std::vector<cases::NodeVector> all;
+  for (const int node : nodes) all.push_back({node, Eigen::Vector3d::Zero()});
+  return [moved = scene.moved, rest = scene.mesh.nodes, nodes, factor,
+          displacement = std::move(all)](double at) mutable -> const std::vector<cases::NodeVector>& {
     for (const auto& [selection, motion] : moved)
       for (const int node : selection.nodes) {
         const Eigen::Vector3d by = cases::moved_by(motion, rest[cases::index(node)], factor(motion, at));

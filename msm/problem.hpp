@@ -16,7 +16,8 @@ struct Problem {
   std::vector<cases::NodeVector> force; ///< applied at full load, N
   std::vector<bool> is_constrained;     ///< constrained degrees of freedom: 3*point + component
   /// Displacement (mm) of constrained points that move, at a load factor; empty: none does.
-  std::function<std::vector<cases::NodeVector>(double load_factor)> supports{};
+  /// They are the same points at any, in the same order, and kept until the next call.
+  std::function<const std::vector<cases::NodeVector>&(double load_factor)> supports{};
 
   /// One vector per point.
   Points on_all_points(const std::vector<cases::NodeVector>& some) const {

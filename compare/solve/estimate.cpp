@@ -169,7 +169,7 @@ Estimate estimate_springs(const BodySize& body) {
   const HeldBy held_by = is_alone ? HeldBy::first_rank : HeldBy::all_ranks_together;
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline.definition.msm);
   Estimate estimate;
-  if (!is_on_grid || body.n_nodes < msm::multigrid_from || body.outline.definition.dynamics)
+  if (!is_on_grid || body.n_nodes < msm::multigrid_from)
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
   else
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);

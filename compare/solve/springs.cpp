@@ -253,12 +253,12 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& 
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
   if (scene.definition.dynamics)
     return solve_side(
-        [&] {
-          design = design_for(scene);
-          return make_moving_springs(scene, *design);
-        },
-        [&](MovingSprings& springs) {
-          return msm::follow(scene, std::move(springs.lattice), std::move(springs.damping));
+        [&] { return *(design = design_for(scene)); },
+        [&](msm::DesignResult& springs) {
+          if (!springs.terms)
+            return msm::follow(scene, stiffness_of_cells(springs), {msm::Path::automatic, n_threads, {}, {}});
+          MovingSprings moving = make_moving_springs(scene, springs);
+          return msm::follow(scene, std::move(moving.lattice), std::move(moving.damping));
         });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);

@@ -74,7 +74,7 @@ bool TimeIntegrator::try_step(double to) {
   add_known_forces(c);
   StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
   if (!has_loads_) { // velocity, or supports that move, drive the body
-    predict(c, to, 0);
+    predict(c, to, Guess::displacement_stays);
     terms.scale = 1;
     problem_.set_step(terms);
     problem_.residual(place_, 0, Expect::residual, residual_);
@@ -103,14 +103,16 @@ void TimeIntegrator::combine(const KnownMotion& known) {
   known_ += known.velocity_before * before_->velocity;
 }
 
-/// Newton's method from where the velocity leads, or else from where the step begins.
+/// Newton's method from where the motion leads, or else from where the step begins.
 bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, double to) {
   problem_.set_step(terms);
   const int iterations_before = std::exchange(work_.newton_iterations, 0); // limits are on each step
   bool is_solved = false;
   try {
-    for (const double velocity_factor : {1., 0.}) {
-      predict(c, to, velocity_factor);
+    for (const Guess guess :
+         {is_smooth_ ? Guess::acceleration_stays : Guess::velocity_stays, Guess::displacement_stays}) {
+      predict(c, to, guess);
+      if (problem_.moves_supports()) take_along();
       is_solved = newton_.solve(place_, 0, Convexity::clamped);
       if (is_solved) break;
     }
@@ -124,11 +126,32 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
 }
 
 /// place_: on the way from the step's beginning to an end, supports to where they will be.
-void TimeIntegrator::predict(const StepCoefficients& c, double to, double velocity_factor) {
-  place_ = now_.displacement + (velocity_factor * (to - now_.time)) * now_.velocity;
+void TimeIntegrator::predict(const StepCoefficients& c, double to, Guess guess) {
+  if (guess == Guess::acceleration_stays) {
+    combine(c.known_acceleration);
+    guess_ = now_.displacement + (now_.acceleration + known_) / c.mass;
+  } else {
+    const double way = guess == Guess::velocity_stays ? c.place * (to - now_.time) : 0;
+    guess_ = now_.displacement + way * now_.velocity;
+  }
+  place_ = now_.displacement + (guess_ - now_.displacement) / c.place;
   problem_.supports_at(to, place_);
   supports_ = now_.displacement + c.place * (place_ - now_.displacement);
   place_ = supports_;
+}
+
+/// Supports that are not where the guess has them take the body along as far as the tangent knows: moved
+/// alone, they would turn the cells next to them inside out.
+void TimeIntegrator::take_along() {
+  product_ = place_ - guess_;
+  const double largest = problem_.largest(product_);
+  if (!(largest > 1e-12 * problem_.largest(place_))) return;
+  constexpr double small = 1e-7; // mm: differences of forces then keep half of their digits
+  problem_.residual(guess_, 0, Expect::residual, residual_);
+  guess_ += (small / largest) * product_;
+  problem_.residual(guess_, 0, Expect::residual, product_);
+  product_ = (largest / small) * (product_ - residual_);
+  if (problem_.direction(guess_, product_, 0, 1e-3, Convexity::exact, step_)) place_ += step_;
 }
 
 void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
@@ -141,6 +164,8 @@ void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
   combine(c.known_acceleration);
   next_.acceleration =
       now_.acceleration + (c.mass * place_ - known_ - now_.acceleration) / c.place_acceleration;
+  step_ = next_.acceleration - now_.acceleration;
+  is_smooth_ = norm(step_) < norm(next_.acceleration);
   if (scheme_.scheme == cases::Scheme::bdf2) {
     if (!before_) before_ = now_;
     std::swap(*before_, now_);

@@ -13,8 +13,16 @@ struct Motion {
 };
 
 struct IntegrationSettings {
-  EquilibriumSettings newton{}; ///< its tolerance, limits on iterations and should_stop, of each step
-  int max_halvings = 10;        ///< of a step whose equation is not solved
+  EquilibriumSettings newton =
+      nearly_linear();   ///< its tolerance, limits on iterations and should_stop, of each step
+  int max_halvings = 10; ///< of a step whose equation is not solved
+
+  /// Of a step that changes little: its first direction leads all the way.
+  static EquilibriumSettings nearly_linear() {
+    EquilibriumSettings settings;
+    settings.first_forcing = 1e-3;
+    return settings;
+  }
 };
 
 /// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
@@ -52,7 +60,9 @@ class TimeIntegrator {
   double scale_ = 0;       ///< N: largest forces so far
   bool has_loads_ = false; ///< so far
   std::string failure_;
-  Vector force_, known_, product_, residual_;
+  Vector force_, known_, product_, residual_, step_;
+  bool is_smooth_ = false;  ///< the acceleration of the last step was nearer to that before it than to none
+  Vector guess_;            ///< place_ before supports are where they will be
   Vector place_, supports_; ///< w of the step; the same with what it begins from, constrained entries right
 
   void start();
@@ -60,7 +70,9 @@ class TimeIntegrator {
   void add_known_forces(const StepCoefficients& coefficients);
   void combine(const KnownMotion& known);
   bool solve(const StepTerms& terms, const StepCoefficients& coefficients, double to);
-  void predict(const StepCoefficients& coefficients, double to, double velocity_factor);
+  enum class Guess { acceleration_stays, velocity_stays, displacement_stays };
+  void predict(const StepCoefficients& coefficients, double to, Guess guess);
+  void take_along();
   void finish_step(const StepCoefficients& coefficients, double to);
   double norm(const Vector& of) const;
   [[noreturn]] void give_up(const std::string& reason);

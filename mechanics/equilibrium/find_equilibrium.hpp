@@ -22,6 +22,7 @@ struct EquilibriumSettings {
   double first_load_step = 1;
   double largest_load_step = 1;
   double smallest_load_step = 1e-4;
+  double first_forcing = 0.1;        ///< of Newton's iterations at a load
   int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
   int easy_newton_per_step = 8;      ///< a load step that took no more is followed by one of twice the length
   int max_convexified_per_step = 12; ///< of these; what has not converged by then will not

@@ -13,10 +13,11 @@ constexpr double accepted_work = 0.9;
 
 bool search_energy(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
                    double load_factor, Trial& trial, Expect expect) {
-  const double start = problem.energy(at, load_factor), slope = problem.dot(step, residual);
+  const double start = trial.energy ? *trial.energy : problem.energy(at, load_factor),
+               slope = problem.dot(step, residual);
   for (double fraction = 1; fraction > smallest_energy_fraction; fraction /= 2) {
     trial.at = at + fraction * step;
-    const double change = problem.energy(trial.at, load_factor) - start;
+    const double energy = problem.energy(trial.at, load_factor), change = energy - start;
     const bool falls = change <= -1e-4 * fraction * slope;
     const bool in_rounding = fraction * slope <= 1e-9 * (std::abs(start) + slope);
     if (!falls && !in_rounding) continue;
@@ -24,6 +25,7 @@ bool search_energy(NonlinearProblem& problem, Vector& at, Vector& residual, cons
     if (!falls && !(problem.dot(trial.residual, trial.residual) < problem.dot(residual, residual))) continue;
     at.swap(trial.at);
     residual.swap(trial.residual);
+    trial.energy = energy;
     return true;
   }
   return false;
@@ -70,7 +72,8 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
       settings_.max_newton_per_step * std::max(iteration_factor, fallback == Convexity::shifted ? 4 : 1);
   const int max_convexified =
       result_.convexified_steps + iteration_factor * settings_.max_convexified_per_step;
-  double forcing = 0.1, norm_before = 0, norm_at_first = 0;
+  trial_.energy.reset();
+  double forcing = settings_.first_forcing, norm_before = 0, norm_at_first = 0;
   problem_.residual(at, load_factor, Expect::direction, residual_);
   for (int iteration = 0;; ++iteration) {
     const NonlinearProblem::Size size = problem_.size(residual_, at);

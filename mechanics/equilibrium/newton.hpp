@@ -2,20 +2,22 @@
 
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
+#include <optional>
 #include <string>
 
 namespace springproof::mechanics {
 
-/// Room for a line search: a state, and the residual there.
+/// Room for line searches: a state, and the residual there.
 struct Trial {
   Vector at, residual;
+  std::optional<double> energy{}; ///< where the last search has ended; none: not known
 };
 
 /// Moves `at` along a step as far as the problem's merit allows, shortening the step. Next to the solution an
 /// energy's change drowns in rounding: there a falling residual decides.
 /// @param residual  at `at`; on success at its new place
 /// @param expect    of the full step
-/// @param trial     room
+/// @param trial     room, from one search to the next where nothing else has moved `at`
 /// @return whether a fraction of the step would do; otherwise `at` and `residual` are as they were
 bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
                  double load_factor, Trial& trial, Expect expect = Expect::residual);

@@ -15,37 +15,45 @@ struct LinearSolution {
   Field<double> direction{};           ///< that has met it
 };
 
+/// Fields of conjugate gradients, kept from one solution to the next: nothing is allocated then.
+struct KeptFields {
+  Field<double> residual, preconditioned, product, direction;
+};
+
 /// Preconditioned conjugate gradients for operator * solution = right_side, until the residual is at most
 /// `target`. The preconditioner is symmetric but for the rounding of single precision; Polak and Ribiere's
 /// formula does not mind.
 /// @param apply, precondition  (in, out)
 /// @param dot                  (a, b), over the nodes of the whole grid
 template<class Operator, class Preconditioner, class Dot>
-LinearSolution conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
-                                   const Field<double>& right_side, double target, int max_iterations,
-                                   const Dot& dot, int n_threads) {
-  LinearSolution result;
+void conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
+                         const Field<double>& right_side, double target, int max_iterations, const Dot& dot,
+                         int n_threads, KeptFields& kept, LinearSolution& result) {
   const std::ptrdiff_t n = right_side.size();
+  result.iterations = 0;
+  result.met_negative_curvature = false;
   result.solution.setZero(n);
   result.converged = dot(right_side, right_side) <= target * target;
-  if (result.converged) return result;
-  Field<double> residual = right_side, preconditioned = Field<double>::Zero(n),
-                product = Field<double>::Zero(n);
+  if (result.converged) return;
+  auto& [residual, preconditioned, product, direction] = kept;
+  residual = right_side;
+  for (Field<double>* field : {&preconditioned, &product})
+    if (field->size() != n) field->setZero(n);
   precondition(residual, preconditioned);
-  Field<double> direction = preconditioned;
+  direction = preconditioned;
   double slope = dot(residual, preconditioned);
   while (result.iterations < max_iterations) {
     apply(direction, product);
     ++result.iterations;
     const double curvature = dot(direction, product);
     result.met_negative_curvature = curvature <= 0;
-    if (result.met_negative_curvature) result.direction = std::move(direction);
-    if (!(curvature > 0) || !(slope > 0)) return result;
+    if (result.met_negative_curvature) result.direction = direction;
+    if (!(curvature > 0) || !(slope > 0)) return;
     const double length = slope / curvature;
     add(result.solution, length, direction, n_threads);
     add(residual, -length, product, n_threads);
     result.converged = dot(residual, residual) <= target * target;
-    if (result.converged) return result;
+    if (result.converged) return;
     const double crossed = dot(residual, preconditioned);
     precondition(residual, preconditioned);
     const double now = dot(residual, preconditioned), keep = (now - crossed) / slope;
@@ -55,6 +63,15 @@ LinearSolution conjugate_gradients(const Operator& apply, const Preconditioner& 
           preconditioned.segment(first, length_) + keep * direction.segment(first, length_);
     });
   }
+}
+
+template<class Operator, class Preconditioner, class Dot>
+LinearSolution conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
+                                   const Field<double>& right_side, double target, int max_iterations,
+                                   const Dot& dot, int n_threads) {
+  KeptFields kept;
+  LinearSolution result;
+  conjugate_gradients(apply, precondition, right_side, target, max_iterations, dot, n_threads, kept, result);
   return result;
 }
 

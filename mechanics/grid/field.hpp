@@ -18,8 +18,13 @@ constexpr std::ptrdiff_t piece = 1 << 14;
 template<class Action>
 void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
   const std::ptrdiff_t n_pieces = (n + piece - 1) / piece;
-#pragma omp parallel for num_threads(n_threads) schedule(static) if (n_threads > 1 && n_pieces > 1)
-  for (std::ptrdiff_t p = 0; p < n_pieces; ++p) action(p * piece, std::min(piece, n - p * piece));
+  const auto run = [&](std::ptrdiff_t p) { action(p * piece, std::min(piece, n - p * piece)); };
+  if (n_threads == 1 || n_pieces == 1) { // a parallel region of one thread allocates
+    for (std::ptrdiff_t p = 0; p < n_pieces; ++p) run(p);
+    return;
+  }
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+  for (std::ptrdiff_t p = 0; p < n_pieces; ++p) run(p);
 }
 
 /// a += factor * b

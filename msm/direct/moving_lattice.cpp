@@ -22,7 +22,10 @@ Vector on_free(const Problem& problem, const std::vector<double>& of_point) {
 
 MovingSprings::Entries entries_of(const Problem& problem, const Inertia& inertia) {
   const auto n_free = static_cast<Eigen::Index>(n_unknowns(problem));
-  MovingSprings::Entries entries{on_free(problem, inertia.mass), on_free(problem, inertia.mass_damping), {}};
+  MovingSprings::Entries entries{on_free(problem, inertia.mass),
+                                 on_free(problem, inertia.mass_damping),
+                                 {},
+                                 on_free(problem, std::vector<double>(inertia.mass.size(), 1))};
   for (const auto& [history, force] : inertia.loads) {
     Vector all = to_vector(problem, problem.on_all_points(force));
     all.tail(all.size() - n_free).setZero();
@@ -102,6 +105,7 @@ class MovingLattice : public MovingSprings {
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
   Factorisation factorisation_;
 
+  bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
     if (damping_.nonZeros() > 0) product += damping_ * motion;
   }

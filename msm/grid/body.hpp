@@ -73,7 +73,11 @@ using mechanics::grid::piece;
 /// Calls action(k) for the planes of nodes on n_threads threads.
 template<class Action>
 void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
-#pragma omp parallel for num_threads(n_threads) schedule(static) if (n_threads > 1 && layout.size > piece)
+  if (n_threads == 1 || layout.size <= piece) { // a parallel region of one thread allocates
+    for (int k = 0; k < layout.nodes[2]; ++k) action(k);
+    return;
+  }
+#pragma omp parallel for num_threads(n_threads) schedule(static)
   for (int k = 0; k < layout.nodes[2]; ++k) action(k);
 }
 
@@ -100,12 +104,17 @@ double dot_of_parts(const Body& body, const Field<Real>& a, const Field<Real>& b
 template<class Real>
 double dot(const Body& body, const Field<Real>& a, const Field<Real>& b, int n_threads) {
   if (body.part) return detail::dot_of_parts(body, a, b);
-  Eigen::VectorXd part((a.size() + piece - 1) / piece);
-  for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
-    part[first / piece] = static_cast<double>(a.segment(first, length).dot(b.segment(first, length)));
-  });
+  constexpr std::ptrdiff_t at_once = 64 * piece; // what the parts of lie on the stack
   double sum = 0;
-  for (const double value : part) sum += value;
+  for (std::ptrdiff_t start = 0; start < a.size(); start += at_once) {
+    std::array<double, 64> part{};
+    for_each_piece(std::min(at_once, a.size() - start), n_threads,
+                   [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+                     part[static_cast<std::size_t>(first / piece)] =
+                         static_cast<double>(a.segment(start + first, n).dot(b.segment(start + first, n)));
+                   });
+    for (const double value : part) sum += value;
+  }
   return sum;
 }
 

@@ -65,7 +65,7 @@ class GridSystem : public SpringSystem {
  public:
   GridSystem(const GridProblem& problem, int n_threads)
       : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
-        bodies_(coarsenings(problem.body)), multigrid_(std::in_place, bodies_, n_threads) {}
+        bodies_(coarsenings(problem.body)) {}
 
   const Vector& load() const override { return problem_.load; }
 
@@ -117,14 +117,14 @@ class GridSystem : public SpringSystem {
   /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     if (mode_at_.size() > 0 && !any_rank(mode_at_ != displacement)) return mode_;
-    multigrid_->linearise(displacement);
+    multigrid().linearise(displacement);
     const Eigen::Index size = problem_.load.size();
     const Body& body = problem_.body;
     using Columns = std::array<Vector, 3>; // the vector, its preconditioned residual, the last step
     Columns basis, image;
     for (std::size_t c = 0; c < 3; ++c) basis[c] = image[c] = Vector::Zero(size);
     const auto examine = [&](std::size_t c, const Vector& right_side) {
-      multigrid_->apply(right_side, basis[c]);
+      multigrid().apply(right_side, basis[c]);
       scale(basis[c], 1 / norm(body, basis[c], n_threads_));
       springs_.product(Clamp::no, displacement, basis[c], image[c]);
     };
@@ -200,7 +200,7 @@ class GridSystem : public SpringSystem {
 
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
-    const Vector there = problem_.supports(load_factor);
+    const Vector& there = problem_.supports(load_factor);
     for (const std::ptrdiff_t entry : problem_.body.constrained) displacement[entry] = there[entry];
   }
 
@@ -221,9 +221,14 @@ class GridSystem : public SpringSystem {
   int n_threads_;
   SpringField<double> springs_;
   std::deque<Body> bodies_;
-  std::optional<Multigrid> multigrid_;
+  std::optional<Multigrid> multigrid_; ///< none before it is asked for
   Vector probe_, mode_at_;
   Mode mode_{};
+
+  Multigrid& multigrid() {
+    if (!multigrid_) multigrid_.emplace(bodies_, n_threads_);
+    return *multigrid_;
+  }
 
   /// A fixed right side with a part in every motion.
   const Vector& probe() {
@@ -254,9 +259,9 @@ class GridSystem : public SpringSystem {
       if (shift != 0) add(out, shift, v, n_threads_);
     };
     for (const bool may_be_misled : {true, false}) {
-      multigrid_->linearise(displacement);
+      multigrid().linearise(displacement);
       auto found = mechanics::grid::conjugate_gradients(
-          apply, [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); }, right_side,
+          apply, [&](const Vector& v, Vector& out) { multigrid().apply(v, out); }, right_side,
           forcing * norm(problem_.body, right_side, n_threads_), max_iterations,
           [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_);
       work_.linear_iterations += found.iterations;
@@ -298,11 +303,23 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
   if (deal_out) body = deal_out(std::move(body));
   result.load = to_field(problem, body, problem.force);
   clear_constrained(body, result.load);
-  if (problem.supports)
-    result.supports = [&problem, frame = Body{body.cells, body.spacing, {}, body.layout, {}, body.part}](
-                          double load_factor) {
-      return to_field(problem, frame, problem.supports(load_factor));
+  if (problem.supports) {
+    std::vector<std::ptrdiff_t> places; // of the points that move; -1: not here
+    for (const auto& [node, value] : problem.supports(0)) {
+      const auto at = place_of(problem, body, index(node));
+      places.push_back(at ? body.layout.at((*at)[0], (*at)[1], (*at)[2]) : -1);
+    }
+    result.supports = [&problem, places = std::move(places), n = body.layout.size,
+                       field = Field<double>(Field<double>::Zero(3 * body.layout.size))](
+                          double load_factor) mutable -> const Field<double>& {
+      auto place = places.begin();
+      for (const auto& moved : problem.supports(load_factor)) {
+        for (int c = 0; *place >= 0 && c < 3; ++c) field[*place + c * n] = moved.value[c];
+        ++place;
+      }
+      return field;
     };
+  }
   return result;
 }
 

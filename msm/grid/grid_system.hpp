@@ -11,8 +11,9 @@ namespace springproof::msm::grid {
 struct GridProblem {
   Body body;
   Field<double> load;
-  /// Displacement (mm) of constrained entries at a load factor, as a field; empty: they stay at rest.
-  std::function<Field<double>(double load_factor)> supports{};
+  /// Displacement (mm) of constrained entries at a load factor, as a field that is kept until the next call;
+  /// empty: they stay at rest.
+  std::function<const Field<double>&(double load_factor)> supports{};
   std::size_t n_unknowns = 0; ///< of the whole grid, on all ranks
 };
 

@@ -1,6 +1,7 @@
 #include "msm/grid/multigrid.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace springproof::msm::grid {
 
@@ -31,6 +32,10 @@ int exponent_of_stiffness(const Body& body) {
 }
 
 } // namespace
+
+double scale_of(const Body& finest) {
+  return std::ldexp(1, -exponent_of_stiffness(finest));
+}
 
 std::deque<Body> coarsenings(const Body& finest) {
   std::deque<Body> bodies{finest};
@@ -69,20 +74,55 @@ Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_
     });
 }
 
+void Multigrid::set_diagonal(const Field<double>& diagonal) {
+  for (Level& level : levels_) level.diagonal.resize(3 * level.body.layout.size);
+  for_each_piece(diagonal.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    levels_.front().diagonal.segment(first, n) = diagonal.segment(first, n).cast<float>();
+  });
+  for (std::size_t l = 0; l < transfers_.size(); ++l) {
+    levels_[l + 1].diagonal.setZero();
+    transfers_[l].restrict(levels_[l].diagonal, levels_[l + 1].diagonal);
+  }
+  is_linearised_ = false;
+}
+
 void Multigrid::linearise(const Field<double>& displacement) {
   const Body& finest = levels_.front().body;
-  if (linearised_at_.size() > 0 && on_all_ranks(finest, linearised_at_ == displacement)) return;
+  if (is_linearised_ && on_all_ranks(finest, linearised_at_ == displacement)) return;
   linearised_at_ = displacement;
+  is_linearised_ = true;
   for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     levels_.front().displacement.segment(first, n) = displacement.segment(first, n).cast<float>();
   });
   for (std::size_t l = 0; l < transfers_.size(); ++l)
     transfers_[l].sample(levels_[l].displacement, levels_[l + 1].displacement);
-  for (Level& level : levels_) {
-    level.springs.inverse_diagonal(Clamp::yes, level.displacement, level.inverse_diagonal);
-    if (&level != &levels_.back()) estimate_largest_eigenvalue(level);
+  for (last_ = 0;; ++last_) {
+    Level& level = levels_[last_];
+    if (last_ + 1 == levels_.size()) return factorise_coarsest();
+    level.springs.inverse_diagonal(Clamp::yes, level.displacement, level.inverse_diagonal, level.diagonal);
+    estimate_largest_eigenvalue(level);
+    if (needs_no_coarser(level)) return;
   }
-  factorise_coarsest();
+}
+
+void Multigrid::multiply(const Level& level, const Field<float>& direction, Field<float>& product) const {
+  level.springs.product(Clamp::yes, level.displacement, direction, product);
+  if (level.diagonal.size() == 0) return;
+  for_each_piece(product.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    product.segment(first, n) += level.diagonal.segment(first, n).cwiseProduct(direction.segment(first, n));
+  });
+}
+
+/// Of the preconditioned matrix no eigenvalue is much less than the least share that the added diagonal has
+/// in an inverse block.
+bool Multigrid::needs_no_coarser(const Level& level) const {
+  if (level.diagonal.size() == 0 || level.body.part) return false;
+  const std::ptrdiff_t n = level.diagonal.size();
+  const auto inverse = level.inverse_diagonal.head(n).array(); // xx, yy, zz
+  const float least = (inverse > 0)
+                          .select(level.diagonal.array() * inverse, std::numeric_limits<float>::infinity())
+                          .minCoeff();
+  return least * static_cast<float>(smoother.share) >= static_cast<float>(level.largest_eigenvalue);
 }
 
 /// Of the inverse diagonal times the tangent, by the power method; its vector is kept for the next time.
@@ -90,7 +130,7 @@ void Multigrid::estimate_largest_eigenvalue(Level& level) {
   const int n_steps = level.largest_eigenvalue > 0 ? 2 : 12;
   for (int step = 0; step < n_steps; ++step) {
     const double length = norm(level.body, level.rough, n_threads_);
-    level.springs.product(Clamp::yes, level.displacement, level.rough, level.product);
+    multiply(level, level.rough, level.product);
     apply_blocks(level.inverse_diagonal.data(), level.product, level.rough, 0, static_cast<float>(1 / length),
                  n_threads_);
     level.largest_eigenvalue = norm(level.body, level.rough, n_threads_);
@@ -101,16 +141,21 @@ void Multigrid::factorise_coarsest() {
   Level& level = levels_.back();
   const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
   if (n == 0) return; // nothing is free to move
-  Eigen::MatrixXd matrix(n, n);
+  Eigen::MatrixXd& matrix = coarsest_matrix_;
+  matrix.resize(n, n);
   level.solution.setZero();
   for (Eigen::Index column = 0; column < n; ++column) {
     float& entry = level.solution[coarsest_unknowns_[static_cast<std::size_t>(column)]];
     entry = 1;
-    level.springs.product(Clamp::yes, level.displacement, level.solution, level.product);
+    multiply(level, level.solution, level.product);
     entry = 0;
-    matrix.col(column) = level.product(coarsest_unknowns_).cast<double>();
+    for (Eigen::Index row = 0; row < n; ++row)
+      matrix(row, column) =
+          static_cast<double>(level.product[coarsest_unknowns_[static_cast<std::size_t>(row)]]);
   }
-  matrix = 0.5 * (matrix + matrix.transpose()).eval();
+  for (Eigen::Index column = 0; column < n; ++column)
+    for (Eigen::Index row = 0; row < column; ++row)
+      matrix(row, column) = matrix(column, row) = 0.5 * (matrix(row, column) + matrix(column, row));
   // Single precision leaves the matrix uncertain by about 1e-7 of its diagonal; a preconditioner may be that
   // stiff.
   const double shift = 1e-6 * matrix.diagonal().cwiseAbs().maxCoeff();
@@ -126,7 +171,7 @@ void Multigrid::factorise_coarsest() {
 void Multigrid::correct(Level& level, bool keeps_residual) {
   add(level.solution, 1.0f, level.correction, n_threads_);
   if (!keeps_residual) return;
-  level.springs.product(Clamp::yes, level.displacement, level.correction, level.product);
+  multiply(level, level.correction, level.product);
   add(level.residual, -1.0f, level.product, n_threads_);
 }
 
@@ -142,14 +187,21 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
 /// Solves for the residual of level l; the level's solution is the answer.
 void Multigrid::cycle(std::size_t l) {
   Level& level = levels_[l];
+  level.solution.setZero();
   if (l + 1 == levels_.size()) {
-    level.solution.setZero();
-    if (coarsest_unknowns_.empty()) return;
-    const Eigen::VectorXd right = level.residual(coarsest_unknowns_).cast<double>();
-    level.solution(coarsest_unknowns_) = coarsest_.solve(right).cast<float>();
+    const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
+    if (n == 0) return;
+    coarsest_answer_.resize(n);
+    for (Eigen::Index u = 0; u < n; ++u)
+      coarsest_answer_[u] =
+          static_cast<double>(level.residual[coarsest_unknowns_[static_cast<std::size_t>(u)]]);
+    coarsest_.solveInPlace(coarsest_answer_);
+    for (Eigen::Index u = 0; u < n; ++u)
+      level.solution[coarsest_unknowns_[static_cast<std::size_t>(u)]] =
+          static_cast<float>(coarsest_answer_[u]);
     return;
   }
-  level.solution.setZero();
+  if (l == last_) return smooth(level, false);
   smooth(level, true);
   transfers_[l].restrict(level.residual, levels_[l + 1].residual);
   cycle(l + 1);

@@ -13,14 +13,22 @@ namespace springproof::msm::grid {
 /// stiffnesses are divided by the power of two that brings the largest of the finest body to 1 to 2.
 std::deque<Body> coarsenings(const Body& finest);
 
-/// Approximate inverse, but for a factor, of the clamped tangent: one V-cycle in single precision. Coarse
-/// lattices are rediscretised at the sampled displacement; the smoother is Chebyshev's iteration on the block
-/// Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is
-/// symmetric.
+/// One over that power of two.
+double scale_of(const Body& finest);
+
+/// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: one
+/// V-cycle in single precision. Coarse lattices are rediscretised at the sampled displacement; the smoother
+/// is Chebyshev's iteration on the block Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before
+/// and after, so that the cycle is symmetric. Coarse diagonals are the fine one restricted, as masses are;
+/// below a level where the diagonal holds all eigenvalues in the smoother's range the cycle does not go.
 class Multigrid {
  public:
   /// @param bodies  must outlive it; on parts of a body every function is collective
   Multigrid(const std::deque<Body>& bodies, int n_threads);
+
+  /// From the next linearise() on.
+  /// @param diagonal  of the finest body, N/mm times scale_of() it; 0 on constrained entries
+  void set_diagonal(const Field<double>& diagonal);
 
   /// Prepares the cycle at a displacement of the finest body, mm.
   void linearise(const Field<double>& displacement);
@@ -34,6 +42,7 @@ class Multigrid {
     const Body& body;
     SpringField<float> springs;
     Field<float> displacement, inverse_diagonal;
+    Field<float> diagonal; ///< besides that of the springs; of no size: none
     Field<float> solution, residual, correction, product;
     Field<float> rough; ///< guess of the mode of the largest eigenvalue
     double largest_eigenvalue = 0;
@@ -42,9 +51,16 @@ class Multigrid {
   std::deque<Transfer<float>> transfers_; ///< between levels l and l + 1
   int n_threads_;
   Field<double> linearised_at_;
+  bool is_linearised_ = false;
+  std::size_t last_ = 0; ///< level that the cycle goes down to
   std::vector<std::ptrdiff_t> coarsest_unknowns_;
+  Eigen::MatrixXd coarsest_matrix_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
+  Eigen::VectorXd coarsest_answer_;
 
+  /// product = (tangent + diagonal) direction
+  void multiply(const Level& level, const Field<float>& direction, Field<float>& product) const;
+  bool needs_no_coarser(const Level& level) const;
   void estimate_largest_eigenvalue(Level& level);
   void factorise_coarsest();
   void correct(Level& level, bool keeps_residual);

@@ -58,6 +58,8 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     for (int i = 0; i < body.layout.nodes[0]; ++i)
       if (!body.part || body.part->owns(i, j, body.part->own_first[2])) counted[i + body.layout.row * j] = 1;
   springs_.counted = counted.data();
+  is_constrained_.resize(index(3 * body.layout.size));
+  for (const std::ptrdiff_t entry : body.constrained) is_constrained_[index(entry)] = true;
   // Slabs of some sixteen planes of nodes: the same on any number of threads, so that sums are too, and an
   // even number, so that two threads have the same to do.
   const int planes = body.layout.nodes[2], n = planes < 8 ? 1 : 2 * std::max(1, planes / 16);
@@ -67,6 +69,7 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     auto& scratch = arrays_.emplace_back(Field<Real>::Zero(scratch_size(body.layout)));
     slabs_.push_back({first_plane(slab), first_plane(slab + 1), spill.data(), scratch.data()});
   }
+  energy_of_slab_.resize(slabs_.size());
 }
 
 template<class Real>
@@ -122,18 +125,25 @@ template<class Run>
 void SpringField<Real>::for_each_slab(int components, Real* result, const Run& run) const {
   const Layout& layout = springs_.layout;
   const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
-#pragma omp parallel num_threads(n_threads_) if (n_threads_ > 1 && layout.size > piece)
+  const auto add_spill = [&](std::ptrdiff_t s) {
+    for (int c = 0; c < components; ++c) {
+      const Slab<Real>& slab = slabs_[index(s)];
+      Real* plane = result + layout.at(0, 0, slab.last, c) - layout.at(0, 0, -1);
+      const Real* spill = slab.spill + c * layout.plane;
+      for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
+    }
+  };
+  if (n_threads_ == 1 || layout.size <= piece) { // a parallel region of one thread allocates
+    for (std::ptrdiff_t s = 0; s < n; ++s) run(slabs_[index(s)]);
+    for (std::ptrdiff_t s = 0; s < n - 1; ++s) add_spill(s);
+    return;
+  }
+#pragma omp parallel num_threads(n_threads_)
   {
 #pragma omp for schedule(static)
     for (std::ptrdiff_t s = 0; s < n; ++s) run(slabs_[index(s)]);
 #pragma omp for schedule(static)
-    for (std::ptrdiff_t s = 0; s < n - 1; ++s)
-      for (int c = 0; c < components; ++c) {
-        const Slab<Real>& slab = slabs_[index(s)];
-        Real* plane = result + layout.at(0, 0, slab.last, c) - layout.at(0, 0, -1);
-        const Real* spill = slab.spill + c * layout.plane;
-        for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
-      }
+    for (std::ptrdiff_t s = 0; s < n - 1; ++s) add_spill(s);
   }
 }
 
@@ -162,15 +172,13 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
 }
 
 template<class Real>
-void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displacement,
-                                         Field<Real>& inverse) const {
+void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse,
+                                         const Field<Real>& added) const {
   const Layout& layout = springs_.layout;
   inverse.setZero(6 * layout.size);
   for_each_slab(6, inverse.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data());
   });
-  std::vector<bool> is_constrained(index(3 * layout.size));
-  for (const std::ptrdiff_t entry : body_.constrained) is_constrained[index(entry)] = true;
   static constexpr int places[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // among the six arrays
   for_each_plane(layout, n_threads_, [&](int k) {
     for (int j = 0; j < layout.nodes[1]; ++j)
@@ -180,7 +188,8 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
           for (int b = 0; b < 3; ++b) block(a, b) = inverse[layout.at(i, j, k, places[a][b])];
         bool constrained[3];
         for (int a = 0; a < 3; ++a) {
-          constrained[a] = is_constrained[index(layout.at(i, j, k, a))] || !(block(a, a) > 0);
+          if (added.size() > 0) block(a, a) += static_cast<double>(added[layout.at(i, j, k, a)]);
+          constrained[a] = is_constrained_[index(layout.at(i, j, k, a))] || !(block(a, a) > 0);
           if (!constrained[a]) continue;
           block.row(a).setZero();
           block.col(a).setZero();
@@ -206,14 +215,19 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
   const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
   const int first = body_.part ? body_.part->own_first[2] : 0;
   const int last = body_.part ? body_.part->own_last[2] : springs_.layout.nodes[2];
-  Eigen::VectorXd part(n);
-#pragma omp parallel for num_threads(n_threads_)                                                             \
-    schedule(static) if (n_threads_ > 1 && springs_.layout.size > piece)
-  for (std::ptrdiff_t s = 0; s < n; ++s)
-    part[s] = kernels<Real>().energy(springs_, std::max(slabs_[index(s)].first, first),
-                                     std::min(slabs_[index(s)].last, last), displacement.data());
+  const auto sum_up = [&](std::ptrdiff_t s) {
+    const Slab<Real>& slab = slabs_[index(s)];
+    energy_of_slab_[index(s)] = kernels<Real>().energy(springs_, std::max(slab.first, first),
+                                                       std::min(slab.last, last), displacement.data());
+  };
+  if (n_threads_ == 1 || springs_.layout.size <= piece) {
+    for (std::ptrdiff_t s = 0; s < n; ++s) sum_up(s);
+  } else {
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+    for (std::ptrdiff_t s = 0; s < n; ++s) sum_up(s);
+  }
   double sum = 0;
-  for (double value : part) sum += value;
+  for (double value : energy_of_slab_) sum += value;
   if (body_.part) body_.part->ranks->sum(&sum, 1);
   return sum;
 }

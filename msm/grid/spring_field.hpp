@@ -24,7 +24,9 @@ class SpringField {
                Field<Real>& product) const;
   /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
   /// yy, zz, yz, xz, xy.
-  void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse) const;
+  /// @param added  to the tangent's diagonal; of no size: nothing
+  void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse,
+                        const Field<Real>& added = {}) const;
   double energy(const Field<Real>& displacement) const;
   /// What a small motion (mm) from rest stores to second order, as msm::small_motion_energy(), N mm.
   double small_motion_energy(const Field<Real>& motion) const;
@@ -34,7 +36,9 @@ class SpringField {
   int n_threads_;
   Springs<Real> springs_;
   std::vector<Slab<Real>> slabs_;
-  std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
+  std::deque<Field<Real>> arrays_;   ///< what springs_ and slabs_ point to
+  std::vector<bool> is_constrained_; ///< every entry of a field
+  mutable std::vector<double> energy_of_slab_;
 
   void set_shares();
   void set_by_node();

@@ -26,7 +26,8 @@ Stencil restrict_from(int i, bool is_coarsened, int shift) {
   return {3, {at - 1, at, at + 1}, {0.5, 1, 0.5}};
 }
 
-constexpr int lead = 2; ///< ghosts before a row
+// Two ghosts before for a part's coarse ones, and three after for coarse cells that reach beyond the body.
+constexpr int lead = 2, trail = 3; ///< ghosts before and after a row
 
 /// Between all nodes of a grid on every rank, and a part's.
 template<class Real>
@@ -53,14 +54,15 @@ Field<Real> take_part(const Body& whole, const Field<Real>& all, const Body& her
 
 /// Every row of a result: weighted rows of the source, over what the stencils select along y and z, then
 /// along_x(that row, row of the result).
+/// @param room  for a row of the source with its ghosts, a column for every plane of the result
 template<class Real, class AlongX>
 void transfer_rows(const Layout& from, const Field<Real>& source, const Layout& to, Field<Real>& result,
                    Stencil (*stencil)(int, bool, int), const bool (&is_coarsened)[3], const int (&shift)[3],
-                   int n_threads, const AlongX& along_x) {
+                   int n_threads, Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& room,
+                   const AlongX& along_x) {
   for_each_plane(to, n_threads, [&](int k) {
     const Stencil z = stencil(k, is_coarsened[2], shift[2]);
-    // Two ghosts before for a part's coarse ones, and two after for coarse cells that reach beyond the body.
-    Field<Real> sum(from.nodes[0] + lead + 3);
+    auto sum = room.col(k);
     for (int component = 0; component < 3; ++component)
       for (int j = 0; j < to.nodes[1]; ++j) {
         const Stencil y = stencil(j, is_coarsened[1], shift[1]);
@@ -93,6 +95,8 @@ Transfer<Real>::Transfer(const Body& fine, const Body& coarse, int n_threads)
     shift_[a] =
         fine.part ? (is_coarsened_[a] ? 2 : 1) * coarse_here_.part->first[a] - fine.part->first[a] : 0;
   }
+  const Layout &from = fine.layout, &to = coarse_here_.layout;
+  rows_.resize(std::max(from.nodes[0], to.nodes[0]) + lead + trail, std::max(from.nodes[2], to.nodes[2]));
 }
 
 template<class Real>
@@ -100,7 +104,7 @@ void Transfer<Real>::prolong(const Field<Real>& coarse, Field<Real>& fine) const
   const int n = fine_.layout.nodes[0], shift = shift_[0];
   const Field<Real> taken = gathers() ? take_part(coarse_, coarse, coarse_here_) : Field<Real>{};
   transfer_rows(coarse_here_.layout, gathers() ? taken : coarse, fine_.layout, fine, interpolate_from,
-                is_coarsened_, shift_, n_threads_, [n, shift](const Real* in, Real* out) {
+                is_coarsened_, shift_, n_threads_, rows_, [n, shift](const Real* in, Real* out) {
                   for (int i = -shift; i < n; i += 2) out[i] = in[(i - shift) / 2];
                   for (int i = 1 + shift; i < n; i += 2) {
                     const Real* const before = in + (i - shift) / 2;
@@ -115,7 +119,7 @@ void Transfer<Real>::restrict(const Field<Real>& fine, Field<Real>& coarse) cons
   const int n = coarse_here_.layout.nodes[0];
   const auto restrict_to = [&](Field<Real>& here) {
     transfer_rows(fine_.layout, fine, coarse_here_.layout, here, restrict_from, is_coarsened_, shift_,
-                  n_threads_, [n, at = shift_[0]](const Real* in, Real* out) {
+                  n_threads_, rows_, [n, at = shift_[0]](const Real* in, Real* out) {
                     for (int i = 0; i < n; ++i)
                       out[i] = in[2 * i + at] + Real(0.5) * (in[2 * i + at - 1] + in[2 * i + at + 1]);
                   });

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "msm/grid/grid_system.hpp"
+#include "msm/moving_springs.hpp"
+
+namespace springproof::msm::grid {
+
+/// The motion of a lattice on a grid of cells without a matrix: conjugate gradients on the tangent, mass and
+/// damping together, with a multigrid cycle that is prepared anew where it has become slow. After the first
+/// steps it allocates nothing; the motion does not depend on the number of threads.
+/// @param springs    static equations of `grid`; both must outlive what is returned
+/// @param inertia    whose damping is not looked at
+/// @param damping    damping_stiffness() of the scene's cells
+std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const GridProblem& grid,
+                                                SpringSystem& springs, const Inertia& inertia,
+                                                const std::vector<CellStiffness>& damping, int n_threads);
+
+} // namespace springproof::msm::grid

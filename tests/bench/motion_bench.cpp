@@ -1,0 +1,179 @@
+#include "cases/mesh/hex_mesh.hpp"
+#include "mechanics/dynamics/time_integrator.hpp"
+#include "msm/grid/moving_grid.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+using namespace springproof;
+
+namespace motions {
+
+namespace {
+
+/// A body on a grid, its springs in motion on the grid path.
+struct Moving {
+  msm::Problem problem;
+  msm::grid::GridProblem grid;
+  std::unique_ptr<msm::SpringSystem> statics;
+  std::unique_ptr<msm::MovingSprings> motion;
+
+  Moving(msm::Problem of, const msm::CellStiffness& cell, const msm::Inertia& inertia, int n_threads)
+      : problem(std::move(of)), grid(msm::grid::make_grid_problem(problem, {cell})),
+        statics(msm::grid::make_grid_system(grid, n_threads)),
+        motion(msm::grid::make_moving_grid(problem, grid, *statics, inertia, {}, n_threads)) {}
+  Moving(const Moving&) = delete; // the others refer to its problem
+};
+
+/// What is at one height: its nodes are held.
+msm::Problem held_at(const cases::HexMesh& mesh, double height) {
+  msm::Problem problem{mesh, {}, {}, std::vector<bool>(3 * mesh.nodes.size()), {}};
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (mesh.nodes[n].z() < height + 1e-6)
+      for (std::size_t c = 0; c < 3; ++c) problem.is_constrained[3 * n + c] = true;
+  return problem;
+}
+
+/// Timed steps, under loads that go on for ever.
+void run_steps(benchmark::State& state, Moving& body, double step, double tolerance) {
+  mechanics::IntegrationSettings settings;
+  settings.newton.tolerance = tolerance;
+  settings.newton.max_newton_iterations = 1 << 30;
+  const msm::Vector rest = msm::Vector::Zero(3 * body.grid.body.layout.size);
+  mechanics::TimeIntegrator motion(*body.motion, {cases::Scheme::implicit_euler}, {0, rest, rest, {}},
+                                   settings);
+  int n = 0;
+  for (int warm = 0; warm < 10; ++warm) motion.advance(++n * step);
+  const auto before = body.motion->work();
+  const int newton_before = motion.work().newton_iterations;
+  std::vector<double> milliseconds;
+  milliseconds.reserve(1 << 20);
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    motion.advance(++n * step);
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    milliseconds.push_back(elapsed.count());
+    state.SetIterationTime(elapsed.count() / 1000);
+  }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  const auto n_steps = static_cast<double>(milliseconds.size());
+  const auto at = [&](double part) { return milliseconds[static_cast<std::size_t>(part * (n_steps - 1))]; };
+  const auto work = body.motion->work() - before;
+  state.counters["masses"] = static_cast<double>(body.problem.mesh.nodes.size());
+  state.counters["unknowns"] = static_cast<double>(body.grid.n_unknowns);
+  state.counters["median_ms"] = at(0.5);
+  state.counters["p99_ms"] = at(0.99);
+  state.counters["most_ms"] = milliseconds.back();
+  state.counters["Newton"] = (motion.work().newton_iterations - newton_before) / n_steps;
+  state.counters["CG"] = static_cast<double>(work.linear_iterations) / n_steps;
+  state.counters["forces"] = static_cast<double>(work.force_evaluations) / n_steps;
+  state.counters["halved"] = motion.n_halvings();
+  state.counters["largest_mm"] = motion.now().displacement.cwiseAbs().maxCoeff();
+  state.counters["Munknowns_steps/s"] = static_cast<double>(body.grid.n_unknowns) / (1e3 * at(0.5));
+}
+
+/// N/mm and MPa: the linear method's springs of cubes of 1 mm at E = 0.3 MPa and nu = 0.35, the hybrid
+/// lattice at the same, and that with power-log springs.
+const msm::CellStiffness springs{0.031, 0.047, 0.033, 0};
+const msm::CellStiffness hybrid{0.0722, 0.0111, 0.0667, 0.1481};
+const msm::CellStiffness power_log{0.0722, 0.0111, 0.0667, 0.1481, msm::Exponents{-1.485, -1.485, -1.485}};
+
+msm::CellStiffness of_edge(msm::CellStiffness k, double edge) {
+  for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal}) *of *= edge;
+  return k;
+}
+
+/// An ellipsoid of cubes of 20 mm with 708 masses, 1.3 kg in all, and 6,998 springs, held below; two loads
+/// pull a place of its surface, one hither and thither and one around: 40 mm at most. Range: threads, -log10
+/// of the tolerance.
+void interactive(benchmark::State& state, const msm::CellStiffness& cell) {
+  cases::Grid grid;
+  grid.cells = {11, 8, 7};
+  grid.spacing = {20, 20, 20};
+  grid.origin = {0, 0, 0};
+  for (int k = 0; k < 7; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 11; ++i) {
+        const Eigen::Vector3d half(5.5, 4, 3.5);
+        grid.present.push_back(
+            (Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) - half).cwiseQuotient(1.15 * half).squaredNorm() <=
+            1);
+      }
+  const cases::HexMesh mesh = cases::make_grid_mesh(grid);
+  msm::Inertia inertia;
+  inertia.mass.assign(mesh.nodes.size(), 1.3e-3 / static_cast<double>(mesh.nodes.size()));
+  inertia.mass_damping.assign(mesh.nodes.size(), 0);
+  int pulled = 0;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (mesh.nodes[n].x() + mesh.nodes[n].z() >
+        mesh.nodes[static_cast<std::size_t>(pulled)].x() + mesh.nodes[static_cast<std::size_t>(pulled)].z())
+      pulled = static_cast<int>(n);
+  const std::pair<double, Eigen::Vector3d> pulls[] = {{1.0, {15, 0, 10}}, {0.7, {0, 10, -10}}};
+  for (const auto& [frequency, force] : pulls) {
+    cases::History swinging;
+    swinging.frequency = frequency;
+    inertia.loads.push_back({swinging, {{pulled, force}}});
+  }
+  Moving body(held_at(mesh, 0), of_edge(cell, 20), inertia, static_cast<int>(state.range(0)));
+  run_steps(state, body, 0.02, std::pow(10, -static_cast<double>(state.range(1))));
+}
+
+/// A cube of 40^3 cells of 1 mm, of water, held below, its top pulled to and fro by some 2 mm.
+/// Range: threads, -log10 of the tolerance.
+void cube(benchmark::State& state, const msm::CellStiffness& cell) {
+  const int n = 40;
+  const cases::HexMesh mesh = cases::make_box_mesh({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n});
+  msm::Inertia inertia;
+  inertia.mass.assign(mesh.nodes.size(), 1e-9 * n * n * n / static_cast<double>(mesh.nodes.size()));
+  inertia.mass_damping.assign(mesh.nodes.size(), 0);
+  cases::History swinging;
+  swinging.frequency = 2;
+  std::vector<cases::NodeVector> pull;
+  for (std::size_t p = 0; p < mesh.nodes.size(); ++p)
+    if (mesh.nodes[p].z() > n - 1e-6) pull.push_back({static_cast<int>(p), {0.002, 0, 0.004}});
+  inertia.loads.push_back({swinging, pull});
+  Moving body(held_at(mesh, 0), cell, inertia, static_cast<int>(state.range(0)));
+  run_steps(state, body, 0.02, std::pow(10, -static_cast<double>(state.range(1))));
+}
+
+} // namespace
+
+BENCHMARK_CAPTURE(interactive, springs, springs)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1}, {2, 3, 6, 9}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1000)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(interactive, hybrid, hybrid)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1}, {2, 3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1000)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(interactive, power_log, power_log)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1}, {2, 3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1000)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(cube, springs, springs)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1, 2}, {3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(40)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(cube, hybrid, hybrid)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1}, {3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(40)
+    ->UseManualTime();
+
+} // namespace motions

@@ -1,0 +1,103 @@
+// Counts what a step allocates. A sanitizer's own malloc cannot be replaced.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+#include "mechanics/dynamics/time_integrator.hpp"
+#include "tests/msm/moving_bodies.hpp"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cerrno>
+#include <cstddef>
+
+namespace {
+
+std::atomic<bool> counts{false};
+std::atomic<long> n_allocations{0};
+
+void count() {
+  if (counts) ++n_allocations;
+}
+
+} // namespace
+
+// Of this program: operator new and Eigen call them too.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t n, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) noexcept {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t n, std::size_t size) noexcept {
+  count();
+  return __libc_calloc(n, size);
+}
+void* realloc(void* memory, std::size_t size) noexcept {
+  count();
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  count();
+  return __libc_memalign(alignment, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+  count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+  count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+}
+
+using namespace springproof;
+
+namespace moving_bodies {
+
+namespace {
+
+long allocated_by(mechanics::TimeIntegrator& motion, int first, int last, double step) {
+  n_allocations = 0;
+  counts = true;
+  for (int n = first; n <= last; ++n) motion.advance(n * step);
+  counts = false;
+  return n_allocations;
+}
+
+} // namespace
+
+TEST_CASE("after the first steps on a grid a step allocates nothing") {
+  { // that it counts
+    n_allocations = 0;
+    counts = true;
+    const std::vector<double> some(100);
+    const Vector others = Vector::Zero(100);
+    counts = false;
+    CHECK(some.size() + static_cast<std::size_t>(others.size()) == 200);
+    CHECK(n_allocations == 2);
+  }
+  msm::CellStiffness power_log = hybrid_springs;
+  power_log.exponents = msm::Exponents{-1.3, -1.8, -2.2};
+  const cases::MaterialDynamics damped{1000., 2, 0.002};
+  for (const auto scheme :
+       {cases::Scheme::implicit_euler, cases::Scheme::generalized_alpha, cases::Scheme::bdf2})
+    for (const bool is_moved : {false, true})
+      for (const auto& cell : {hybrid_springs, power_log}) {
+        INFO(cases::name_of(scheme) << (is_moved ? ", moved" : ", under its weight"));
+        const double step = 0.005;
+        const cases::Dynamics dynamics = steps(scheme, step, 1);
+        const Moving body(is_moved ? turned_block(dynamics, damped) : block(dynamics, damped, true), cell);
+        mechanics::TimeIntegrator motion(*body.motion, dynamics.scheme, {0, body.rest(), body.rest(), {}});
+        allocated_by(motion, 1, 3, step);
+        CHECK(allocated_by(motion, 4, 20, step) == 0);
+        CHECK(body.motion->work().linear_iterations > 20);
+      }
+}
+
+} // namespace moving_bodies
+
+#endif

@@ -1,0 +1,157 @@
+#include "msm/grid/moving_grid.hpp"
+
+#include "mechanics/dynamics/time_integrator.hpp"
+#include "msm/direct/direct_system.hpp"
+#include "msm/direct/moving_lattice.hpp"
+#include "msm/motion.hpp"
+#include "tests/msm/moving_bodies.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+using namespace springproof;
+
+namespace moving_bodies {
+
+namespace {
+
+cases::Solution follow_on(msm::Path path, const cases::Scene& scene,
+                          const std::vector<msm::CellStiffness>& cells) {
+  return msm::follow(scene, cells, {path, 1, {}, {}});
+}
+
+/// Of all displacements of two motions that are kept, over the largest of them.
+double largest_difference(const cases::Solution& a, const cases::Solution& b) {
+  REQUIRE(a.trajectory->bodies.size() == b.trajectory->bodies.size());
+  double largest = 0, size = 0;
+  for (std::size_t s = 0; s < a.trajectory->bodies.size(); ++s) {
+    const auto &of_a = a.trajectory->bodies[s].displacement, &of_b = b.trajectory->bodies[s].displacement;
+    for (std::size_t p = 0; p < of_a.size(); ++p) {
+      largest = std::max(largest, (of_a[p] - of_b[p]).norm());
+      size = std::max(size, of_a[p].norm());
+    }
+  }
+  CHECK(size > 0.01); // mm: it moves
+  return largest / size;
+}
+
+void check_paths_agree(const cases::Scene& scene, const std::vector<msm::CellStiffness>& cells) {
+  const cases::Solution on_grid = follow_on(msm::Path::multigrid, scene, cells),
+                        direct = follow_on(msm::Path::direct, scene, cells);
+  CHECK(on_grid.linear_iterations > 0);
+  CHECK(direct.factorisations > 0);
+  CHECK(largest_difference(on_grid, direct) <= 1e-6);
+  REQUIRE(on_grid.trajectory->displacement.size() == direct.trajectory->displacement.size());
+}
+
+} // namespace
+
+TEST_CASE("motions on a grid are those of the direct path: every scheme, both dampings, gravity",
+          "[verification]") {
+  for (const auto scheme : {cases::Scheme::implicit_euler, cases::Scheme::newmark,
+                            cases::Scheme::generalized_alpha, cases::Scheme::bdf2}) {
+    INFO(cases::name_of(scheme));
+    check_paths_agree(block(steps(scheme, 0.005, 0.05), {1000., 5, 0.002}), {hybrid_springs});
+  }
+}
+
+TEST_CASE("motions on a grid are those of the direct path: several materials", "[verification]") {
+  cases::Scene scene = block(steps(cases::Scheme::newmark, 0.005, 0.05), {1000., 0, 0.001});
+  cases::RegionMaterial other;
+  other.dynamics = {3000., 8, 0};
+  scene.definition.region_materials.push_back(other);
+  std::vector<msm::CellStiffness> cells;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
+    scene.material_of_cell.push_back(c % 3 == 0 ? 1 : 0);
+    cells.push_back(msm::scaled(hybrid_springs, c % 3 == 0 ? 7 : 1));
+  }
+  check_paths_agree(scene, cells);
+}
+
+TEST_CASE("motions on a grid are those of the direct path: springs of three laws", "[verification]") {
+  msm::CellStiffness power_log = hybrid_springs;
+  power_log.exponents = msm::Exponents{-1.3, -1.8, -2.2};
+  const msm::CellStiffness edges_and_diagonals{0.2, 0.1, 0.3, 0};
+  for (const auto& cell : {power_log, edges_and_diagonals})
+    check_paths_agree(block(steps(cases::Scheme::generalized_alpha, 0.005, 0.05), {1000., 0, 0.002}), {cell});
+}
+
+TEST_CASE("motions on a grid are those of the direct path: supports that turn, weights, holes",
+          "[verification]") {
+  const cases::Dynamics dynamics = steps(cases::Scheme::implicit_euler, 0.01, 0.1);
+  SECTION("supports that turn") {
+    check_paths_agree(turned_block(dynamics, {1000., 0, 0.003}), {hybrid_springs});
+  }
+  SECTION("weights") {
+    cases::Scene scene = block(dynamics, {1000., 0, 0});
+    cases::AddedMass weight{region_of("z+"), 0.12}; // kg: as much as the block
+    scene.masses.push_back({cases::select(scene.mesh, weight.region), weight});
+    check_paths_agree(scene, {hybrid_springs});
+  }
+  SECTION("holes") {
+    check_paths_agree(block(dynamics, {1000., 2, 0.001}, true), {hybrid_springs});
+  }
+}
+
+TEST_CASE("a motion on a grid starts in the equilibrium of its loads") {
+  cases::Dynamics dynamics = steps(cases::Scheme::newmark, 0.005, 0.02);
+  dynamics.start = cases::MotionStart::equilibrium;
+  const cases::Solution motion =
+      follow_on(msm::Path::multigrid, block(dynamics, {1000., 0, 0}), {hybrid_springs});
+  const auto& bodies = motion.trajectory->bodies;
+  double largest = 0, moved = 0;
+  for (std::size_t p = 0; p < bodies.front().displacement.size(); ++p) {
+    largest = std::max(largest, bodies.front().displacement[p].norm());
+    moved = std::max(moved, (bodies.back().displacement[p] - bodies.front().displacement[p]).norm());
+  }
+  CHECK(largest > 0.01);
+  CHECK(moved <= 1e-6 * largest);
+}
+
+TEST_CASE("a step on a grid is the same bit for bit on one and two threads") {
+  const auto end = [](int n_threads) {
+    const cases::Scene scene =
+        block(steps(cases::Scheme::generalized_alpha, 0.01, 0.02), {1000., 1, 0.002}, false, 24);
+    return msm::follow(scene, {hybrid_springs}, {msm::Path::multigrid, n_threads, {}, {}});
+  };
+  const cases::Solution one = end(1), two = end(2);
+  CHECK(one.linear_iterations == two.linear_iterations);
+  std::size_t n_different = 0;
+  for (std::size_t p = 0; p < one.displacement.size(); ++p)
+    n_different += one.displacement[p] != two.displacement[p];
+  CHECK(n_different == 0);
+}
+
+TEST_CASE("the tangent of a step on a grid is the derivative of its residual, damping and mass included") {
+  const Moving body(block({}, {1000., 3, 0.02}), hybrid_springs);
+  const Vector at = body.random_motion(0.3, 5), origin = body.random_motion(0.3, 6),
+               force = body.random_motion(1, 7), along = body.random_motion(1, 8);
+  for (const double mass : {1e2, 1e7, 1e12}) { // the cycle goes down, or not
+    INFO("mass factor " << mass);
+    body.motion->set_step({mass, 1e4, origin, force, origin, 1});
+    constexpr double small = 1e-5; // mm
+    const auto residual = [&](double way) -> Vector {
+      return body.motion->residual(at + way * along, 0, mechanics::Expect::residual);
+    };
+    const Vector product = (residual(-small) - residual(small)) / (2 * small);
+    const auto step = body.motion->direction(at, product, 0, 1e-10, mechanics::Convexity::exact);
+    REQUIRE(step);
+    CHECK((*step - along).norm() <= 1e-5 * along.norm());
+  }
+}
+
+TEST_CASE("a step's residual is minus the derivative of its energy, where damped supports move too") {
+  const Moving body(turned_block({}, {1000., 3, 0.02}), hybrid_springs);
+  Vector at = body.random_motion(0.3, 5);
+  const Vector origin = body.random_motion(0.3, 6), force = body.random_motion(1, 7),
+               along = body.random_motion(1, 8);
+  body.motion->supports_at(0.02, at);
+  body.motion->set_step({1e4, 1e2, origin, force, at, 1});
+  constexpr double small = 1e-4; // mm
+  const auto energy = [&](double way) { return body.motion->energy(at + way * along, 0); };
+  const Vector residual = body.motion->residual(at, 0);
+  CHECK((energy(-small) - energy(small)) / (2 * small) == Approx(residual.dot(along)).epsilon(1e-6));
+}
+
+} // namespace moving_bodies

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "msm/direct/direct_system.hpp"
+#include "msm/grid/moving_grid.hpp"
+#include "msm/motion.hpp"
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+
+using namespace springproof;
+
+/// Blocks of springs in motion, on the grid path.
+namespace moving_bodies {
+
+using Eigen::Vector3d;
+using mechanics::Vector;
+
+const msm::CellStiffness hybrid_springs{0.2, 0.1, 0.3, 0.05}; // N/mm, MPa
+
+inline cases::Region region_of(const std::string& name) {
+  cases::Region result;
+  result.name = name;
+  return result;
+}
+
+inline cases::Load gravity() {
+  cases::Load load;
+  load.kind = cases::LoadKind::gravity;
+  load.value = {0, 2, -9.81};
+  return load;
+}
+
+inline cases::Dynamics steps(cases::Scheme scheme, double step, double end) {
+  cases::Dynamics dynamics;
+  dynamics.scheme.scheme = scheme;
+  dynamics.scheme.rho_infinity = 0.8;
+  dynamics.step = step;
+  dynamics.end = end;
+  return dynamics;
+}
+
+/// n + 1 by n - 1 by n cells of 10 mm, held at z- unless it flies, under gravity.
+inline cases::Case block_case(int n) {
+  cases::Case definition;
+  definition.body = cases::Box{{10. * (n + 1), 10. * (n - 1), 10. * n}, {n + 1, n - 1, n}};
+  definition.fixed.push_back({region_of("z-"), {true, true, true}});
+  return definition;
+}
+
+inline cases::Scene in_motion(const cases::Case& definition, const cases::Dynamics& dynamics,
+                              const cases::MaterialDynamics& material) {
+  cases::Scene scene = cases::make_scene(definition);
+  scene.definition.material_dynamics = material;
+  scene.definition.dynamics = dynamics;
+  return scene;
+}
+
+/// @param has_holes  every seventh cell is missing
+inline cases::Scene block(const cases::Dynamics& dynamics, const cases::MaterialDynamics& material,
+                          bool has_holes = false, int n = 5) {
+  cases::Scene scene = in_motion(block_case(n), dynamics, material);
+  scene.loads.push_back({{}, gravity()});
+  if (!has_holes) return scene;
+  cases::Grid grid = *scene.mesh.grid;
+  for (int c = 0; c < (n + 1) * (n - 1) * n; ++c) grid.present.push_back(c % 7 != 3);
+  scene.mesh = cases::make_grid_mesh(grid);
+  scene.constrained.front().selection = cases::select(scene.mesh, region_of("z-"));
+  return scene;
+}
+
+/// Its lower end is turned and moved along x.
+inline cases::Scene turned_block(const cases::Dynamics& dynamics, const cases::MaterialDynamics& material) {
+  cases::Case definition = block_case(5);
+  definition.fixed.clear();
+  cases::Moved moved;
+  moved.region = region_of("z-");
+  moved.displacement = {1, 0, 0};
+  moved.history.points = {{0., 0.}, {0.05, 1.}, {0.1, -1.}};
+  definition.moved.push_back(moved);
+  moved.region = region_of("z+");
+  moved.displacement = Vector3d::Zero();
+  moved.angle = 5;
+  moved.axis = {0, 0, 1};
+  moved.centre = {30, 20, 50};
+  definition.moved.push_back(moved);
+  return in_motion(definition, dynamics, material);
+}
+
+/// A block's springs on the grid path, for steps of one's own.
+struct Moving {
+  msm::Problem problem;
+  msm::grid::GridProblem grid;
+  std::unique_ptr<msm::SpringSystem> statics;
+  std::unique_ptr<msm::MovingSprings> motion;
+
+  Moving(const cases::Scene& scene, const std::vector<msm::CellStiffness>& cells, int n_threads = 1)
+      : problem(msm::make_moving_problem(scene)), grid(msm::grid::make_grid_problem(problem, cells)),
+        statics(msm::grid::make_grid_system(grid, n_threads)),
+        motion(msm::grid::make_moving_grid(problem, grid, *statics, msm::make_inertia(scene, {}),
+                                           msm::damping_stiffness(scene, cells), n_threads)) {}
+  Moving(const cases::Scene& scene, const msm::CellStiffness& cell) : Moving(scene, std::vector{cell}) {}
+  Moving(const Moving&) = delete; // the others refer to its problem
+
+  Vector rest() const { return Vector::Zero(grid.load.size()); }
+  Vector field(const msm::Points& points) const { return msm::grid::to_field(problem, grid.body, points); }
+  msm::Points points(const Vector& field) const { return msm::grid::to_points(problem, grid.body, field); }
+
+  /// Of free entries, up to a size.
+  Vector random_motion(double size, unsigned seed) const {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> value(-size, size);
+    msm::Points all;
+    for (std::size_t p = 0; p < problem.mesh.nodes.size(); ++p) {
+      const double x = value(generator), y = value(generator), z = value(generator);
+      all.emplace_back(x, y, z);
+    }
+    Vector result = field(all);
+    msm::grid::clear_constrained(grid.body, result);
+    return result;
+  }
+};
+
+} // namespace moving_bodies
