@@ -51,9 +51,9 @@ case $command in
     build
     # MPI's launcher refuses root unless told twice; a container has no other user.
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    # A minute of fuzzing for each reader, or a bare Debian that builds the package: configurations of their own, which no other
+    # A minute of fuzzing for each reader, a bare Debian that builds the package, a study of minutes: configurations of their own, which no other
     # call runs.
-    case " $* " in *" fuzz-long "*) set -- -C fuzz-long "$@" ;; *" package-long "*) set -- -C package-long "$@" ;; esac
+    case " $* " in *" fuzz-long "*) set -- -C fuzz-long "$@" ;; *" package-long "*) set -- -C package-long "$@" ;; *" studies-long "*) set -- -C studies-long "$@" ;; esac
     exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@" ;;
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;

@@ -24,13 +24,16 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
 }
 
-Backend backend_of(const cases::Scene& scene, Backend asked) {
+double n_element_nodes(const cases::Scene& scene) {
   const cases::Fem& fem = scene.definition.fem;
   const int halvings = fem.refine + (fem.element == cases::Element::q2 ? 1 : 0);
-  if (asked == Backend::automatic)
-    return choose_backend(scene, double(scene.mesh.nodes.size()) * std::pow(8, halvings));
+  return double(scene.mesh.nodes.size()) * std::pow(8, halvings);
+}
+
+Backend backend_of(const cases::Scene& scene, Backend asked) {
+  if (asked == Backend::automatic) return choose_backend(scene, n_element_nodes(scene));
   if (asked == Backend::grid && !grid::is_on_grid(scene))
-    throw cases::InputError(fem.where,
+    throw cases::InputError(scene.definition.fem.where,
                             "the grid's backend needs a body that is a grid of cells, an isotropic material, "
                             "and no q2_p1; beside [dynamics] no q2");
   return asked;

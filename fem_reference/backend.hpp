@@ -38,6 +38,9 @@ constexpr long direct_solver_limit = 120000;
 /// can be factorised: 25 a linear solve at 1000, Newton's method fails at 5000.
 constexpr double most_incompressible = 1500;
 
+/// About, of the elements of a scene's mesh as fem.refine divides it.
+double n_element_nodes(const cases::Scene& scene);
+
 /// Whether the assembled backend factorises a tangent of that many nodes.
 bool takes_factorisation(double n_nodes);
 

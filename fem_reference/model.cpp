@@ -94,12 +94,17 @@ cases::Fields Model::OnGrid::fields(const cases::Sharing* sharing) {
 }
 
 /// Where the path fails, and multigrid fails the body at rest too or is known to, the body is not to blame.
+/// Nor may it be where no load at all was reached: bending a long body of nu = 0.499 is too much for
+/// multigrid, which its first small step from rest does not show. Bodies that can be factorised are asked
+/// once more.
 cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumSettings settings) {
   if (!assembled) try {
       return model.solve(load_factor, settings);
-    } catch (const cases::SolveError&) {
-      const bool is_hard = grid::bulk_over_shear(model.scene()) > most_incompressible;
-      if (!may_assemble_instead || (!is_hard && model.can_leave_rest())) throw;
+    } catch (const cases::SolveError& error) {
+      const bool may_be_multigrid =
+          grid::bulk_over_shear(model.scene()) > most_incompressible ||
+          (error.so_far().load_reached == 0 && takes_factorisation(n_element_nodes(model.scene())));
+      if (!may_assemble_instead || (!may_be_multigrid && model.can_leave_rest())) throw;
       assembled = std::make_unique<Assembled>(model.scene(), communicator);
     }
   cases::Solution solution = assembled->solve(load_factor, settings);

@@ -35,7 +35,9 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
   result.solution.setZero(n);
   result.converged = dot(right_side, right_side) <= target * target;
   if (result.converged) return;
-  auto& [residual, preconditioned, product, direction] = kept;
+  // Lambdas capture these, not bindings (clang 14).
+  Field<double>&residual = kept.residual, &preconditioned = kept.preconditioned, &product = kept.product,
+  &direction = kept.direction;
   residual = right_side;
   for (Field<double>* field : {&preconditioned, &product})
     if (field->size() != n) field->setZero(n);
