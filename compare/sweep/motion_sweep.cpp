@@ -265,7 +265,7 @@ void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep) {
   });
   if (lines.empty()) return;
   draw(folder, "motion_sweep", "motion_sweep",
-       {{"data", "motion_sweep_points.csv"},
+       {{"points", "motion_sweep_points.csv"},
         {"headline", sweep.definition.name + ": motions, one thread"},
         {"lines", lines},
         {"uncertainty", sweep.uncertainty_percent},
