@@ -85,13 +85,22 @@ struct RegionMaterial {
   MaterialDynamics dynamics{};
 };
 
-/// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, or
-/// a patch of the surface around a point.
+/// The nodes of a body, or of the cells of one class of it, that lie in a box and on or beyond a plane.
+struct Part {
+  std::string cell_class;                           ///< a three-dimensional group's name; empty: every cell
+  Eigen::Vector3d lower, upper;                     ///< mm; infinite where the box has no end
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< mm; of the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit length, towards the part; zero: no plane
+};
+
+/// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, a
+/// patch of the surface around a point, or the nodes of a class, in a box or beyond a plane.
 struct Region {
-  std::string name;                    ///< as written; of a patch, its name in messages; empty for a node
+  std::string name;                    ///< as written; of a patch or part for messages; empty for a node
   std::optional<Eigen::Vector3d> near; ///< mm
   Where where;
   std::optional<double> radius{}; ///< mm, > 0: the boundary faces whose centre is at most that far from near
+  std::optional<Part> part{};
 };
 
 struct Fixed {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <sstream>
 
 namespace springproof::cases {
@@ -48,12 +49,54 @@ std::array<bool, 3> read_components(const Entry& entry) {
   return components;
 }
 
+/// Two corners of a box, the lower one first.
+void read_box(const Entry& entry, Part& part) {
+  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
+  const std::vector<Entry> corners = entry.elements(allowed, 2);
+  part.lower = Vector{allowed}(corners[0]);
+  part.upper = Vector{allowed}(corners[1]);
+  if (!(part.lower.array() <= part.upper.array()).all()) entry.refuse(allowed);
+}
+
+/// { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }
+Region read_part(const Entry& entry, const Body& body) {
+  const std::string allowed = "the name of a region, or a table with one or more of class, box and beyond";
+  Table table(entry, allowed);
+  Region region{"", std::nullopt, entry.where};
+  Part& part = region.part.emplace();
+  part.upper.setConstant(std::numeric_limits<double>::infinity());
+  part.lower = -part.upper;
+  table.refuse_unless(std::holds_alternative<MeshFile>(body), {"class"},
+                      "left out: only a body of shape = \"mesh\" has classes of cells");
+  part.cell_class = table.optional("class", read_text).value_or("");
+  region.name = part.cell_class.empty() ? "nodes" : "nodes of " + part.cell_class;
+  if (table.has("box")) {
+    read_box(table.entry("box"), part);
+    region.name +=
+        fmt::format(" between ({}) and ({})", fmt::join(part.lower, ", "), fmt::join(part.upper, ", "));
+  }
+  if (table.has("beyond")) {
+    table.section("beyond", [&](Table& plane) {
+      part.point = plane.required("point", read_point);
+      part.normal = plane.required("normal", read_direction);
+      return true;
+    });
+    region.name +=
+        fmt::format(" beyond ({}) towards ({})", fmt::join(part.point, ", "), fmt::join(part.normal, ", "));
+  }
+  table.know({"box", "beyond"});
+  table.refuse_unknown_keys();
+  if (!table.has("class") && !table.has("box") && !table.has("beyond")) entry.refuse(allowed);
+  return region;
+}
+
 /// A load over an area needs a region with an area: of a box's regions, a face. Groups of a mesh are checked
 /// when it is read.
 void check_has_area(const Load& load, const Body& body) {
-  const bool has_area =
-      load.region.near ? load.region.radius.has_value()
-                       : std::holds_alternative<MeshFile>(body) || words_of(load.region.name).size() == 1;
+  const Region& region = load.region;
+  const bool has_area = !region.part && (region.near ? region.radius.has_value()
+                                                     : std::holds_alternative<MeshFile>(body) ||
+                                                           words_of(region.name).size() == 1);
   if (!has_area)
     throw InputError(
         load.region.where,
@@ -161,7 +204,9 @@ Region read_region_text(const Entry& entry, const Body& body) {
 
 Region read_region(Table& table, const Body& body) {
   if (!table.has("near")) {
-    Region region = read_region_text(table.entry("region"), body);
+    const Entry entry = table.entry("region");
+    Region region =
+        entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
     table.know({"near"});
     table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
     return region;

@@ -11,8 +11,8 @@ Region read_region_text(const Entry& entry, const Body& body);
 /// A unit vector: "x", "y", "z", or any direction.
 Eigen::Vector3d read_direction(const Entry& entry);
 
-/// A region as a table gives it: `region`, or the node nearest to `near`, or with `radius` the patch around
-/// it.
+/// A region as a table gives it: `region`, a text or a table of a part, or the node nearest to `near`, or
+/// with `radius` the patch around it.
 Region read_region(Table& table, const Body& body);
 
 /// Reads supports, motions, loads and masses into a case whose body and [dynamics] are read.

@@ -17,4 +17,7 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
 /// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
 Selection select_patch(const HexMesh& mesh, const Region& region);
 
+/// The nodes of the region's part, and the edges and faces between them of the cells that it is a part of.
+Selection select_part(const HexMesh& mesh, const Region& region);
+
 } // namespace springproof::cases

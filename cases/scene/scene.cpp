@@ -231,7 +231,9 @@ void check_fields(const Scene& scene) {
 Selection select(const HexMesh& mesh, const Region& region) {
   if (region.near && !region.radius) return select_near(mesh, region);
   Selection selection;
-  if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
+  if (region.part) {
+    selection = select_part(mesh, region);
+  } else if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
     selection = group->second;
   } else if (region.radius) {
     selection = select_patch(mesh, region);

@@ -37,6 +37,49 @@ TEST_CASE("a patch around a point is read") {
   CHECK(c.loads[0].region.radius == 2.5);
 }
 
+TEST_CASE("a part of the body in a box or beyond a plane is read as a region") {
+  const Case c = read_text(replaced(good_case, "region = 'z-'",
+                                    "region = { box = [[0, 0, 0], [1, 2, 3]], beyond = { point = [1, 1, 1], "
+                                    "normal = [0, 3, 4] } }"));
+  const Region& region = c.fixed[0].region;
+  REQUIRE(region.part);
+  CHECK(region.part->cell_class.empty());
+  CHECK(region.part->lower == Eigen::Vector3d(0, 0, 0));
+  CHECK(region.part->upper == Eigen::Vector3d(1, 2, 3));
+  CHECK(region.part->point == Eigen::Vector3d(1, 1, 1));
+  CHECK((region.part->normal - Eigen::Vector3d(0, 0.6, 0.8)).norm() <= 1e-16); // rounding of 3/5
+}
+
+TEST_CASE("a mistake in a part of the body is refused where it is made") {
+  check_mistakes({
+      {"region = 'z-'", "region = {}", 13, "fixed[0].region", {"class, box and beyond"}},
+      {"region = 'z-'", "region = 7", 13, "fixed[0].region", {"is 7"}},
+      {"region = 'z-'", "region = { class = 'bone' }", 13, "fixed[0].region.class", {"classes of cells"}},
+      {"region = 'z-'", "region = { bx = 1 }", 13, "fixed[0].region.bx", {"allowed are beyond, box, class"}},
+      {"region = 'z-'",
+       "region = { box = [[0, 0, 1], [1, 1, 0]] }",
+       13,
+       "fixed[0].region.box",
+       {"the lower first"}},
+      {"region = 'z-'", "region = { box = [[0, 0, 1]] }", 13, "fixed[0].region.box", {"two corners"}},
+      {"region = 'z-'",
+       "region = { beyond = { point = [0, 0, 0] } }",
+       13,
+       "fixed[0].region.beyond.normal",
+       {"is missing"}},
+      {"region = 'z-'",
+       "region = { beyond = { point = [0, 0, 0], normal = [0, 0, 0] } }",
+       13,
+       "fixed[0].region.beyond.normal",
+       {"not all 0"}},
+      {"region = 'z+'\nkind = 'nodal_force'",
+       "region = { box = [[0, 0, 0], [9, 9, 9]] }\nkind = 'traction'",
+       15,
+       "load[0].region",
+       {"has no area"}},
+  });
+}
+
 TEST_CASE("a mistake in [[fixed]] or [[symmetry]] is refused where it is made") {
   check_mistakes({
       {"[[fixed]]\nregion = 'z-'\n", "", 1, "fixed", {"is missing", "nothing holds the body"}},

@@ -207,6 +207,42 @@ TEST_CASE("a patch has the faces of the surface around its point, and a finer me
   CHECK(make_scene(definition).loads[0].selection.faces.size() == 3); // round the corner
 }
 
+TEST_CASE("a part of the body has the nodes in its box, on and beyond its plane") {
+  const HexMesh mesh = make_box_mesh({0.3, 0.3, 0.6}, {3, 3, 6});
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto selected = [&](const Part& part) {
+    Region inside = region("part");
+    inside.part = part;
+    return select(mesh, inside);
+  };
+  Part part{"", {-infinity, -infinity, 0.3}, {0.1, infinity, infinity}};
+  CHECK(selected(part).nodes.size() == 2 * 4 * 4); // of x 0 and 0.1, of z 0.3 to 0.6, rounded as they are
+  CHECK(selected(part).edges.size() == 16 + 2 * 3 * 4 + 2 * 4 * 3);
+  part.point = Vector3d(0, 0, 0.4);
+  part.normal = Vector3d(0, 0, -1);
+  CHECK(selected(part).nodes.size() == 2 * 4 * 2);
+  part.point = Vector3d(0, 0, 0.2);
+  CHECK_THROWS_WITH(selected(part), Catch::Contains("'part' selects no node"));
+}
+
+TEST_CASE("a class of cells has the nodes of its cells, on finer meshes too") {
+  HexMesh mesh = make_box_mesh({2, 2, 4}, {2, 2, 4});
+  mesh.group_of_cell.assign(16, "fat");
+  for (std::size_t c = 0; c < 8; ++c) mesh.group_of_cell[c] = "bone"; // z from 0 to 2
+  Region bone = region("bone");
+  const double infinity = std::numeric_limits<double>::infinity();
+  bone.part = Part{"bone", Vector3d::Constant(-infinity), Vector3d::Constant(infinity)};
+  CHECK(select(mesh, bone).nodes.size() == 3 * 3 * 3);
+  CHECK(select(refine(mesh), bone).nodes.size() == 5 * 5 * 5);
+  CHECK(select(refine(mesh), bone).faces.size() == 6 * 64); // of each of its cells
+  bone.part->point = Vector3d(0, 0, 1.2);
+  bone.part->normal = Vector3d::UnitZ();
+  CHECK(select(mesh, bone).nodes.size() == 3 * 3);
+  CHECK(select(refine(mesh), bone).nodes.size() == 2 * 5 * 5); // 1.5 is one of its planes
+  bone.part->cell_class = "skin";
+  CHECK_THROWS_AS(select(mesh, bone), InputError);
+}
+
 TEST_CASE("a cell is of the last material whose region has its centre, and its children are too") {
   Case definition = box({2, 1, 4}, {2, 1, 4});
   definition.material = LinearElastic{1, 0.3};
