@@ -61,8 +61,7 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
     const double now = dot(residual, preconditioned), keep = (now - crossed) / slope;
     slope = now;
     for_each_piece(n, n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length_) {
-      direction.segment(first, length_) =
-          preconditioned.segment(first, length_) + keep * direction.segment(first, length_);
+      scale_and_add(direction.data() + first, keep, preconditioned.data() + first, length_);
     });
   }
 }

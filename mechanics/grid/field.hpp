@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mechanics/grid/loops.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
@@ -31,7 +33,15 @@ void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
 template<class Real>
 void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {
   for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    a.segment(first, n) += factor * b.segment(first, n);
+    add(a.data() + first, factor, b.data() + first, n);
+  });
+}
+
+/// a += b * c, entry by entry
+template<class Real>
+void add_product(Field<Real>& a, const Field<Real>& b, const Field<Real>& c, int n_threads) {
+  for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    add_product(a.data() + first, b.data() + first, c.data() + first, n);
   });
 }
 

@@ -10,16 +10,7 @@ inline void apply_blocks(const float* blocks, const Field<float>& in, Field<floa
                          float factor, int n_threads) {
   const std::ptrdiff_t n = in.size() / 3;
   for_each_piece(n, n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
-    const float *x = in.data() + first, *y = x + n, *z = y + n, *block = blocks + first;
-    float *u = out.data() + first, *v = u + n, *w = v + n;
-#pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < length; ++i) {
-      const float xx = block[i], yy = block[i + n], zz = block[i + 2 * n], yz = block[i + 3 * n],
-                  xz = block[i + 4 * n], xy = block[i + 5 * n];
-      u[i] = keep * u[i] + factor * (xx * x[i] + xy * y[i] + xz * z[i]);
-      v[i] = keep * v[i] + factor * (xy * x[i] + yy * y[i] + yz * z[i]);
-      w[i] = keep * w[i] + factor * (xz * x[i] + yz * y[i] + zz * z[i]);
-    }
+    apply_blocks(blocks + first, in.data() + first, out.data() + first, n, keep, factor, length);
   });
 }
 

@@ -67,6 +67,7 @@ std::optional<Body> coarsen(const Body& fine);
 using mechanics::grid::Field;
 
 using mechanics::grid::add;
+using mechanics::grid::add_product;
 using mechanics::grid::for_each_piece;
 using mechanics::grid::piece;
 
@@ -98,6 +99,13 @@ double dot_of_parts(const Body& body, const Field<Real>& a, const Field<Real>& b
   return sum;
 }
 
+inline double dot_of_piece(const double* a, const double* b, std::ptrdiff_t n) {
+  return mechanics::grid::dot(a, b, n);
+}
+inline double dot_of_piece(const float* a, const float* b, std::ptrdiff_t n) {
+  return static_cast<double>(Eigen::Map<const Field<float>>(a, n).dot(Eigen::Map<const Field<float>>(b, n)));
+}
+
 } // namespace detail
 
 /// Over the nodes of the whole grid.
@@ -111,7 +119,7 @@ double dot(const Body& body, const Field<Real>& a, const Field<Real>& b, int n_t
     for_each_piece(std::min(at_once, a.size() - start), n_threads,
                    [&](std::ptrdiff_t first, std::ptrdiff_t n) {
                      part[static_cast<std::size_t>(first / piece)] =
-                         static_cast<double>(a.segment(start + first, n).dot(b.segment(start + first, n)));
+                         detail::dot_of_piece(a.data() + start + first, b.data() + start + first, n);
                    });
     for (const double value : part) sum += value;
   }

@@ -53,6 +53,7 @@ struct Springs {
   const Real* share_z;
   /// With holes or several stiffnesses: such arrays [k][spring]; else null.
   const Real* by_node;
+  const Real* packed; ///< the same as pack_stiffness() lays it out; null where by_node is
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
   Real rest_volume; ///< mm³
@@ -79,7 +80,12 @@ constexpr std::ptrdiff_t tile = 3;
 
 constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
   const std::ptrdiff_t tile_row = tile * 16;
-  return tile_row * (2 * 27 * (layout.nodes[1] + 2) + 3 * 2 * n_springs) + 24 * 64 + 16;
+  return tile_row * (2 * 27 * (layout.nodes[1] + 2) + 3 * n_springs) + 24 * 64 + 16;
+}
+
+/// Entries of Springs::packed, with any instruction set.
+constexpr std::ptrdiff_t packed_size(const Layout& layout) {
+  return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * ((layout.nodes[0] + 15) / 16 * 16) * n_springs;
 }
 
 template<class Real>
@@ -92,6 +98,8 @@ struct Kernels {
   /// Diagonal 3x3 blocks of the tangent as six arrays: xx, yy, zz, yz, xz, xy. spill has six planes.
   void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
+  /// The stiffnesses by_node in the order that springs are swept in.
+  void (*pack_stiffness)(const Springs<Real>&, Real* to);
 };
 
 struct InstructionSet {

@@ -96,9 +96,8 @@ template<class Action>
 constexpr std::ptrdiff_t sums_at = Action::needs_direction ? 18 : 9;
 constexpr std::ptrdiff_t direction_at = 9;
 
-// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs and then k l0 of the 13, 0
-// beyond the row's end.
-constexpr std::ptrdiff_t stiffness_packs = 2 * n_springs;
+// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs, 0 beyond the row's end.
+constexpr std::ptrdiff_t stiffness_packs = n_springs;
 
 /// Three packs one after the other.
 template<class Real>
@@ -140,11 +139,28 @@ void fill_stiffness(const Springs<Real>& s, const Tile& t, int k, int j, Real* t
       const Share<Real> share = spring_share(s, spring, k);
       P stiffness = share.scale * load(share.share + j * s.layout.row + i);
       if (n_left < lanes) stiffness = first_of(n_left, stiffness, P{});
-      Real* const out = to + (p * stiffness_packs + spring) * lanes;
-      store(out, stiffness);
-      store(out + n_springs * lanes, s.rest_length[spring] * stiffness);
+      store(to + (p * stiffness_packs + spring) * lanes, stiffness);
     }
   }
+}
+
+template<class Real>
+std::ptrdiff_t packs_of_row(const Layout& layout) {
+  return (layout.nodes[0] + pack_size<Real> - 1) / pack_size<Real>;
+}
+
+/// Where the stiffnesses of a row by node begin, in whole rows one after the other.
+template<class Real>
+SPRINGPROOF_INLINE std::ptrdiff_t packed_row(const Layout& layout, int k, int j) {
+  return (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout) * stiffness_packs *
+         pack_size<Real>;
+}
+
+template<class Real>
+void pack_stiffness(const Springs<Real>& s, Real* to) {
+  for (int k = 0; k < s.layout.nodes[2]; ++k)
+    for (int j = 0; j < s.layout.nodes[1]; ++j)
+      fill_stiffness(s, {0, packs_of_row<Real>(s.layout), true}, k, j, to + packed_row<Real>(s.layout, k, j));
 }
 
 /// One vector field along a row into the scratch; h is what lies between neighbours.
@@ -168,16 +184,16 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
 /// displacement
 /// @param to    the pack at the senders' place in the other row
 template<int spring, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from,
-                                     const Vec<Pack<Real>>& v, const Real* stiffness, Real* to,
-                                     Vec<Pack<Real>>& own) {
+SPRINGPROOF_INLINE void sweep_spring(const Springs<Real>& s, const Action& action,
+                                     const Vec<Pack<Real>>& from, const Vec<Pack<Real>>& v,
+                                     const Real* stiffness, Real* to, Vec<Pack<Real>>& own) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (spring_steps[spring][0] + 1) * lanes;
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
-  const Vec<P> f = action(d, change, load(stiffness + spring * lanes),
-                          load(stiffness + (n_springs + spring) * lanes), spring);
+  const P k = load(stiffness + spring * lanes);
+  const Vec<P> f = action(d, change, k, s.rest_length[spring] * k, spring);
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
   // Rows are swept upwards: nothing has come before to the row and plane after the senders'.
@@ -190,7 +206,7 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
 /// The three springs of a group.
 /// @param edge  from a node to its neighbours along x, y, z at rest
 template<int group, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
+SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, const Action& action, const Vec<Pack<Real>>& edge,
                                     const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
                                     Real* plane, Vec<Pack<Real>>& own) {
   constexpr int dy = spring_steps[3 * group][1], dz = spring_steps[3 * group][2];
@@ -198,9 +214,9 @@ SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>&
   if constexpr (dy != 0) from.y = (dy == 1 ? edge.y : -edge.y) - u.y;
   if constexpr (dz == 1) from.z = edge.z - u.z;
   Real* const to = plane + dy * tile * node_packs<Action> * pack_size<Real>;
-  sweep_spring<3 * group>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 1>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 2>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group>(s, action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 1>(s, action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 2>(s, action, from, v, stiffness, to, own);
 }
 
 /// All springs of a tile's packs in one row.
@@ -218,13 +234,13 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
     if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
     Real* const sum = here + (sums_at<Action> + 3) * lanes;
     Vec<P> own = load_three(sum);
-    sweep_spring<n_springs - 1>(action, Vec<P>{} - u, v, stiffness, here, own);
+    sweep_spring<n_springs - 1>(s, action, Vec<P>{} - u, v, stiffness, here, own);
     if constexpr (upwards) {
-      sweep_group<0>(action, edge, u, v, stiffness, above, own);
-      sweep_group<1>(action, edge, u, v, stiffness, above, own);
-      sweep_group<2>(action, edge, u, v, stiffness, above, own);
+      sweep_group<0>(s, action, edge, u, v, stiffness, above, own);
+      sweep_group<1>(s, action, edge, u, v, stiffness, above, own);
+      sweep_group<2>(s, action, edge, u, v, stiffness, above, own);
     }
-    sweep_group<3>(action, edge, u, v, stiffness, here, own);
+    sweep_group<3>(s, action, edge, u, v, stiffness, here, own);
     store_three(sum, own);
     here += node_packs<Action> * lanes;
     above += node_packs<Action> * lanes;
@@ -291,7 +307,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   };
   // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are
   // the same in all planes but the first and the last.
-  const auto kind = [&](int j) { return s.by_node || j == 0 ? 0 : j == rows - 1 ? 2 : 1; };
+  const auto kind = [&](int j) { return j == 0 ? 0 : j == rows - 1 ? 2 : 1; };
 
   // Rows outside the body: they only meet springs of no stiffness, but must be numbers.
   for (int k = slab.first; k < slab.first + 2; ++k) {
@@ -304,7 +320,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   }
   for (int k = slab.first; k < slab.last; ++k) {
     const bool upwards = k + 1 < layout.nodes[2];
-    if (!s.by_node && (k == slab.first || k == 1 || !upwards))
+    if (!s.packed && (k == slab.first || k == 1 || !upwards))
       for (int j = 0; j < rows; j = j == 1 && rows > 3 ? rows - 1 : j + 1)
         fill_stiffness(s, t, k, j, stiffness + kind(j) * stiffness_row);
     if (upwards) {
@@ -312,8 +328,9 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       unpack_row(k + 1, 0);
     }
     for (int j = 0; j < rows; ++j) {
-      if (s.by_node) fill_stiffness(s, t, k, j, stiffness);
-      const Real* const of_row = stiffness + kind(j) * stiffness_row;
+      const Real* const of_row =
+          s.packed ? s.packed + packed_row<Real>(layout, k, j) + t.first * stiffness_packs * lanes
+                   : stiffness + kind(j) * stiffness_row;
       Real *const here = first_row(k) + j * row, *const above = first_row(k + 1) + j * row;
       if (upwards) {
         if (j + 1 < rows) unpack_row(k + 1, j + 1);
@@ -332,8 +349,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
 template<class Real, class Action>
 void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
                    const Real* displacement, const Real* direction, Real* result) {
-  const std::ptrdiff_t n_packs = (s.layout.nodes[0] + pack_size<Real> - 1) / pack_size<Real>,
-                       n_tiles = (n_packs + tile - 1) / tile;
+  const std::ptrdiff_t n_packs = packs_of_row<Real>(s.layout), n_tiles = (n_packs + tile - 1) / tile;
   for (std::ptrdiff_t t = 0; t < n_tiles; ++t) {
     const std::ptrdiff_t first = n_packs * t / n_tiles, last = n_packs * (t + 1) / n_tiles;
     sweep_tile(s, slab, {first, last - first, t + 1 == n_tiles}, action, displacement, direction, result);

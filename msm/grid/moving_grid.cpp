@@ -128,7 +128,7 @@ class MovingGrid : public MovingSprings {
     multigrid_.reset(); // it refers to the bodies
     const Body all = damping_body_ ? stiffened(body_, damping_factor_, *damping_body_) : body_;
     bodies_ = coarsenings(all);
-    multigrid_.emplace(bodies_, n_threads_);
+    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
     multigrid_->set_diagonal(scale_of(all) * diagonal());
     is_slow_ = true;
   }
@@ -136,9 +136,7 @@ class MovingGrid : public MovingSprings {
   void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp) {
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, at, v, out);
-      for_each_piece(out.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-        out.segment(first, n) += diagonal().segment(first, n).cwiseProduct(v.segment(first, n));
-      });
+      add_product(out, diagonal(), v, n_threads_);
       if (!damping_) return;
       damping_->product(Clamp::no, rest_, v, damped_);
       add(out, terms().damping, damped_, n_threads_);

@@ -9,7 +9,6 @@ namespace {
 
 using mechanics::grid::apply_blocks;
 
-constexpr mechanics::grid::Chebyshev smoother{3, 8};
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
 /// Calls action(stiffness) for all stiffnesses of a body.
@@ -61,7 +60,9 @@ Multigrid::Level::Level(const Body& of, int n_threads)
     field->setZero(3 * of.layout.size);
 }
 
-Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads) : n_threads_(n_threads) {
+Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads,
+                     const mechanics::grid::Chebyshev& smoother)
+    : smoother_(smoother), n_threads_(n_threads) {
   for (const Body& body : bodies) levels_.emplace_back(body, n_threads);
   for (std::size_t l = 0; l + 1 < bodies.size(); ++l)
     transfers_.emplace_back(bodies[l], bodies[l + 1], n_threads);
@@ -108,9 +109,7 @@ void Multigrid::linearise(const Field<double>& displacement) {
 void Multigrid::multiply(const Level& level, const Field<float>& direction, Field<float>& product) const {
   level.springs.product(Clamp::yes, level.displacement, direction, product);
   if (level.diagonal.size() == 0) return;
-  for_each_piece(product.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
-    product.segment(first, n) += level.diagonal.segment(first, n).cwiseProduct(direction.segment(first, n));
-  });
+  add_product(product, level.diagonal, direction, n_threads_);
 }
 
 /// Of the preconditioned matrix no eigenvalue is much less than the least share that the added diagonal has
@@ -122,7 +121,7 @@ bool Multigrid::needs_no_coarser(const Level& level) const {
   const float least = (inverse > 0)
                           .select(level.diagonal.array() * inverse, std::numeric_limits<float>::infinity())
                           .minCoeff();
-  return least * static_cast<float>(smoother.share) >= static_cast<float>(level.largest_eigenvalue);
+  return least * static_cast<float>(smoother_.share) >= static_cast<float>(level.largest_eigenvalue);
 }
 
 /// Of the inverse diagonal times the tangent, by the power method; its vector is kept for the next time.
@@ -180,7 +179,7 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
     apply_blocks(level.inverse_diagonal.data(), level.residual, level.correction, keep, factor, n_threads_);
   };
   mechanics::grid::smooth(
-      smoother, 1.15 * level.largest_eigenvalue, // the power method comes from below
+      smoother_, 1.15 * level.largest_eigenvalue, // the power method comes from below
       precondition, [&](bool keeps) { correct(level, keeps); }, keeps_residual);
 }
 

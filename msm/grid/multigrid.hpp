@@ -16,6 +16,11 @@ std::deque<Body> coarsenings(const Body& finest);
 /// One over that power of two.
 double scale_of(const Body& finest);
 
+/// What a cycle smooths with in equilibrium: the lowest motions of a body take most of the iterations.
+constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
+/// And in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
+constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
+
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: one
 /// V-cycle in single precision. Coarse lattices are rediscretised at the sampled displacement; the smoother
 /// is Chebyshev's iteration on the block Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before
@@ -24,7 +29,8 @@ double scale_of(const Body& finest);
 class Multigrid {
  public:
   /// @param bodies  must outlive it; on parts of a body every function is collective
-  Multigrid(const std::deque<Body>& bodies, int n_threads);
+  Multigrid(const std::deque<Body>& bodies, int n_threads,
+            const mechanics::grid::Chebyshev& smoother = smoother_at_rest);
 
   /// From the next linearise() on.
   /// @param diagonal  of the finest body, N/mm times scale_of() it; 0 on constrained entries
@@ -47,6 +53,7 @@ class Multigrid {
     Field<float> rough; ///< guess of the mode of the largest eigenvalue
     double largest_eigenvalue = 0;
   };
+  mechanics::grid::Chebyshev smoother_;
   std::deque<Level> levels_;
   std::deque<Transfer<float>> transfers_; ///< between levels l and l + 1
   int n_threads_;

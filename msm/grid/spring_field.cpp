@@ -117,6 +117,12 @@ void SpringField<Real>::set_by_node() {
       stiffness[(n_springs * k + s) * layout.plane + i + layout.row * j] = static_cast<Real>(sum);
     });
   }
+  constexpr std::ptrdiff_t line = 64 / sizeof(Real); // of the cache
+  Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(packed_size(layout) + line));
+  const auto at = reinterpret_cast<std::size_t>(packed.data()) / sizeof(Real);
+  Real* const start = packed.data() + (line - static_cast<std::ptrdiff_t>(at) % line) % line;
+  kernels<Real>().pack_stiffness(springs_, start);
+  springs_.packed = start;
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.

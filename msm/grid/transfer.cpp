@@ -95,6 +95,9 @@ Transfer<Real>::Transfer(const Body& fine, const Body& coarse, int n_threads)
     shift_[a] =
         fine.part ? (is_coarsened_[a] ? 2 : 1) * coarse_here_.part->first[a] - fine.part->first[a] : 0;
   }
+  if (!fine.is_uniform())
+    for_each_place(fine.layout.nodes,
+                   [&](int i, int j, int k) { has_cell_.push_back(has_cell(fine, i, j, k) ? 1 : 0); });
   const Layout &from = fine.layout, &to = coarse_here_.layout;
   rows_.resize(std::max(from.nodes[0], to.nodes[0]) + lead + trail, std::max(from.nodes[2], to.nodes[2]));
 }
@@ -152,15 +155,19 @@ void Transfer<Real>::sample_here(const Field<Real>& fine, Field<Real>& coarse) c
   const Layout &from = fine_.layout, &to = coarse_here_.layout;
   // Of a part's ghosts not all cells are here: such a mean may be of fewer nodes than on the whole body,
   // which only the preconditioner meets.
+  const auto moves = [&](int i, int j, int k) {
+    return has_cell_.empty() ||
+           has_cell_[cases::index((std::ptrdiff_t{k} * from.nodes[1] + j) * from.nodes[0] + i)] != 0;
+  };
   const auto around = [&](int component, const int(&node)[3]) {
     const auto& [i, j, k] = node;
-    if (has_cell(fine_, i, j, k)) return fine[from.at(i, j, k, component)];
+    if (moves(i, j, k)) return fine[from.at(i, j, k, component)];
     Real sum = 0;
     int n = 0;
     for (int c = std::max(k - 1, 0); c <= std::min(k + 1, fine_.cells[2]); ++c)
       for (int b = std::max(j - 1, 0); b <= std::min(j + 1, fine_.cells[1]); ++b)
         for (int a = std::max(i - 1, 0); a <= std::min(i + 1, fine_.cells[0]); ++a)
-          if (has_cell(fine_, a, b, c)) {
+          if (moves(a, b, c)) {
             sum += fine[from.at(a, b, c, component)];
             ++n;
           }

@@ -27,6 +27,7 @@ class Transfer {
   bool is_coarsened_[3];    ///< along x, y, z
   int shift_[3]; ///< node i of the coarse body here lies on node 2 i + shift (i + shift) of the fine one
   int n_threads_;
+  std::vector<char> has_cell_; ///< of every node of the fine body; empty: of all
   mutable Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> rows_; ///< room: a row for every plane
 
   bool gathers() const { return &coarse_ != &coarse_here_; }
