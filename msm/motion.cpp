@@ -16,9 +16,11 @@ namespace {
 /// @param springs  as a Model takes them
 template<class Springs>
 Points start_of(const cases::Scene& scene, const Springs& springs, const ModelOptions& options,
-                const mechanics::EquilibriumSettings& settings) {
+                const mechanics::IntegrationSettings& steps) {
   if (scene.definition.dynamics->start == cases::MotionStart::rest)
     return Points(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  // What a step in real time may leave is no equilibrium.
+  const auto settings = steps.enough_linear_iterations ? mechanics::EquilibriumSettings{} : steps.newton;
   return Model(cases::scene_before_start(scene), springs, options).solve(settings).displacement;
 }
 
@@ -51,7 +53,7 @@ cases::Solution follow(const cases::Scene& scene, Lattice lattice, Lattice dampi
   const auto statics = make_direct_system(problem);
   const auto motion = make_moving_lattice(problem, *statics, make_inertia(scene, std::move(damping)));
   return follow(
-      scene, problem, *motion, to_vector(problem, start_of(scene, problem.lattice, {}, settings.newton)),
+      scene, problem, *motion, to_vector(problem, start_of(scene, problem.lattice, {}, settings)),
       [&](const Vector& state) { return to_points(problem, state); }, settings);
 }
 
@@ -66,7 +68,7 @@ cases::Solution follow(const cases::Scene& scene, const std::vector<CellStiffnes
   const auto statics = grid::make_grid_system(grid, options.n_threads);
   const auto motion = grid::make_moving_grid(problem, grid, *statics, make_inertia(scene, {}),
                                              damping_stiffness(scene, stiffness), options.n_threads);
-  Vector start = grid::to_field(problem, grid.body, start_of(scene, stiffness, options, settings.newton));
+  Vector start = grid::to_field(problem, grid.body, start_of(scene, stiffness, options, settings));
   const auto points = [&](const Vector& state) { return grid::to_points(problem, grid.body, state); };
   try {
     return follow(scene, problem, *motion, std::move(start), points, settings);

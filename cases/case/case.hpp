@@ -219,6 +219,7 @@ struct Msm {
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
   std::vector<Doubt> accepted;                       ///< not held against the side
   PointMass mass = PointMass::cells;
+  std::optional<int> iterations_per_step; ///< in time: of conjugate gradients, as a simulator's step has them
   Where where;
 };
 

@@ -277,6 +277,10 @@ Msm read_msm(Table& table, const Case& definition) {
   read_fit(table, msm);
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
+  table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
+                      "left out without [dynamics]");
+  msm.iterations_per_step =
+      table.optional("iterations_per_step", WholeNumber{"a whole number from 1 to 1000", 1, 1000});
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);
   if (!needed.empty()) table.entry("design").refuse(needed);

@@ -54,8 +54,10 @@ struct Trajectory {
     int step;                                  ///< place among the times
     std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   };
-  std::vector<Body> bodies; ///< every write_every steps; the first and the last
-  int halved_steps = 0;     ///< how often a step was halved, because its equation was not solved
+  std::vector<Body> bodies;    ///< every write_every steps; the first and the last
+  int halved_steps = 0;        ///< how often a step was halved, because its equation was not solved
+  int unfinished_steps = 0;    ///< that were taken with more residual than the tolerance, in real time
+  double largest_residual = 0; ///< that a step was left with, relative to the forces of the motion
 };
 
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no

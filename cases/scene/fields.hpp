@@ -60,7 +60,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_au
                    has_auto_accuracy, accepted, mass, where)
 SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poissons_ratio, split, stiffness,
                    axis_stiffness, uniform_stiffness, volume_stiffness, network, paths, weights, strain_range,
-                   has_volume_term, accepted, mass, where)
+                   has_volume_term, accepted, mass, iterations_per_step, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
                    centre, region, point, tensor_component, point_where, where, over_time)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
@@ -91,7 +91,8 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
-SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps)
+SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
+                   unfinished_steps, largest_residual)
 
 /// Who shares it is for the reader to know.
 template<class Archive>

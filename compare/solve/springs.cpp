@@ -255,10 +255,13 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
     return solve_side(
         [&] { return *(design = design_for(scene)); },
         [&](msm::DesignResult& springs) {
+          const std::optional<int> enough = scene.definition.msm.iterations_per_step;
+          const auto steps = enough ? mechanics::in_real_time(*enough) : mechanics::IntegrationSettings{};
           if (!springs.terms)
-            return msm::follow(scene, stiffness_of_cells(springs), {msm::Path::automatic, n_threads, {}, {}});
+            return msm::follow(scene, stiffness_of_cells(springs), {msm::Path::automatic, n_threads, {}, {}},
+                               steps);
           MovingSprings moving = make_moving_springs(scene, springs);
-          return msm::follow(scene, std::move(moving.lattice), std::move(moving.damping));
+          return msm::follow(scene, std::move(moving.lattice), std::move(moving.damping), steps);
         });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);

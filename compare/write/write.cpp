@@ -27,6 +27,10 @@ void write_motion_text(std::ostream& out, const cases::Trajectory& motion, doubl
   const double simulated = motion.time.back() - motion.time.front();
   print(out, "       {} steps to {:.6g} s ({} halved), real time x {:.3g}\n", motion.time.size() - 1,
         motion.time.back(), motion.halved_steps, simulated / seconds);
+  if (motion.unfinished_steps > 0)
+    print(out,
+          "       {} steps ended in real time with more than 1 % of the loads unbalanced, {:.2g} % at most\n",
+          motion.unfinished_steps, 100 * motion.largest_residual);
 }
 
 void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side,

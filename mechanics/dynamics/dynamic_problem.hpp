@@ -11,6 +11,8 @@ struct StepTerms {
   const Vector& force;          ///< N, on free degrees of freedom: loads, and M and C times what is known
   const Vector& supports; ///< mm: constrained entries are where the step holds them; others mean nothing
   double scale = 0;       ///< N: forces of the motion, which residuals are relative to
+  /// Iterations of a linear solver, of the step in all; none: as many as it takes.
+  std::optional<int> enough_linear_iterations = {};
 };
 
 /// Nonlinear equations of a body that has mass. Masses are in tonnes (N s²/mm). In a step in time

@@ -26,8 +26,10 @@ class Record {
     if (step % dynamics_.write_every == 0 || step == dynamics_.n_steps())
       trajectory_.bodies.push_back({step, displacement});
   }
-  cases::Trajectory finish(int n_halvings) {
-    trajectory_.halved_steps = n_halvings;
+  cases::Trajectory finish(const TimeIntegrator& motion) {
+    trajectory_.halved_steps = motion.n_halvings();
+    trajectory_.unfinished_steps = motion.n_unfinished();
+    trajectory_.largest_residual = motion.largest_residual();
     return std::move(trajectory_);
   }
 
@@ -58,7 +60,7 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
     so_far.load_reached = motion.now().time / dynamics.end;
     throw cases::SolveError(error.what(), std::move(so_far));
   }
-  FollowedMotion followed{motion.now().displacement, record.finish(motion.n_halvings()), motion.work()};
+  FollowedMotion followed{motion.now().displacement, record.finish(motion), motion.work()};
   followed.work.load_reached = 1;
   followed.work.n_unknowns = body.problem.n_unknowns();
   followed.work.work = body.problem.work();

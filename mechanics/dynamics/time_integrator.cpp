@@ -10,6 +10,14 @@
 
 namespace springproof::mechanics {
 
+IntegrationSettings in_real_time(int linear_iterations) {
+  IntegrationSettings settings;
+  settings.newton.tolerance = 1e-2;
+  settings.newton.enough_newton_per_step = 2;
+  settings.enough_linear_iterations = linear_iterations;
+  return settings;
+}
+
 TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
                                const IntegrationSettings& settings)
     : problem_(problem), scheme_(scheme), settings_(settings), newton_(problem, settings_.newton, work_),
@@ -80,7 +88,10 @@ bool TimeIntegrator::try_step(double to) {
     problem_.residual(place_, 0, Expect::residual, residual_);
     scale_ = terms.scale = std::max(scale_, norm(residual_));
   }
+  terms.enough_linear_iterations = settings_.enough_linear_iterations;
   if (!solve(terms, c, to)) return false;
+  if (work_.residual > settings_.newton.tolerance) ++n_unfinished_;
+  largest_residual_ = std::max(largest_residual_, work_.residual); // a NaN was refused
   finish_step(c, to);
   return true;
 }

@@ -16,6 +16,8 @@ struct IntegrationSettings {
   EquilibriumSettings newton =
       nearly_linear();   ///< its tolerance, limits on iterations and should_stop, of each step
   int max_halvings = 10; ///< of a step whose equation is not solved
+  /// Iterations of a step's linear solver, in all; see in_real_time().
+  std::optional<int> enough_linear_iterations = {};
 
   /// Of a step that changes little: its first direction leads all the way.
   static EquilibriumSettings nearly_linear() {
@@ -24,6 +26,11 @@ struct IntegrationSettings {
     return settings;
   }
 };
+
+/// A step of a bounded length: it ends with a residual of 1 % of the loads, or after two iterations of
+/// Newton's method and so many of the linear solver, whatever is left then. Simulators take one linear
+/// solution a step (Baraff and Witkin 1998).
+IntegrationSettings in_real_time(int linear_iterations);
 
 /// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
 class TimeIntegrator {
@@ -44,6 +51,8 @@ class TimeIntegrator {
   const Motion& now() const { return now_; }
   const Equilibrium& work() const { return work_; } ///< Newton's iterations and the residual of the last step
   int n_halvings() const { return n_halvings_; }    ///< steps that were halved
+  int n_unfinished() const { return n_unfinished_; } ///< steps taken with more residual than the tolerance
+  double largest_residual() const { return largest_residual_; } ///< that a step was left with, relative
 
   /// v . M v / 2, N mm, of the free degrees of freedom.
   double kinetic_energy();
@@ -56,7 +65,8 @@ class TimeIntegrator {
   Newton newton_;
   Motion now_, next_;
   std::optional<Motion> before_; ///< bdf2: the beginning of the last step
-  int n_halvings_ = 0;
+  int n_halvings_ = 0, n_unfinished_ = 0;
+  double largest_residual_ = 0;
   double scale_ = 0;       ///< N: largest forces so far
   bool has_loads_ = false; ///< so far
   std::string failure_;

@@ -26,6 +26,8 @@ struct EquilibriumSettings {
   int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
   int easy_newton_per_step = 8;      ///< a load step that took no more is followed by one of twice the length
   int max_convexified_per_step = 12; ///< of these; what has not converged by then will not
+  /// Iterations after which a state is taken as it is; none: only where the tolerance is met.
+  std::optional<int> enough_newton_per_step = {};
   int max_load_steps = 400;
   int max_newton_iterations = 4000;         ///< in all
   long max_relaxation_iterations = 1000000; ///< of an explicit relaxation

@@ -80,6 +80,7 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     const double norm = result_.residual = size.relative;
     if (!std::isfinite(norm)) return fail("cells turn inside out");
     if (norm <= settings_.tolerance && size.constraints_hold) return true;
+    if (iteration == settings_.enough_newton_per_step && size.constraints_hold) return true;
     if (iteration == max_iterations || result_.convexified_steps > max_convexified)
       return fail("Newton's method does not converge");
     if (iteration == 0) norm_at_first = norm;

@@ -2,6 +2,7 @@
 
 #include "mechanics/grid/conjugate_gradients.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -68,15 +69,23 @@ class MovingGrid : public MovingSprings {
     if (damping_body_) damping_.emplace(*damping_body_, n_threads);
   }
 
+  void set_step(const mechanics::StepTerms& terms) override {
+    MovingSprings::set_step(terms);
+    linear_iterations_ = 0;
+    is_prepared_ = false;
+  }
+
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double forcing,
                  mechanics::Convexity convexity, Vector& step) override {
     const Clamp clamp = convexity == mechanics::Convexity::clamped ? Clamp::yes : Clamp::no;
     const double asked_for = -std::log(forcing); // of conjugate gradients
     if (!is_of_these_factors()) make_multigrid();
+    if (terms().enough_linear_iterations)
+      return cut_direction(at, residual, forcing, clamp, *terms().enough_linear_iterations, step);
     for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
       if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
       if (attempt > 0) multigrid_->linearise(at);
-      solve(at, residual, forcing, clamp);
+      solve(at, residual, forcing, clamp, max_iterations);
       const double slowness = found_.iterations / asked_for;
       if (attempt > 0) usual_slowness_ = slowness;
       is_slow_ = slowness > 2 * usual_slowness_ + 1;
@@ -107,6 +116,8 @@ class MovingGrid : public MovingSprings {
   double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
   bool is_slow_ = true;       ///< it is to be prepared
   bool has_failed_ = false;
+  int linear_iterations_ = 0; ///< in this step
+  bool is_prepared_ = false;  ///< in this step
 
   bool has_stiffness_damping() const override { return damping_.has_value(); }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
@@ -133,7 +144,23 @@ class MovingGrid : public MovingSprings {
     is_slow_ = true;
   }
 
-  void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp) {
+  /// As far as the step's iterations go. Conjugate gradients that are cut off, by a limit or by negative
+  /// curvature, have come down the energy all the same (Steihaug 1983).
+  bool cut_direction(const Vector& at, const Vector& residual, double forcing, Clamp clamp, int enough,
+                     Vector& step) {
+    const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
+    if (is_anew) multigrid_->linearise(at);
+    is_prepared_ = is_prepared_ || is_anew;
+    solve(at, residual, forcing, clamp, std::max(1, enough - linear_iterations_));
+    linear_iterations_ += found_.iterations;
+    const double slowness = found_.iterations / -std::log(forcing);
+    if (is_anew) usual_slowness_ = slowness;
+    is_slow_ = slowness > 2 * usual_slowness_ + 1;
+    step = found_.solution;
+    return found_.iterations > (found_.met_negative_curvature ? 1 : 0);
+  }
+
+  void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations) {
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, at, v, out);
       add_product(out, diagonal(), v, n_threads_);
@@ -143,7 +170,7 @@ class MovingGrid : public MovingSprings {
     };
     mechanics::grid::conjugate_gradients(
         apply, [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); }, right_side,
-        forcing * norm(body_, right_side, n_threads_), max_iterations,
+        forcing * norm(body_, right_side, n_threads_), most_iterations,
         [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
     work_.linear_iterations += found_.iterations;
   }

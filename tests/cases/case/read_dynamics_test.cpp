@@ -89,6 +89,9 @@ TEST_CASE("a dynamic case is read") {
   CHECK(c.masses[0].mass == 0.052);
   CHECK(c.fem.mass == ElementMass::lumped);
   CHECK(c.msm.mass == PointMass::uniform);
+  CHECK_FALSE(c.msm.iterations_per_step);
+  CHECK(read_text(replaced(dynamic_case, "mass = 'uniform'", "mass = 'uniform'\niterations_per_step = 6"))
+            .msm.iterations_per_step == 6);
   CHECK_FALSE(c.fem.has_auto_accuracy);
   CHECK(c.measures[0].over_time == OverTime::frequency);
 }
@@ -159,6 +162,7 @@ TEST_CASE("a mistake in masses, gravity or damping is refused where it is made")
       {"kind = 'gravity'", "kind = 'gravity'\nregion = 'x+'", 23, "load[0].region", {"whole body"}},
       {"[0, 0, -9.81]", "-9.81", 23, "load[0].value", {"three finite numbers (m/s²)"}},
       {"'lumped'", "'lumpy'", 33, "fem.mass", {"\"consistent\" | \"lumped\""}},
+      {"'uniform'", "'uniform'\niterations_per_step = 0", 36, "msm.iterations_per_step", {"from 1 to 1000"}},
       {"'uniform'", "'lumped'", 35, "msm.mass", {"\"cells\" | \"uniform\""}},
       {"[dynamics]",
        "[[region_material]]\naxis = 'x'\nto = 50\nmodel = 'linear_elastic'\n"
@@ -212,6 +216,7 @@ TEST_CASE("what has no meaning in a static case, or none in a dynamic one, is re
        {"[dynamics]"}},
       {"toward = 'x'", "toward = 'x'\nover_time = 'peak'", 32, "measure[0].over_time", {"[dynamics]"}},
       {"refine = 1", "refine = 1\nmass = 'lumped'", 22, "fem.mass", {"density"}},
+      {"split = 0.8", "split = 0.8\niterations_per_step = 6", 26, "msm.iterations_per_step", {"[dynamics]"}},
       {"split = 0.8", "split = 0.8\nmass = 'cells'", 26, "msm.mass", {"density"}},
       {"region = 'z+'\nkind = 'nodal_force'",
        "kind = 'gravity'",

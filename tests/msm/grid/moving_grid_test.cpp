@@ -109,6 +109,30 @@ TEST_CASE("a motion on a grid starts in the equilibrium of its loads") {
   CHECK(moved <= 1e-6 * largest);
 }
 
+TEST_CASE("steps in real time have no more iterations than allowed and say what they left") {
+  // Damped so that it ends at rest, where the last step has nothing left to do.
+  const int n_steps = 200, enough = 3;
+  const cases::Scene scene =
+      block(steps(cases::Scheme::implicit_euler, 0.02, 0.02 * n_steps), {1000., 20, 0});
+  const std::vector<msm::CellStiffness> cells{hybrid_springs};
+  const msm::ModelOptions options{msm::Path::multigrid, 1, {}, {}};
+  const cases::Solution whole = msm::follow(scene, cells, options),
+                        cut = msm::follow(scene, cells, options, mechanics::in_real_time(enough));
+  CHECK(whole.trajectory->unfinished_steps == 0);
+  CHECK(cut.newton_iterations <= 2 * n_steps);
+  CHECK(cut.linear_iterations <= (enough + 1) * n_steps); // the second of Newton's always has one
+  CHECK(whole.linear_iterations > cut.linear_iterations);
+  // What is left is what it says: every step leaves at most so much of the loads, most of them 1 %.
+  CHECK(cut.trajectory->unfinished_steps < n_steps / 4);
+  CHECK((cut.trajectory->unfinished_steps > 0) == (cut.trajectory->largest_residual > 1e-2));
+  const double of_motion = largest_difference(whole, cut);
+  CAPTURE(of_motion, cut.trajectory->unfinished_steps, cut.trajectory->largest_residual);
+  CHECK(of_motion > 0);
+  CHECK(of_motion <= 0.05);
+  const double end = (whole.displacement.back() - cut.displacement.back()).norm();
+  CHECK(end <= 0.01 * whole.displacement.back().norm());
+}
+
 TEST_CASE("a step on a grid is the same bit for bit on one and two threads") {
   const auto end = [](int n_threads) {
     const cases::Scene scene =
