@@ -34,7 +34,41 @@ struct Voxels {
   Where where;
 };
 
-using Body = std::variant<Box, MeshFile, Voxels>;
+/// A class of voxels, and of the cells that they fill.
+struct LabelClass {
+  std::string name;    ///< of no face, and another than the other classes'
+  double lower, upper; ///< intensities, closed, lower <= upper
+  bool is_rigid;       ///< bone: nodes of its cells are held unless something moves them; one class at most
+};
+
+/// Which of the pieces that share no face is the body.
+SPRINGPROOF_ENUMERATION(Keep,
+                        all,     ///< there is but one
+                        largest, ///< the one of the most cells
+                        seed     ///< the one with a point
+)
+
+/// The cells of a picture in three dimensions (NIfTI, NRRD, MetaImage, InVesalius) that are of some class.
+struct Labels {
+  std::string path;                                   ///< as opened, relative paths resolved
+  double edge;                                        ///< mm, > 0, of a cell
+  std::vector<LabelClass> classes;                    ///< 1 to 255; a voxel is of the first that has it
+  std::optional<std::array<Eigen::Vector3d, 2>> crop; ///< mm: two corners, the lower one first
+  Keep keep = Keep::all;
+  Eigen::Vector3d seed = Eigen::Vector3d::Zero(); ///< mm
+  Where where;
+};
+
+using Body = std::variant<Box, MeshFile, Voxels, Labels>;
+
+/// The class whose cells are rigid, if there is one.
+inline const LabelClass* rigid_class(const Body& body) {
+  const Labels* labels = std::get_if<Labels>(&body);
+  if (labels == nullptr) return nullptr;
+  const auto found = std::find_if(labels->classes.begin(), labels->classes.end(),
+                                  [](const LabelClass& one) { return one.is_rigid; });
+  return found == labels->classes.end() ? nullptr : &*found;
+}
 
 struct LinearElastic {
   double youngs_modulus; ///< MPa, > 0

@@ -49,6 +49,12 @@ std::array<bool, 3> read_components(const Entry& entry) {
   return components;
 }
 
+std::vector<std::string> names_of(const std::vector<LabelClass>& classes) {
+  std::vector<std::string> names;
+  for (const LabelClass& one : classes) names.push_back(one.name);
+  return names;
+}
+
 /// Two corners of a box, the lower one first.
 void read_box(const Entry& entry, Part& part) {
   const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
@@ -66,9 +72,11 @@ Region read_part(const Entry& entry, const Body& body) {
   Part& part = region.part.emplace();
   part.upper.setConstant(std::numeric_limits<double>::infinity());
   part.lower = -part.upper;
-  table.refuse_unless(std::holds_alternative<MeshFile>(body), {"class"},
-                      "left out: only a body of shape = \"mesh\" has classes of cells");
+  const Labels* labels = std::get_if<Labels>(&body);
+  table.refuse_unless(labels != nullptr || std::holds_alternative<MeshFile>(body), {"class"},
+                      "left out: only a body of shape = \"labels\" or \"mesh\" has classes of cells");
   part.cell_class = table.optional("class", read_text).value_or("");
+  if (labels != nullptr && !part.cell_class.empty()) table.entry("class").word(names_of(labels->classes));
   region.name = part.cell_class.empty() ? "nodes" : "nodes of " + part.cell_class;
   if (table.has("box")) {
     read_box(table.entry("box"), part);
@@ -229,7 +237,8 @@ void read_boundary(Table& root, Case& result) {
   result.fixed = root.sections("fixed", with_body(read_fixed));
   result.symmetry = root.sections("symmetry", read_symmetry);
   const bool may_fly = result.dynamics && result.dynamics->start == MotionStart::rest;
-  if (result.fixed.empty() && result.symmetry.empty() && !may_fly)
+  const bool is_held = rigid_class(result.body) != nullptr;
+  if (result.fixed.empty() && result.symmetry.empty() && !is_held && !may_fly)
     root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
   for (std::size_t i = 0; i < result.symmetry.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

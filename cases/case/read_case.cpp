@@ -1,5 +1,6 @@
 #include "cases/case/read_case.hpp"
 
+#include "cases/case/read_body.hpp"
 #include "cases/case/read_boundary.hpp"
 #include "cases/case/read_dynamics.hpp"
 #include "cases/case/read_materials.hpp"
@@ -24,35 +25,6 @@ std::string read_case_name(const Entry& entry) {
     entry.refuse("a name without /, \\, quotes, line breaks, and a leading dot, of 200 bytes at most: it "
                  "names files of results");
   return name;
-}
-
-Box read_box(Table& table) {
-  Box box;
-  box.size = table.required("size", Vector{"three numbers above 0 (mm)", is_positive});
-  const Entry entry = table.entry("cells");
-  const std::string allowed = "three whole numbers above 0";
-  double nodes = 1;
-  std::size_t a = 0;
-  for (const Entry& cells : entry.elements(allowed, 3)) {
-    const auto n = cells.value<int64_t>();
-    if (!n || *n < 1 || *n > 1000000) entry.refuse(allowed + ", none above a million");
-    box.cells[a++] = static_cast<int>(*n);
-    nodes *= static_cast<double>(*n) + 1;
-  }
-  if (!(3 * nodes < 2147483647.0)) entry.refuse("fewer: more than 715 million nodes cannot be numbered");
-  return box;
-}
-
-Body read_body(Table& table, const std::string& case_path) {
-  const std::string shape = table.entry("shape").word({"box", "mesh", "voxels"});
-  if (shape == "box") return read_box(table);
-  const Entry file = table.entry(shape == "mesh" ? "file" : "surface");
-  if (shape == "mesh")
-    return MeshFile{read_file_name(file, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path),
-                    file.where};
-  return Voxels{read_file_name(file, {".stl"}, "a closed surface in STL, .stl", case_path),
-                table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive}),
-                file.where};
 }
 
 /// Two nodes that must differ for the direction between them to exist. Different names of one node are found

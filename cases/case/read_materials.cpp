@@ -92,13 +92,22 @@ RegionMaterial read_region_material(Table& table, const Case& definition) {
   region.where = table.where();
   region.upper.setConstant(std::numeric_limits<double>::infinity());
   region.lower = -region.upper;
-  const bool has_group = table.has("group"), has_box = table.has("box"), has_axis = table.has("axis");
+  const Labels* labels = std::get_if<Labels>(&definition.body);
+  const bool has_group = table.has("group") || table.has("class"), has_box = table.has("box"),
+             has_axis = table.has("axis");
   if (has_group + has_box + has_axis != 1)
     table.entry("axis").refuse(
-        "one of group, box, or axis with from and to: which cells are of this material");
+        "one of class, group, box, or axis with from and to: which cells are of this material");
   table.refuse_unless(std::holds_alternative<MeshFile>(definition.body), {"group"},
                       "left out: only a body of shape = \"mesh\" has physical groups");
-  region.group = table.optional("group", read_text).value_or("");
+  table.refuse_unless(labels != nullptr, {"class"},
+                      "left out: only a body of shape = \"labels\" has classes of cells");
+  region.group = table.optional(labels ? "class" : "group", read_text).value_or("");
+  if (labels && has_group) {
+    std::vector<std::string> names;
+    for (const LabelClass& one : labels->classes) names.push_back(one.name);
+    table.entry("class").word(names);
+  }
   if (has_box) read_corners(table.entry("box"), region);
   if (has_axis) read_layer(table, region);
   table.know({"box", "axis", "from", "to"});

@@ -38,6 +38,7 @@ struct Grid {
   /// a bar that is more than thin, if it succeeds.
   double slenderness() const;
   static constexpr double thin = 20;
+  static constexpr double most_cells = 50e6; ///< of a grid that a surface or a picture is filled with
 };
 
 class Sharing;

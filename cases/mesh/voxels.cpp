@@ -1,5 +1,6 @@
 #include "cases/mesh/voxels.hpp"
 
+#include "cases/mesh/pieces.hpp"
 #include "cases/mesh/read_vtk.hpp"
 
 #include <Eigen/Geometry>
@@ -13,8 +14,6 @@ namespace springproof::cases {
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double most_cells = 50e6;
 
 Grid empty_grid(const Surface& surface, const Voxels& voxels) {
   Eigen::AlignedBox3d body;
@@ -30,10 +29,10 @@ Grid empty_grid(const Surface& surface, const Voxels& voxels) {
         std::numeric_limits<float>::epsilon() * std::max(std::abs(body.min()[a]), std::abs(body.max()[a]));
     const double n = std::max(1.0, std::ceil((body.sizes()[a] - rounding) / voxels.edge - 1e-6));
     n_cells *= n;
-    if (!(n_cells <= most_cells))
+    if (!(n_cells <= Grid::most_cells))
       throw InputError(voxels.where,
                        fmt::format("{}: {} mm across needs more than {:.0e} cells of edge {} mm", voxels.path,
-                                   body.sizes().maxCoeff(), most_cells, voxels.edge));
+                                   body.sizes().maxCoeff(), Grid::most_cells, voxels.edge));
     grid.cells[index(a)] = static_cast<int>(n);
   }
   grid.present.assign(grid.n_lattice_cells(), false);
@@ -96,29 +95,8 @@ void fill(Grid& grid, const Surface& surface) {
 }
 
 /// Sizes of the pieces that hang together by faces, the largest first.
-std::vector<std::size_t> pieces(const Grid& grid) {
-  std::vector<std::size_t> sizes, to_visit;
-  std::vector<bool> is_left = grid.present;
-  const auto visit = [&](std::size_t cell) {
-    if (!is_left[cell]) return;
-    is_left[cell] = false;
-    to_visit.push_back(cell);
-  };
-  for (std::size_t first = 0; first < is_left.size(); ++first) {
-    if (!is_left[first]) continue;
-    sizes.push_back(0);
-    for (visit(first); !to_visit.empty(); ++sizes.back()) {
-      const std::size_t cell = to_visit.back();
-      to_visit.pop_back();
-      std::size_t stride = 1;
-      for (const int n_cells : grid.cells) {
-        const std::size_t n = index(n_cells), place = cell / stride % n;
-        if (place > 0) visit(cell - stride);
-        if (place + 1 < n) visit(cell + stride);
-        stride *= n;
-      }
-    }
-  }
+std::vector<std::size_t> sizes_of_pieces(const Grid& grid) {
+  std::vector<std::size_t> sizes = pieces_of(grid).sizes;
   std::sort(sizes.rbegin(), sizes.rend());
   return sizes;
 }
@@ -178,7 +156,7 @@ HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
                        open, surface.size()));
   Grid grid = empty_grid(surface, voxels);
   fill(grid, surface);
-  const std::vector<std::size_t> sizes = pieces(grid);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(grid);
   if (sizes.empty()) refuse(fmt::format("no cell of edge {} mm has its centre inside", voxels.edge));
   if (sizes.size() > 1)
     refuse(fmt::format(

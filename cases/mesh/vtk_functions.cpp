@@ -3,6 +3,7 @@
 #include "cases/mesh/vtk_clouds.hpp"
 #include "cases/mesh/vtk_grid.hpp"
 #include "cases/mesh/vtk_run.hpp"
+#include "cases/mesh/vtk_volumes.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -93,7 +94,8 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 
 } // namespace
 
-extern "C" const VtkFunctions springproof_vtk{write_unstructured_grid, write_lines,   read_points, read_cells,
-                                              read_triangles,          nearest_points};
+extern "C" const VtkFunctions springproof_vtk{
+    write_unstructured_grid, write_lines,    read_points, read_cells,
+    read_triangles,          nearest_points, read_volume};
 
 } // namespace springproof::cases

@@ -3,6 +3,7 @@
 #include "cases/case/solution.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/point_cloud.hpp"
+#include "cases/mesh/volume.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
@@ -35,6 +36,9 @@ struct VtkFunctions {
   /// The index of the point closest to each position.  @param points  at least one
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& positions);
+  /// Reads a file .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3.
+  /// @param most_bytes  of voxels that the file can hold
+  Volume (*read_volume)(const std::string& path, std::uint64_t most_bytes);
 };
 
 /// The symbol by which vtk() finds them.

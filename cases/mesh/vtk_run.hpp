@@ -8,4 +8,7 @@ namespace springproof::cases {
 /// @throws std::runtime_error with its first error, without the place in VTK's source
 void run(vtkAlgorithm& algorithm);
 
+/// The same of a reader that reads no more than what its file says of its content.
+void run_information(vtkAlgorithm& algorithm);
+
 } // namespace springproof::cases

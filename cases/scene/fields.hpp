@@ -40,6 +40,15 @@ void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
+SPRINGPROOF_FIELDS(springproof::cases::LabelClass, name, lower, upper, is_rigid)
+
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Labels& labels) {
+  auto& [path, edge, classes, crop, keep, seed, where] = labels;
+  archive(edge, classes, crop, keep, seed);
+  if constexpr (has_places<Archive>) archive(path, where);
+}
+
 SPRINGPROOF_FIELDS(springproof::cases::Box, size, cells)
 SPRINGPROOF_FIELDS(springproof::cases::LinearElastic, youngs_modulus, poissons_ratio)
 SPRINGPROOF_FIELDS(springproof::cases::Ogden, mu, alpha, bulk_modulus)

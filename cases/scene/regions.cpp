@@ -140,6 +140,21 @@ Selection select_patch(const HexMesh& mesh, const Region& region) {
   return patch;
 }
 
+Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
+                         const std::function<bool(std::size_t)>& is_of_cells) {
+  Selection selection;
+  for (std::size_t n = 0; n < is_selected.size(); ++n)
+    if (is_selected[n]) selection.nodes.push_back(static_cast<int>(n));
+  for (std::size_t c = 0; c < mesh.cells.size() && !selection.nodes.empty(); ++c) {
+    if (!is_of_cells(c)) continue;
+    std::array<bool, 8> vertices;
+    for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(mesh.cells[c][v])];
+    add_sides(mesh.cells[c], vertices, selection);
+  }
+  make_set(selection.edges);
+  return selection;
+}
+
 Selection select_part(const HexMesh& mesh, const Region& region) {
   const Part& part = *region.part;
   const auto is_of_class = [&](std::size_t cell) {
@@ -153,23 +168,14 @@ Selection select_part(const HexMesh& mesh, const Region& region) {
   for (std::size_t c = 0; c < mesh.cells.size() && !part.cell_class.empty(); ++c)
     if (is_of_class(c))
       for (const int node : mesh.cells[c]) is_in_class[index(node)] = true;
-  Selection selection;
   std::vector<bool> is_selected(mesh.nodes.size(), false);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     const Vector3d node = mesh.nodes[n];
     is_selected[n] = is_in_class[n] && (node.array() >= part.lower.array() - rounding).all() &&
                      (node.array() <= part.upper.array() + rounding).all() &&
                      (node - part.point).dot(part.normal) >= -rounding;
-    if (is_selected[n]) selection.nodes.push_back(static_cast<int>(n));
   }
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    if (!is_of_class(c)) continue;
-    std::array<bool, 8> vertices;
-    for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(mesh.cells[c][v])];
-    add_sides(mesh.cells[c], vertices, selection);
-  }
-  make_set(selection.edges);
-  return selection;
+  return select_between(mesh, is_selected, is_of_class);
 }
 
 } // namespace springproof::cases

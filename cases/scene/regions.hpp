@@ -3,6 +3,8 @@
 #include "cases/case/case.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 
+#include <functional>
+
 /// What the kinds of regions select on a mesh; select() in scene.hpp knows which kind one is.
 namespace springproof::cases {
 
@@ -16,6 +18,10 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
 
 /// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
 Selection select_patch(const HexMesh& mesh, const Region& region);
+
+/// Nodes with the edges and faces between them of some of the cells.
+Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
+                         const std::function<bool(std::size_t cell)>& is_of_cells);
 
 /// The nodes of the region's part, and the edges and faces between them of the cells that it is a part of.
 Selection select_part(const HexMesh& mesh, const Region& region);

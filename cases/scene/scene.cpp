@@ -1,6 +1,7 @@
 #include "cases/scene/scene.hpp"
 
 #include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/regions.hpp"
@@ -125,6 +126,27 @@ void resolve_supports(Scene& scene) {
   }
 }
 
+/// What nothing holds or moves of the nodes of rigid cells is held.
+void hold_rigid_nodes(Scene& scene) {
+  if (rigid_class(scene.definition.body) == nullptr) return;
+  const std::vector<bool> is_taken = constrained_dofs(scene);
+  std::vector<bool> is_of_rigid(scene.mesh.nodes.size(), false);
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    if (is_rigid(scene, c))
+      for (const int node : scene.mesh.cells[c]) is_of_rigid[index(node)] = true;
+  for (unsigned held = 1; held < 8; ++held) { // by their free components
+    std::array<bool, 3> components{};
+    for (std::size_t a = 0; a < 3; ++a) components[a] = (held >> a & 1) != 0;
+    std::vector<bool> is_selected(scene.mesh.nodes.size());
+    for (std::size_t n = 0; n < is_selected.size(); ++n)
+      is_selected[n] = is_of_rigid[n] && is_taken[3 * n] != components[0] &&
+                       is_taken[3 * n + 1] != components[1] && is_taken[3 * n + 2] != components[2];
+    Selection selection =
+        select_between(scene.mesh, is_selected, [&](std::size_t c) { return is_rigid(scene, c); });
+    if (!selection.nodes.empty()) scene.constrained.push_back({std::move(selection), components});
+  }
+}
+
 /// A degree of freedom is constrained once: not both fixed and moved, nor moved by two regions.
 void check_motions(const Scene& scene) {
   std::vector<bool> is_taken(3 * scene.mesh.nodes.size(), false);
@@ -187,6 +209,7 @@ void resolve_loads(Scene& scene) {
 HexMesh make_mesh(const Body& body) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
   if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
+  if (const Labels* labels = std::get_if<Labels>(&body)) return make_label_mesh(*labels);
   return read_mesh(std::get<MeshFile>(body));
 }
 
@@ -268,6 +291,11 @@ int material_of(const Scene& scene, std::size_t cell) {
   return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
 }
 
+bool is_rigid(const Scene& scene, std::size_t cell) {
+  const LabelClass* rigid = rigid_class(scene.definition.body);
+  return rigid != nullptr && scene.mesh.group_of_cell[cell] == rigid->name;
+}
+
 namespace {
 
 /// @throws InputError also when a spring of no rest length of its own joins nodes in one place
@@ -296,6 +324,7 @@ Scene make_scene(const Case& definition) {
   add_patches(scene);
   resolve_supports(scene);
   check_motions(scene);
+  hold_rigid_nodes(scene);
   resolve_loads(scene);
   check_sizes(scene);
   for (const AddedMass& added : definition.masses)
@@ -323,6 +352,7 @@ Scene refine(const Scene& scene, int n) {
   for (const int material : scene.material_of_cell) // the children of cell c are 8c .. 8c+7
     fine.material_of_cell.insert(fine.material_of_cell.end(), 8, material);
   resolve_supports(fine);
+  hold_rigid_nodes(fine);
   for (const Scene::AppliedLoad& applied : scene.loads) {
     const Region& region = applied.load.region;
     const LoadKind kind = applied.load.kind;

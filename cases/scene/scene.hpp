@@ -28,9 +28,9 @@ struct Scene {
   };
   Case definition;
   HexMesh mesh;
-  std::vector<int> material_of_cell; ///< in materials_of(definition); empty when there is but one
-  std::vector<ConstrainedNodes>
-      constrained; ///< [[fixed]], [[symmetry]] and [[moved]]: all constrained degrees of freedom
+  std::vector<int> material_of_cell;         ///< in materials_of(definition); empty when there is but one
+  std::vector<ConstrainedNodes> constrained; ///< [[fixed]], [[symmetry]], [[moved]] and nodes of rigid cells:
+                                             ///< all constrained degrees of freedom
   std::vector<MovedNodes> moved;
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
@@ -49,6 +49,9 @@ std::vector<Material> materials_of(const Case& definition);
 
 /// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
+
+/// Whether a cell is of the class of a labelled volume that is rigid.
+bool is_rigid(const Scene& scene, std::size_t cell);
 
 /// Builds or reads the body's mesh and resolves every region of the case (those of measures too).
 /// @throws InputError with the place in the case file

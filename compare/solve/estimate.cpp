@@ -1,6 +1,7 @@
 #include "compare/solve/estimate.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/labels.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "compare/solve/progress.hpp"
 #include "compare/solve/solvers.hpp"
@@ -112,6 +113,17 @@ std::optional<BodySize> size_of(const cases::Case& definition) {
       return std::nullopt;
     }
     body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
+  } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
+    try {
+      const cases::LabelGrid labelled = cases::read_label_grid(*labels);
+      const auto& classes = labelled.class_of_cell;
+      body.n_cells =
+          static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));
+      grid.cells = labelled.cells;
+    } catch (const cases::InputError&) {
+      return std::nullopt;
+    }
+    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3);
   } else {
     return std::nullopt;
   }

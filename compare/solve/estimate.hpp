@@ -24,8 +24,8 @@ struct BodySize {
   cases::Scene outline; ///< the definition and the grid, if the body is one; without nodes
 };
 BodySize size_of(const cases::Scene& scene);
-/// Of a box or of voxels (about), before the mesh is made; nothing for a mesh file or a
-/// surface that cannot be read.
+/// Of a box, of voxels (about) or of a labelled volume, before the mesh is made; nothing for a mesh file, or
+/// where the surface or volume cannot be read.
 std::optional<BodySize> size_of(const cases::Case& definition);
 
 /// Of the definition's [fem], refined as it says.

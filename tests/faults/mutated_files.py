@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, stl, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2
+Kinds: case, dynamic, msh, stl, nifti, nrrd, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2
 within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
 without a word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that
 is named. The damage is the same in every run. Only Python's standard library is used.
@@ -212,6 +212,49 @@ class Stl(Kind):
         return springproof("run", "--only", "msm", self.case('[body]\nshape = "voxels"\nsurface = "body.stl"\nedge = 1'))
 
 
+class Nifti(Kind):
+    """A picture of 12 x 3 x 2 voxels."""
+    name = "body.nii"
+    voxels = struct.pack("<72h", *([100] * 6 + [50] * 6) * 6)
+
+    @property
+    def whole(self):
+        header = bytearray(352)
+        struct.pack_into("<i", header, 0, 348)
+        struct.pack_into("<8h", header, 40, 3, 12, 3, 2, 1, 1, 1, 1)
+        struct.pack_into("<2h", header, 70, 4, 16)
+        struct.pack_into("<8f", header, 76, 1, 1, 2, 3, 0, 0, 0, 0)
+        struct.pack_into("<3f", header, 108, 352, 1, 0)
+        header[344:348] = b"n+1\0"
+        return bytes(header) + self.voxels
+
+    def damaged(self, content, chance):
+        """Half of the damage is to numbers of the header."""
+        if chance.randrange(2):
+            return damaged(content, chance)
+        data = bytearray(content)
+        for _ in range(chance.randint(1, 3)):
+            at = chance.choice([0, 39, *range(40, 56, 2), 70, 72, *range(76, 108, 4), 108, 112, 116, 123, 252, 254, 344])
+            value = chance.choice([0, 1, -1, 2, 3, 4, 7, 9, 255, 1000, 32767, -32768])
+            struct.pack_into(*(("<h", data, at, value) if chance.randrange(3) else
+                               ("<f", data, at, chance.choice([0.0, -1.0, 1e-30, 1e30, float("nan"), float("inf"), 351.0, 1e9]))))
+        return bytes(data)
+
+    def given(self, content):
+        (self.folder / self.name).write_bytes(content)
+        classes = "".join(f'[[body.classes]]\nname = "{name}"\nlower = {lower}\nupper = {upper}\n'
+                          for name, lower, upper in (("bone", 80, 120), ("skin", 40, 60)))
+        body = f'[body]\nshape = "labels"\nfile = "{self.name}"\nedge = 1.5\nkeep = "largest"\n{classes}'
+        return springproof("run", "--only", "msm", self.case(body))
+
+
+class Nrrd(Nifti):
+    name = "body.nrrd"
+    damaged = staticmethod(damaged)
+    whole = (b"NRRD0004\n# damaged\ntype: short\ndimension: 3\nsizes: 12 3 2\nspacings: 1 2 3\nkinds: domain domain domain\n"
+             b"encoding: raw\nendian: little\n\n") + Nifti.voxels
+
+
 class Displacements(Kind):
     name, options = "given.csv", ()
 
@@ -313,7 +356,7 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "nifti": Nifti, "nrrd": Nrrd, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
 
 

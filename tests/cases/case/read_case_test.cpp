@@ -236,6 +236,71 @@ TEST_CASE("a body of voxels is read, and finds its surface beside the case") {
   CHECK(std::get<Voxels>(c.body).path == (folder.path / "body.stl").string());
 }
 
+namespace {
+
+const std::string labelled =
+    "shape = 'labels'\nfile = 'case.toml.nii'\nedge = 1.5\ncrop = [[0, 0, 0], [9, 8, 7]]\n"
+    "keep = 'largest'\n[[body.classes]]\nname = 'bone'\nlower = 226\nupper = 3000\n"
+    "rigid = true\n[[body.classes]]\nname = 'skin'\nlower = -200\nupper = 225\n";
+
+std::string labelled_case() {
+  return replaced(good_case, "shape = 'box'\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n", labelled);
+}
+
+} // namespace
+
+TEST_CASE("a labelled volume is read with its classes which are regions and have materials") {
+  const TemporaryFolder folder;
+  folder.write("case.toml.nii", "");
+  std::string text = replaced(labelled_case(), "[[fixed]]\nregion = 'z-'\n", "");
+  text = replaced(text, "region = 'z+'\nkind = 'nodal_force'",
+                  "region = { class = 'skin' }\nkind = 'nodal_force'");
+  text += "\n[[region_material]]\nclass = 'skin'\nmodel = 'linear_elastic'\nyoungs_modulus = 0.05\n"
+          "poissons_ratio = 0.35\n";
+  const Case c = read_case(folder.write("case.toml", text));
+  const Labels& labels = std::get<Labels>(c.body);
+  CHECK(labels.edge == 1.5);
+  CHECK(labels.keep == Keep::largest);
+  CHECK(labels.crop->at(1) == Eigen::Vector3d(9, 8, 7));
+  REQUIRE(labels.classes.size() == 2);
+  CHECK(labels.classes[0].name == "bone");
+  CHECK(labels.classes[0].is_rigid);
+  CHECK(labels.classes[1].lower == -200);
+  CHECK(c.fixed.empty()); // bone holds the body
+  CHECK(c.loads[0].region.part->cell_class == "skin");
+  CHECK(c.region_materials[0].group == "skin");
+  text = replaced(text, "keep = 'largest'", "keep = [1, 2, 3]");
+  const Case seeded = read_case(folder.write("case.toml", text));
+  CHECK(std::get<Labels>(seeded.body).keep == Keep::seed);
+  CHECK(std::get<Labels>(seeded.body).seed == Eigen::Vector3d(1, 2, 3));
+}
+
+TEST_CASE("a mistake in a labelled volume is refused where it is made") {
+  const auto refused = [](const std::string& what, const std::string& by) {
+    const TemporaryFolder folder;
+    folder.write("case.toml.nii", "");
+    try {
+      read_case(folder.write("case.toml", replaced(labelled_case(), what, by)));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  CHECK_THAT(refused("edge = 1.5", "edge = 0"), Catch::Contains("body.edge: is 0"));
+  CHECK_THAT(refused("'case.toml.nii'", "'case.toml.dcm'"), Catch::Contains(".nrrd"));
+  CHECK_THAT(refused("[9, 8, 7]", "[9, 0, 7]"), Catch::Contains("the lower first"));
+  CHECK_THAT(refused("keep = 'largest'", "keep = 'all'"), Catch::Contains("\"largest\" or a point"));
+  CHECK_THAT(refused("name = 'skin'", "name = 'bone'"), Catch::Contains("another name"));
+  CHECK_THAT(refused("name = 'skin'", "name = 'x- z+'"), Catch::Contains("not one of a face"));
+  CHECK_THAT(refused("upper = 225", "upper = -225"), Catch::Contains("at least lower"));
+  CHECK_THAT(refused("upper = 225", "upper = 225\nrigid = true"), Catch::Contains("in one class at most"));
+  CHECK_THAT(refused("lower = 226\n", ""), Catch::Contains("body.classes[0].lower: is missing"));
+  CHECK_THAT(refused("region = 'z-'", "region = { class = 'bon' }"),
+             Catch::Contains("did you mean \"bone\"?"));
+  CHECK_THAT(refused(labelled, "shape = 'labels'\nfile = 'case.toml.nii'\nedge = 1\n"),
+             Catch::Contains("[[body.classes]]"));
+}
+
 TEST_CASE("a mistake outside of all tables is refused where it is made") {
   check_mistakes({
       {"schema = 1", "schema = 2", 1, "schema", {"is 2", "must be 1"}},

@@ -190,7 +190,7 @@ TEST_CASE("a mistake in [[region_material]] is refused where it is made") {
        "[[region_material]]\n[[fixed]]",
        12,
        "region_material[0].axis",
-       {"is missing", "one of group, box"}},
+       {"is missing", "one of class, group, box"}},
       {"[[fixed]]",
        "[[region_material]]\naxis = 'z'\n[[fixed]]",
        12,

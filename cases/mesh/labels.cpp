@@ -1,0 +1,221 @@
+#include "cases/mesh/labels.hpp"
+
+#include "cases/mesh/confined.hpp"
+#include "cases/mesh/fields.hpp"
+#include "cases/mesh/pieces.hpp"
+#include "cases/mesh/volume_files.hpp"
+#include "cases/mesh/vtk.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cereal {
+
+SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell)
+
+} // namespace cereal
+
+namespace springproof::cases {
+
+using Eigen::Vector3d;
+
+namespace {
+
+[[noreturn]] void refuse_labels(const std::string& reason) {
+  throw std::runtime_error(reason);
+}
+
+/// A voxel that overlaps a cell along an axis, and the part of the cell's edge that it covers.
+struct Overlap {
+  int voxel;
+  double part;
+};
+
+/// Along one axis, the voxels of every cell. Both ends of a voxel are cut off at those of the crop.
+std::vector<std::vector<Overlap>> overlaps(int n_cells, double origin, double edge, int n_voxels,
+                                           double spacing) {
+  std::vector<std::vector<Overlap>> of_cell(index(n_cells));
+  for (int c = 0; c < n_cells; ++c) {
+    const double from = origin + c * edge, to = from + edge;
+    const int first = std::max(0, static_cast<int>(std::floor(from / spacing)) - 1);
+    for (int v = first; v < n_voxels && v * spacing < to; ++v) {
+      const double part = (std::min(to, (v + 1) * spacing) - std::max(from, v * spacing)) / edge;
+      if (part > 0) of_cell[index(c)].push_back({v, part});
+    }
+  }
+  return of_cell;
+}
+
+/// 0: none, else one more than the place of the first class that has the intensity.
+std::vector<std::uint8_t> class_of_voxels(const Volume& volume, const Labels& labels) {
+  std::vector<std::uint8_t> classes(volume.intensities.size(), 0);
+  for (std::size_t v = 0; v < classes.size(); ++v)
+    for (std::size_t c = labels.classes.size(); c-- > 0;) // the first one is set last
+      // Intensities are rounded to single precision, so their bounds are.
+      if (volume.intensities[v] >= static_cast<float>(labels.classes[c].lower) &&
+          volume.intensities[v] <= static_cast<float>(labels.classes[c].upper))
+        classes[v] = static_cast<std::uint8_t>(c + 1);
+  return classes;
+}
+
+LabelGrid empty_label_grid(const Volume& volume, const Labels& labels) {
+  const Vector3d size =
+      volume.spacing.cwiseProduct(Vector3d(volume.voxels[0], volume.voxels[1], volume.voxels[2]));
+  const Vector3d from = labels.crop ? labels.crop->at(0) : Vector3d::Zero();
+  const Vector3d to = labels.crop ? labels.crop->at(1) : size;
+  LabelGrid grid;
+  grid.origin = from;
+  double n_cells = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double n = std::max(1.0, std::ceil((to[a] - from[a]) / labels.edge - 1e-6));
+    n_cells *= n;
+    if (!(n_cells <= Grid::most_cells))
+      refuse_labels(fmt::format("{:.6g} x {:.6g} x {:.6g} mm need more than {:.0e} cells of edge {} mm",
+                                to[0] - from[0], to[1] - from[1], to[2] - from[2], Grid::most_cells,
+                                labels.edge));
+    grid.cells[index(a)] = static_cast<int>(n);
+  }
+  grid.class_of_cell.assign(static_cast<std::size_t>(n_cells), 0);
+  return grid;
+}
+
+Grid grid_of(const LabelGrid& labelled, double edge) {
+  Grid grid;
+  grid.cells = labelled.cells;
+  grid.spacing.setConstant(edge);
+  grid.origin = labelled.origin;
+  for (const std::uint8_t c : labelled.class_of_cell) grid.present.push_back(c != 0);
+  return grid;
+}
+
+/// The place in the grid of the cell at a point, if there is one.
+std::optional<std::size_t> place_at(const LabelGrid& grid, double edge, const Vector3d& point) {
+  std::size_t place = 0;
+  for (int a = 2; a >= 0; --a) {
+    const double along = std::floor((point[a] - grid.origin[a]) / edge);
+    if (!(along >= 0 && along < grid.cells[index(a)])) return std::nullopt;
+    place = place * index(grid.cells[index(a)]) + static_cast<std::size_t>(along);
+  }
+  return place;
+}
+
+} // namespace
+
+LabelGrid label_cells(const Volume& volume, const Labels& labels) {
+  LabelGrid grid = empty_label_grid(volume, labels);
+  const std::vector<std::uint8_t> classes = class_of_voxels(volume, labels);
+  std::array<std::vector<std::vector<Overlap>>, 3> along;
+  for (std::size_t a = 0; a < 3; ++a)
+    along[a] = overlaps(grid.cells[a], grid.origin[static_cast<int>(a)], labels.edge, volume.voxels[a],
+                        volume.spacing[static_cast<int>(a)]);
+  std::vector<double> filled(labels.classes.size() + 1);
+  std::size_t cell = 0;
+  for (const auto& in_z : along[2])
+    for (const auto& in_y : along[1])
+      for (const auto& in_x : along[0]) {
+        std::fill(filled.begin(), filled.end(), 0.);
+        for (const Overlap& z : in_z)
+          for (const Overlap& y : in_y)
+            for (const Overlap& x : in_x)
+              filled[classes[index(x.voxel) +
+                             index(volume.voxels[0]) *
+                                 (index(y.voxel) + index(volume.voxels[1]) * index(z.voxel))]] +=
+                  x.part * y.part * z.part;
+        filled[0] = 1;
+        for (std::size_t c = 1; c < filled.size(); ++c) filled[0] -= filled[c];
+        std::size_t most = 0;
+        constexpr double rounding = 1e-9; // of sums of parts
+        for (std::size_t c = filled.size(); c-- > 1;)
+          if (filled[c] >= filled[most] - rounding) most = c;
+        grid.class_of_cell[cell++] = static_cast<std::uint8_t>(most);
+      }
+  return grid;
+}
+
+void keep_piece(LabelGrid& grid, const Labels& labels) {
+  const Pieces pieces = pieces_of(grid_of(grid, labels.edge));
+  const auto& sizes = pieces.sizes;
+  if (sizes.empty())
+    refuse_labels(fmt::format("no cell of edge {} mm is filled by a class for the most part", labels.edge));
+  int kept = 0;
+  if (labels.keep == Keep::all) {
+    if (sizes.size() == 1) return;
+    std::vector<std::size_t> largest = sizes;
+    std::sort(largest.rbegin(), largest.rend());
+    refuse_labels(fmt::format("cells of edge {} mm fall into {} pieces that share no face, the largest of {} "
+                              "cells and the next of {}: "
+                              "keep = \"largest\" or a point in one of them leaves one",
+                              labels.edge, sizes.size(), largest[0], largest[1]));
+  }
+  if (labels.keep == Keep::seed) {
+    const auto place = place_at(grid, labels.edge, labels.seed);
+    kept = place ? pieces.piece_of_cell[*place] : -1;
+    if (kept < 0)
+      refuse_labels(fmt::format("keep = [{}] is in no cell of a class", fmt::join(labels.seed, ", ")));
+  } else {
+    kept = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  }
+  for (std::size_t c = 0; c < grid.class_of_cell.size(); ++c)
+    if (pieces.piece_of_cell[c] != kept) grid.class_of_cell[c] = 0;
+}
+
+HexMesh mesh_of(const LabelGrid& labelled, const Labels& labels) {
+  HexMesh mesh = make_grid_mesh(grid_of(labelled, labels.edge));
+  std::vector<std::size_t> n_cells(labels.classes.size(), 0);
+  mesh.group_of_cell.reserve(mesh.cells.size());
+  for (const std::uint8_t c : labelled.class_of_cell) {
+    if (c == 0) continue;
+    mesh.group_of_cell.push_back(labels.classes[c - 1u].name);
+    ++n_cells[c - 1u];
+  }
+  for (std::size_t c = 0; c < n_cells.size(); ++c)
+    if (n_cells[c] == 0)
+      refuse_labels(fmt::format("class '{}', from {} to {}, has no cell of edge {} mm",
+                                labels.classes[c].name, labels.classes[c].lower, labels.classes[c].upper,
+                                labels.edge));
+  return mesh;
+}
+
+LabelGrid label_grid_from(const std::string& bytes, std::size_t n_classes) {
+  LabelGrid grid;
+  from_bytes(bytes, grid);
+  double n = 1;
+  for (const int cells : grid.cells) n *= cells > 0 ? cells : 0;
+  const bool is_sound = n > 0 && n == static_cast<double>(grid.class_of_cell.size()) &&
+                        grid.origin.allFinite() &&
+                        std::all_of(grid.class_of_cell.begin(), grid.class_of_cell.end(),
+                                    [&](std::uint8_t c) { return c <= n_classes; });
+  if (!is_sound) refuse_labels("is no sound grid of classes");
+  return grid;
+}
+
+std::string bytes_of(const LabelGrid& grid) {
+  return to_bytes(grid);
+}
+
+LabelGrid read_label_grid(const Labels& labels) {
+  try {
+    const VolumeBytes bytes = bytes_of_volume(labels.path);
+    const auto& functions = vtk(); // loaded before the child is confined
+    const auto read = [&] {
+      return bytes_of(label_cells(functions.read_volume(labels.path, bytes.of_voxels), labels));
+    };
+    LabelGrid grid =
+        label_grid_from(run_confined(read, limits_to_read(bytes.in_files)), labels.classes.size());
+    keep_piece(grid, labels);
+    return grid;
+  } catch (const std::exception& error) {
+    throw InputError(labels.where, fmt::format("{}: {}", labels.path, error.what()));
+  }
+}
+
+HexMesh make_label_mesh(const Labels& labels) {
+  const LabelGrid grid = read_label_grid(labels);
+  try {
+    return mesh_of(grid, labels);
+  } catch (const std::exception& error) {
+    throw InputError(labels.where, fmt::format("{}: {}", labels.path, error.what()));
+  }
+}
+
+} // namespace springproof::cases

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/volume.hpp"
+
+#include <cstdint>
+
+namespace springproof::cases {
+
+/// A grid of cubes, each with the class that it is of.
+struct LabelGrid {
+  std::array<int, 3> cells{};
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< mm
+  std::vector<std::uint8_t>
+      class_of_cell; ///< x fastest; 0: none, else one more than a place in Labels::classes
+};
+
+/// The classes of the cells that cover a volume, or its crop: each cell takes the class that fills most of
+/// it. A voxel is of the first class whose interval has its intensity; what lies outside of the volume or in
+/// no class is empty. Where two fill as much, a class wins over none, and the first one over the others.
+/// @throws std::runtime_error if there would be more than 50 million cells
+LabelGrid label_cells(const Volume& volume, const Labels& labels);
+
+/// Leaves the piece of the body that Labels::keep asks for.
+/// @throws std::runtime_error if no cell is left, if its seed is in none, or if it is not told which piece
+/// to keep and there are several
+void keep_piece(LabelGrid& grid, const Labels& labels);
+
+/// The mesh of the cells that have a class, whose names are in group_of_cell.
+/// @throws std::runtime_error if a class has no cell
+HexMesh mesh_of(const LabelGrid& grid, const Labels& labels);
+
+/// A grid in bytes that anybody may have made; bytes_of() makes them.
+/// @throws std::exception if they hold no grid, or one with a class that does not exist
+LabelGrid label_grid_from(const std::string& bytes, std::size_t n_classes);
+std::string bytes_of(const LabelGrid& grid);
+
+/// Reads the file in a confined process, and keeps one piece.
+/// @throws InputError, at the place of the file in the case file, with the reason
+LabelGrid read_label_grid(const Labels& labels);
+/// The mesh of what it reads.
+HexMesh make_label_mesh(const Labels& labels);
+
+} // namespace springproof::cases

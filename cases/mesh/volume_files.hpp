@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace springproof::cases {
+
+/// What the header of a NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd) says of its voxels.
+struct VolumeHeader {
+  std::string file;           ///< that they are in; empty: the same file
+  bool is_compressed = false; ///< or text
+  std::uint64_t bytes = 0;    ///< of the header
+};
+
+/// @param beginning  of the file
+/// @throws std::runtime_error if it names several files, or one that is not in the header's own folder
+VolumeHeader header_of_volume(const std::string& beginning);
+
+/// The files of a picture.
+struct VolumeBytes {
+  std::uint64_t in_files;  ///< of the file and of the one beside it that it names
+  std::uint64_t of_voxels; ///< that they can hold: deflate makes of a byte 1032 at most
+};
+/// @throws std::runtime_error if a file is not there, or as header_of_volume()
+VolumeBytes bytes_of_volume(const std::string& path);
+
+} // namespace springproof::cases

@@ -1,0 +1,291 @@
+#include "cases/mesh/labels.hpp"
+
+#include "cases/mesh/volume_files.hpp"
+#include "cases/scene/scene.hpp"
+#include "tests/support/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fmt/format.h>
+
+using namespace springproof;
+
+using namespace cases;
+using Catch::Contains;
+using Eigen::Vector3d;
+
+namespace {
+
+/// 12 x 3 x 2 voxels of 1 x 2 x 3 mm: 100 below 6 mm of x, 50 from there to 9 mm, 0 beyond. (VTK takes a
+/// first axis of up to 9 in NRRD for components.)
+Volume picture() {
+  Volume volume{{12, 3, 2}, {1, 2, 3}, {}};
+  for (int v = 0; v < 72; ++v) volume.intensities.push_back(v % 12 < 6 ? 100 : v % 12 < 9 ? 50 : 0);
+  return volume;
+}
+
+Labels bone_and_fat(double edge, const std::string& path = "") {
+  Labels labels;
+  labels.path = path;
+  labels.edge = edge;
+  labels.classes = {{"bone", 80, 120, true}, {"fat", 40, 60, false}};
+  return labels;
+}
+
+template<class Number>
+std::string bytes_of_picture(bool swapped = false) {
+  std::string bytes;
+  for (const float intensity : picture().intensities) {
+    const Number number = static_cast<Number>(intensity);
+    std::string one(sizeof number, '\0');
+    std::memcpy(one.data(), &number, sizeof number);
+    bytes += swapped ? std::string(one.rbegin(), one.rend()) : one;
+  }
+  return bytes;
+}
+
+std::string nrrd(const std::string& more = "", const std::string& sizes = "12 3 2",
+                 const std::string& endian = "little") {
+  return "NRRD0004\ntype: short\ndimension: 3\nsizes: " + sizes +
+         "\nspacings: 1 2 3\nencoding: raw\nendian: " + endian + "\n" + more + "\n";
+}
+
+std::string meta(const std::string& file, const std::string& sizes = "12 3 2") {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = " +
+         sizes + "\nElementSpacing = 1 2 3\nElementType = MET_SHORT\nElementDataFile = " + file + "\n";
+}
+
+/// Of int16, 352 bytes.
+std::string nifti(std::array<std::int16_t, 3> sizes, float slope = 1, float intercept = 0) {
+  std::string header(352, '\0');
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(&header[at], &value, sizeof value); };
+  put(0, std::int32_t{348});
+  put(40, std::int16_t{3});
+  for (std::size_t a = 0; a < 3; ++a) {
+    put(42 + 2 * a, sizes[a]);
+    put(80 + 4 * a, static_cast<float>(a + 1));
+  }
+  for (std::size_t a = 3; a < 7; ++a) put(42 + 2 * a, std::int16_t{1});
+  put(70, std::int16_t{4}); // int16
+  put(72, std::int16_t{16});
+  put(108, 352.f);
+  put(112, slope);
+  put(116, intercept);
+  std::memcpy(&header[344], "n+1", 4);
+  return header;
+}
+
+/// A member of a tar.
+std::string member(const std::string& name, const std::string& content) {
+  std::string header(512, '\0');
+  const auto put = [&](std::size_t at, const std::string& text) { header.replace(at, text.size(), text); };
+  put(0, name);
+  put(100, "0000644");
+  put(124, fmt::format("{:011o}", content.size()));
+  put(136, "00000000000");
+  put(148, "        ");
+  put(156, "0");
+  put(257, std::string("ustar\0"
+                       "00",
+                       8));
+  unsigned sum = 0;
+  for (const char c : header) sum += static_cast<unsigned char>(c);
+  put(148, fmt::format("{:06o}", sum));
+  header[154] = '\0';
+  return header + content + std::string((512 - content.size() % 512) % 512, '\0');
+}
+
+std::string
+plist(const std::string& shape = "<integer>2</integer><integer>3</integer><integer>12</integer>") {
+  return "<?xml version=\"1.0\"?><plist><dict><key>matrix</key><dict><key>dtype</key><string>int16</string>"
+         "<key>filename</key><string>matrix.dat</string><key>shape</key><array>" +
+         shape +
+         "</array></dict><key>spacing</key><array><real>1</real><real>2</real><real>3</real></array></dict></"
+         "plist>";
+}
+
+std::string project(const std::string& list, const std::string& voxels) {
+  return member("a/matrix.dat", voxels) + member("a/main.plist", list) + std::string(1024, '\0');
+}
+
+void check_is_picture(const std::string& path) {
+  const HexMesh mesh = make_label_mesh(bone_and_fat(1, path));
+  REQUIRE(mesh.grid);
+  CHECK(mesh.grid->cells == std::array<int, 3>{12, 6, 6});
+  CHECK(mesh.cells.size() == 9 * 6 * 6);
+  CHECK(std::count(mesh.group_of_cell.begin(), mesh.group_of_cell.end(), "bone") == 6 * 6 * 6);
+  CHECK(centre_of(mesh, mesh.cells[0]) == Vector3d(0.5, 0.5, 0.5));
+  CHECK(mesh.group_of_cell[6] == "fat"); // beyond the bone in x, as voxels are numbered
+}
+
+std::string refusal(const Labels& labels) {
+  try {
+    make_label_mesh(labels);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    CHECK(message.find('\n') == std::string::npos);
+    return message;
+  }
+  return "none";
+}
+
+} // namespace
+
+TEST_CASE("a cell has the class that fills most of it and what is outside of the picture is empty") {
+  const Volume volume = picture();
+  SECTION("cells of the size of some voxels") {
+    const LabelGrid grid = label_cells(volume, bone_and_fat(2));
+    CHECK(grid.cells == std::array<int, 3>{6, 3, 3});
+    // The fifth cell along x has half fat and half nothing: a class wins over none.
+    for (std::size_t c = 0; c < grid.class_of_cell.size(); ++c)
+      CHECK(grid.class_of_cell[c] == (c % 6 < 3 ? 1 : c % 6 < 5 ? 2 : 0));
+  }
+  SECTION("cells that are smaller than voxels") {
+    const LabelGrid grid = label_cells(volume, bone_and_fat(0.5));
+    CHECK(std::count(grid.class_of_cell.begin(), grid.class_of_cell.end(), 1) == 12 * 12 * 12);
+    CHECK(std::count(grid.class_of_cell.begin(), grid.class_of_cell.end(), 2) == 6 * 12 * 12);
+  }
+  SECTION("one that reaches far out") {
+    CHECK(label_cells(volume, bone_and_fat(8)).class_of_cell[0] == 0);   // 216 of 512 mm³ are bone, 72 fat
+    CHECK(label_cells(volume, bone_and_fat(7.5)).class_of_cell[0] == 1); // 216 of 422
+  }
+  SECTION("a crop, which need not lie on voxels") {
+    Labels labels = bone_and_fat(1);
+    labels.crop = {Vector3d(5.4, 0, 0), Vector3d(7.4, 1, 1)};
+    const LabelGrid grid = label_cells(volume, labels);
+    CHECK(grid.class_of_cell == std::vector<std::uint8_t>{1, 2}); // 0.6 of bone, 0.6 of fat
+    labels.crop = {Vector3d(-9, -9, -9), Vector3d(-8, -8, -8)};
+    CHECK(label_cells(volume, labels).class_of_cell == std::vector<std::uint8_t>{0});
+  }
+  SECTION("too many cells") {
+    CHECK_THROWS_WITH(label_cells(volume, bone_and_fat(1e-3)), Contains("more than 5e+07"));
+  }
+}
+
+TEST_CASE("one piece of a labelled body is kept, the largest or the one with a point") {
+  Labels labels = bone_and_fat(1);
+  const auto grid = [] { return LabelGrid{{5, 1, 1}, {0, 0, 0}, {1, 0, 1, 2, 0}}; };
+  LabelGrid kept = grid();
+  CHECK_THROWS_WITH(keep_piece(kept, labels), Contains("2 pieces") && Contains("keep = \"largest\""));
+  labels.keep = Keep::largest;
+  keep_piece(kept, labels);
+  CHECK(kept.class_of_cell == std::vector<std::uint8_t>{0, 0, 1, 2, 0});
+  labels.keep = Keep::seed;
+  labels.seed = {0.5, 0.5, 0.5};
+  kept = grid();
+  keep_piece(kept, labels);
+  CHECK(kept.class_of_cell == std::vector<std::uint8_t>{1, 0, 0, 0, 0});
+  for (const Vector3d& nowhere : {Vector3d(1.5, 0.5, 0.5), Vector3d(-1, 0.5, 0.5), Vector3d(0.5, 9, 0.5)}) {
+    labels.seed = nowhere;
+    kept = grid();
+    CHECK_THROWS_WITH(keep_piece(kept, labels), Contains("in no cell"));
+  }
+  kept = {{1, 1, 1}, {0, 0, 0}, {0}};
+  CHECK_THROWS_WITH(keep_piece(kept, labels), Contains("no cell of edge 1 mm"));
+}
+
+TEST_CASE("the same picture in every format becomes the same cells") {
+  const TemporaryFolder folder;
+  const std::string voxels = bytes_of_picture<std::int16_t>();
+  check_is_picture(folder.write("a.nrrd", nrrd() + voxels));
+  check_is_picture(folder.write("b.nrrd", nrrd("", "12 3 2", "big") + bytes_of_picture<std::int16_t>(true)));
+  folder.write("c.raw", voxels);
+  check_is_picture(folder.write("c.nhdr", nrrd("data file: c.raw\n")));
+  check_is_picture(folder.write("d.mha", meta("LOCAL") + voxels));
+  check_is_picture(folder.write("e.mhd", meta("c.raw")));
+  check_is_picture(folder.write("f.nii", nifti({12, 3, 2}) + voxels));
+  std::string halved;
+  for (const float intensity : picture().intensities) {
+    const auto number = static_cast<std::int16_t>((intensity + 20) / 2);
+    halved.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+  check_is_picture(folder.write("g.nii", nifti({12, 3, 2}, 2, -20) + halved));
+  check_is_picture(folder.write("h.inv3", project(plist(), voxels)));
+}
+
+TEST_CASE("a broken picture is refused in one line") {
+  const TemporaryFolder folder;
+  const std::string voxels = bytes_of_picture<std::int16_t>();
+  const auto refused = [&](const std::string& name, const std::string& content) {
+    return refusal(bone_and_fat(1, folder.write(name, content)));
+  };
+  CHECK_THAT(refused("cut.nrrd", nrrd() + voxels.substr(0, 100)), Contains("more than the"));
+  CHECK_THAT(refused("cut.mha", meta("LOCAL") + voxels.substr(0, 100)), !Contains("none"));
+  CHECK_THAT(refused("cut.nii", nifti({12, 3, 2}) + voxels.substr(0, 100)), !Contains("none"));
+  CHECK_THAT(refused("cut.inv3", project(plist(), voxels).substr(0, 530)), Contains("is no gzipped tar"));
+  CHECK_THAT(refused("huge.nrrd", nrrd("", "2000 2000 2000") + voxels), Contains("more than the"));
+  CHECK_THAT(refused("huge.mha", meta("LOCAL", "2000 2000 2000") + voxels), Contains("more than the"));
+  CHECK_THAT(refused("huge.nii", nifti({2000, 2000, 2000}) + voxels), Contains("more than the"));
+  CHECK_THAT(refused("huge.inv3",
+                     project(plist("<integer>2000</integer><integer>2000</integer><integer>2000</integer>"),
+                             voxels)),
+             Contains("more than the"));
+  CHECK_THAT(refused("less.inv3",
+                     project(plist("<integer>2</integer><integer>3</integer><integer>3</integer>"), voxels)),
+             Contains("144 bytes, which cannot be"));
+  CHECK_THAT(refused("flat.nrrd", nrrd("", "12 0 2") + voxels), !Contains("none"));
+  CHECK_THAT(refused("negative.nii", nifti({12, -3, 2}) + voxels), !Contains("none"));
+  for (const char* name : {"none.nrrd", "none.mha", "none.nii", "none.nii.gz", "none.inv3"}) {
+    CHECK_THAT(refused(name, "nothing of the kind"), Contains(name));
+    CHECK_THAT(refused(name, ""), Contains(name));
+  }
+  CHECK_THAT(refusal(bone_and_fat(1, (folder.path / "absent.nii").string())), Contains("No such file"));
+}
+
+TEST_CASE("a header leads to no file outside of its folder") {
+  const TemporaryFolder folder;
+  for (const char* name : {"/etc/passwd", "../c.raw", "c%02d.raw 1 2 1", "LIST", "a\\b", ".."}) {
+    INFO(name);
+    CHECK_THAT(
+        refusal(bone_and_fat(1, folder.write("a.nhdr", nrrd(std::string("data file: ") + name + "\n")))),
+        Contains("in its own folder"));
+    CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.mhd", meta(name)))), Contains("in its own folder"));
+  }
+  CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.mhd", meta("absent.raw")))), Contains("absent.raw"));
+  CHECK(header_of_volume("NRRD0004\ntype: short\n\ndata file: /etc/passwd\n").file.empty()); // voxels
+  CHECK(header_of_volume(meta("LOCAL") + "\nElementDataFile = ../x\n").file.empty());
+}
+
+TEST_CASE("a class without a cell is refused, and an edge larger than the body") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.nrrd", nrrd() + bytes_of_picture<std::int16_t>());
+  Labels labels = bone_and_fat(1, path);
+  labels.classes.push_back({"skin", 200, 300, false});
+  CHECK_THAT(refusal(labels), Contains("class 'skin', from 200 to 300, has no cell"));
+  CHECK_THAT(refusal(bone_and_fat(100, path)), Contains("no cell of edge 100 mm"));
+}
+
+TEST_CASE("what a confined reader answers is believed only where it is a grid of known classes") {
+  const LabelGrid grid{{2, 1, 1}, {0, 0, 0}, {1, 2}};
+  CHECK(label_grid_from(bytes_of(grid), 2).class_of_cell == grid.class_of_cell);
+  CHECK_THROWS(label_grid_from(bytes_of(grid), 1));
+  CHECK_THROWS(label_grid_from(bytes_of(LabelGrid{{3, 1, 1}, {0, 0, 0}, {1, 2}}), 2));
+  CHECK_THROWS(label_grid_from(bytes_of(LabelGrid{{-2, -1, 1}, {0, 0, 0}, {1, 2}}), 2));
+  CHECK_THROWS(label_grid_from(bytes_of(LabelGrid{{2, 1, 1}, {0, 0, NAN}, {1, 2}}), 2));
+  CHECK_THROWS(label_grid_from("", 2));
+}
+
+TEST_CASE("nodes of a rigid class are held where nothing moves them, on finer meshes too") {
+  const TemporaryFolder folder;
+  Case definition;
+  definition.body = bone_and_fat(1, folder.write("a.nrrd", nrrd() + bytes_of_picture<std::int16_t>()));
+  Moved lifted;
+  lifted.region.name = "upper bone";
+  lifted.region.part = Part{"bone", {0, 0, 5}, {9, 9, 9}};
+  lifted.components = {false, false, true};
+  lifted.displacement = {0, 0, 1};
+  definition.moved.push_back(lifted);
+  const Scene scene = make_scene(definition);
+  CHECK(is_rigid(scene, 0));
+  CHECK_FALSE(is_rigid(scene, 6));
+  for (const int refined : {0, 1}) {
+    const Scene finer = refine(scene, refined);
+    const std::vector<bool> constrained = constrained_dofs(finer);
+    for (std::size_t n = 0; n < finer.mesh.nodes.size(); ++n)
+      for (std::size_t a = 0; a < 3; ++a)
+        CHECK(constrained[3 * n + a] == (finer.mesh.nodes[n].x() <= 6)); // bone from x = 0 to 6
+    std::size_t n_held = 0;
+    for (const auto& held : finer.constrained) n_held += held.selection.nodes.size();
+    CHECK(n_held > finer.moved[0].selection.nodes.size());
+  }
+}
