@@ -70,7 +70,7 @@ Labels read_labels(Table& table, const std::string& case_path) {
   const Entry file = table.entry("file");
   Labels labels;
   labels.where = file.where;
-  labels.path = read_file_name(
+  labels.path = read_file_path(
       file, {".nii", ".gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".inv3"},
       "a picture in three dimensions, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3", case_path);
   labels.edge = table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive});

@@ -269,12 +269,16 @@ toml::table parse_file(const std::string& path, const std::vector<std::string>& 
   return document;
 }
 
-std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+std::string read_file_path(const Entry& entry, const std::vector<std::string>& endings,
                            const std::string& allowed, const std::string& case_path) {
   const std::filesystem::path file = read_text(entry);
   if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
-  const std::filesystem::path path =
-      (std::filesystem::path(case_path).parent_path() / file).lexically_normal();
+  return (std::filesystem::path(case_path).parent_path() / file).lexically_normal().string();
+}
+
+std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                           const std::string& allowed, const std::string& case_path) {
+  const std::filesystem::path path = read_file_path(entry, endings, allowed, case_path);
   std::error_code unreadable; // a name that is too long, for one
   if (!std::filesystem::is_regular_file(path, unreadable))
     entry.refuse(fmt::format("a file that exists: there is no {}", path.string()));

@@ -57,6 +57,10 @@ std::string read_text(const Entry& entry);
 std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
                            const std::string& allowed, const std::string& case_path);
 
+/// The same of a file that need not be there before the body is made: a package's data.
+std::string read_file_path(const Entry& entry, const std::vector<std::string>& endings,
+                           const std::string& allowed, const std::string& case_path);
+
 /// One finite number, whole or not. `allowed` completes "must be ...".
 struct Number {
   std::string allowed;
