@@ -27,11 +27,12 @@ std::string in_small_letters(std::string text) {
 
 /// @throws std::runtime_error unless it is the name of a file in the same folder
 void check_is_beside(const std::string& name) {
-  const bool is_one_name = name.find_first_of("/\\%") == std::string::npos && name != "." && name != ".." &&
-                           name.rfind("LIST", 0) != 0;
+  const bool is_one_name = name.find_first_of("/\\% \t") == std::string::npos && name != "." &&
+                           name != ".." && name.rfind("LIST", 0) != 0;
   if (!is_one_name)
-    throw std::runtime_error("names '" + name.substr(0, 200) +
-                             "' for its voxels, must be the name of one file in its own folder");
+    throw std::runtime_error(
+        "names '" + name.substr(0, 200) +
+        "' for its voxels, must be the name of one file in its own folder, without blanks");
 }
 
 std::uint64_t size_of_regular_file(const std::string& path) {
@@ -46,10 +47,14 @@ std::uint64_t size_of_regular_file(const std::string& path) {
 VolumeHeader header_of_volume(const std::string& beginning) {
   std::istringstream lines(beginning);
   const bool is_nrrd = beginning.rfind("NRRD", 0) == 0; // whose header ends with an empty line
+  bool has_end = !is_nrrd;
   VolumeHeader header;
   for (std::string line; std::getline(lines, line);) {
     header.bytes = std::min(beginning.size(), static_cast<std::size_t>(header.bytes) + line.size() + 1);
-    if (is_nrrd && (line.empty() || line == "\r")) break;
+    if (is_nrrd && (line.empty() || line == "\r")) {
+      has_end = true;
+      break;
+    }
     const std::size_t at = line.find_first_of(":=");
     if (at == std::string::npos) continue;
     const std::string key = in_small_letters(without_blanks_around(line.substr(0, at)));
@@ -63,6 +68,11 @@ VolumeHeader header_of_volume(const std::string& beginning) {
     header.file = value;
     if (key == "elementdatafile") break;
   }
+  // VTK reads the last line of a header for ever that ends with the file or a zero byte.
+  const std::string text = beginning.substr(0, static_cast<std::size_t>(header.bytes));
+  has_end = has_end || (text.size() == beginning.size() && text.back() == '\n');
+  if (is_nrrd && (!has_end || text.find('\0') != std::string::npos))
+    throw std::runtime_error("has a header without an end, which is an empty line");
   return header;
 }
 

@@ -223,6 +223,10 @@ TEST_CASE("a broken picture is refused in one line") {
   CHECK_THAT(refused("less.inv3",
                      project(plist("<integer>2</integer><integer>3</integer><integer>3</integer>"), voxels)),
              Contains("144 bytes, which cannot be"));
+  const std::string header = nrrd(); // ends with an empty line
+  CHECK_THAT(refused("endless.nrrd", header.substr(0, header.size() - 1) + voxels),
+             Contains("without an end"));
+  CHECK_THAT(refused("short.nrrd", header.substr(0, 50)), Contains("without an end"));
   CHECK_THAT(refused("flat.nrrd", nrrd("", "12 0 2") + voxels), !Contains("none"));
   CHECK_THAT(refused("negative.nii", nifti({12, -3, 2}) + voxels), !Contains("none"));
   for (const char* name : {"none.nrrd", "none.mha", "none.nii", "none.nii.gz", "none.inv3"}) {
@@ -234,7 +238,7 @@ TEST_CASE("a broken picture is refused in one line") {
 
 TEST_CASE("a header leads to no file outside of its folder") {
   const TemporaryFolder folder;
-  for (const char* name : {"/etc/passwd", "../c.raw", "c%02d.raw 1 2 1", "LIST", "a\\b", ".."}) {
+  for (const char* name : {"/etc/passwd", "../c.raw", "c%02d.raw 1 2 1", "LIST", "a\\b", "..", "c 1 9 0"}) {
     INFO(name);
     CHECK_THAT(
         refusal(bone_and_fat(1, folder.write("a.nhdr", nrrd(std::string("data file: ") + name + "\n")))),
