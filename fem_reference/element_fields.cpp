@@ -1,24 +1,11 @@
 #include "fem_reference/element_fields.hpp"
 
+#include "mechanics/hexahedron.hpp"
+
 namespace springproof::fem_reference {
 
 using cases::index;
 using Eigen::Vector3d;
-
-namespace {
-
-/// The body's cell's trilinear shape functions at a point of its unit cube.
-std::array<double, 8> trilinear_shape(const Vector3d& at) {
-  std::array<double, 8> shape;
-  for (int v = 0; v < 8; ++v) {
-    double product = 1;
-    for (int a = 0; a < 3; ++a) product *= (v >> a) & 1 ? at[a] : 1 - at[a];
-    shape[index(v)] = product;
-  }
-  return shape;
-}
-
-} // namespace
 
 ElementPlace place_of(std::size_t refined_cell, int n_refinements) {
   ElementPlace place{refined_cell >> (3 * n_refinements), Vector3d::Zero(), 1};
@@ -44,7 +31,7 @@ void ElementFields::add(const ElementState& element) {
   const Vector3d first(displacement);
   mechanics::CellSums& sum = sums_.cell(place.cell);
   for (int a = 0; a < geometry.n_nodes; ++a) {
-    const std::array<double, 8> shape = trilinear_shape(place.lower + place.edge * nodes_[index(a)]);
+    const std::array<double, 8> shape = mechanics::shape_values(place.lower + place.edge * nodes_[index(a)]);
     const Vector3d f(force[a], force[geometry.n_nodes + a], force[2 * geometry.n_nodes + a]);
     Vector3d at = is_linear ? Vector3d(0, 0, 0) : Vector3d(Vector3d(displacement + 3 * a) - first);
     for (std::size_t v = 0; v < 8; ++v) {

@@ -13,15 +13,12 @@ inline Eigen::Matrix<double, 24, 24> consistent_mass(const HexahedronVertices& v
   Eigen::Matrix<double, 24, 24> mass = Eigen::Matrix<double, 24, 24>::Zero();
   for (int q = 0; q < 8; ++q) {
     const Eigen::Vector3d at = gauss_point(q);
-    Eigen::Matrix<double, 8, 1> shape;
-    for (int v = 0; v < 8; ++v) {
-      shape[v] = 1;
-      for (int a = 0; a < 3; ++a) shape[v] *= (v >> a) & 1 ? at[a] : 1 - at[a];
-    }
+    const std::array<double, 8> shape = shape_values(at);
     const double weight = density * jacobian(vertices, at).determinant() / 8;
     for (int v = 0; v < 8; ++v)
       for (int w = 0; w < 8; ++w)
-        mass.block<3, 3>(3 * v, 3 * w).diagonal().array() += weight * shape[v] * shape[w];
+        mass.block<3, 3>(3 * v, 3 * w).diagonal().array() +=
+            weight * shape[static_cast<std::size_t>(v)] * shape[static_cast<std::size_t>(w)];
   }
   return mass;
 }

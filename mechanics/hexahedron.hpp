@@ -16,6 +16,25 @@ inline Eigen::Vector3d gauss_point(int q) {
   return {at[q & 1], at[(q >> 1) & 1], at[q >> 2]};
 }
 
+/// The eight shape functions, which add up to 1, in the order of the vertices.
+/// @param at  in the coordinates of the unit cube, in it or not
+inline std::array<double, 8> shape_values(const Eigen::Vector3d& at) {
+  std::array<double, 8> values;
+  for (std::size_t v = 0; v < 8; ++v) {
+    values[v] = 1;
+    for (int a = 0; a < 3; ++a) values[v] *= (v >> a) & 1 ? at[a] : 1 - at[a];
+  }
+  return values;
+}
+
+/// Where the map takes a point of the unit cube, mm.
+inline Eigen::Vector3d image(const HexahedronVertices& vertices, const Eigen::Vector3d& at) {
+  const std::array<double, 8> shape = shape_values(at);
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (std::size_t v = 0; v < 8; ++v) point += shape[v] * vertices[v];
+  return point;
+}
+
 /// Gradients of the shape functions with respect to the unit cube's coordinates, one column a vertex.
 inline Eigen::Matrix<double, 3, 8> shape_gradients(const Eigen::Vector3d& at) {
   Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Ones();

@@ -16,17 +16,6 @@ using Eigen::Vector3d;
 constexpr double on_boundary = 1e-6; ///< of the unit cube, and of a cell's largest edge
 constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
 
-/// Where the cell's map takes a point of the unit cube, mm.
-Vector3d image(const mechanics::HexahedronVertices& vertices, const Vector3d& at) {
-  Vector3d point = Vector3d::Zero();
-  for (int v = 0; v < 8; ++v) {
-    double shape = 1;
-    for (int a = 0; a < 3; ++a) shape *= (v >> a) & 1 ? at[a] : 1 - at[a];
-    point += shape * vertices[index(v)];
-  }
-  return point;
-}
-
 bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : vertices) box.extend(vertex);
@@ -34,7 +23,7 @@ bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point)
   if (box.exteriorDistance(point) > on_boundary * size) return false;
   Vector3d at = Vector3d::Constant(0.5);
   for (int step = 0; step < most_steps; ++step) {
-    const Vector3d missing = point - image(vertices, at);
+    const Vector3d missing = point - mechanics::image(vertices, at);
     const bool is_inside = (at.array() >= -on_boundary).all() && (at.array() <= 1 + on_boundary).all();
     if (missing.norm() <= 1e-3 * on_boundary * size) return is_inside;
     at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);

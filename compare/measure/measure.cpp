@@ -4,6 +4,7 @@
 #include "cases/mesh/sharing.hpp"
 #include "compare/measure/tensor.hpp"
 #include "mechanics/dynamics/scheme.hpp"
+#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -128,12 +129,10 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
     // A point of the 2x2x2 rule stands for an eighth of its cell here, which is exact for parallelepipeds.
     const double weight = cases::cell_volume(cases::cell_vertices(mesh, c)) / 8;
     for (int q = 0; q < 8; ++q) {
+      const std::array<double, 8> shape = mechanics::shape_values(mechanics::gauss_point(q));
       Vector3d value = Vector3d::Zero();
-      for (int v = 0; v < 8; ++v) {
-        double shape = 1;
-        for (int a = 0; a < 3; ++a) shape *= 0.5 + (((q ^ v) >> a) & 1 ? -0.5 : 0.5) / std::sqrt(3.0);
-        value += shape * field[cases::index(mesh.cells[c][cases::index(v)]) - here.nodes.begin];
-      }
+      for (std::size_t v = 0; v < 8; ++v)
+        value += shape[v] * field[cases::index(mesh.cells[c][v]) - here.nodes.begin];
       integral += weight * value.squaredNorm();
       volume += weight;
     }
