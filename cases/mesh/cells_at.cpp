@@ -16,21 +16,21 @@ using Eigen::Vector3d;
 constexpr double on_boundary = 1e-6; ///< of the unit cube, and of a cell's largest edge
 constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
 
-bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+double largest_edge(const Eigen::AlignedBox3d& box) {
+  return box.sizes().maxCoeff();
+}
+
+Eigen::AlignedBox3d box_around(const mechanics::HexahedronVertices& vertices) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : vertices) box.extend(vertex);
-  const double size = box.sizes().maxCoeff();
-  if (box.exteriorDistance(point) > on_boundary * size) return false;
-  Vector3d at = Vector3d::Constant(0.5);
-  for (int step = 0; step < most_steps; ++step) {
-    const Vector3d missing = point - mechanics::image(vertices, at);
-    const bool is_inside = (at.array() >= -on_boundary).all() && (at.array() <= 1 + on_boundary).all();
-    if (missing.norm() <= 1e-3 * on_boundary * size) return is_inside;
-    at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);
-    // Far outside the cube the map may fold back; what is in the cell is never looked for there.
-    if (!(at.array().abs() <= 10).all()) return false;
-  }
-  return false;
+  return box;
+}
+
+bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+  const Eigen::AlignedBox3d box = box_around(vertices);
+  if (box.exteriorDistance(point) > on_boundary * largest_edge(box)) return false;
+  const auto at = place_in_cell(vertices, point);
+  return at && (at->array() >= -on_boundary).all() && (at->array() <= 1 + on_boundary).all();
 }
 
 /// Numbers of the cells of a grid whose cells are all present that touch the point's neighbourhood,
@@ -54,6 +54,18 @@ std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
 }
 
 } // namespace
+
+std::optional<Vector3d> place_in_cell(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+  const double size = largest_edge(box_around(vertices));
+  Vector3d at = Vector3d::Constant(0.5);
+  for (int step = 0; step < most_steps; ++step) {
+    const Vector3d missing = point - mechanics::image(vertices, at);
+    if (missing.norm() <= 1e-3 * on_boundary * size) return at;
+    at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);
+    if (!(at.array().abs() <= 10).all()) return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 std::vector<std::size_t> cells_at(const HexMesh& mesh, const Vector3d& point, const Range& among) {
   std::vector<std::size_t> cells;

@@ -2,6 +2,8 @@
 
 #include "cases/mesh/sharing.hpp"
 
+#include "mechanics/hexahedron.hpp"
+
 #include <limits>
 
 namespace springproof::cases {
@@ -12,5 +14,11 @@ namespace springproof::cases {
 /// @param point  mm    @param among  the numbers of the cells that are looked at
 std::vector<std::size_t> cells_at(const HexMesh& mesh, const Eigen::Vector3d& point,
                                   const Range& among = {0, std::numeric_limits<std::size_t>::max()});
+
+/// The place of a point in a cell's unit cube, by Newton's method, to 1e-9 of the cell's largest edge: in the
+/// cube or next to it. Nothing far outside of the cell, where its map may fold back.
+/// @param point  mm
+std::optional<Eigen::Vector3d> place_in_cell(const mechanics::HexahedronVertices& vertices,
+                                             const Eigen::Vector3d& point);
 
 } // namespace springproof::cases

@@ -2,6 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/strict_archive.hpp"
+#include "cases/mesh/triangle_mesh.hpp"
 
 #include <cereal/types/array.hpp>
 #include <cereal/types/map.hpp>
@@ -37,6 +38,7 @@ template<class Archive, class Rule>
 void serialize(Archive& archive, springproof::cases::RuledList<Rule>& list) {
   archive(list.values, list.rule);
 }
+SPRINGPROOF_FIELDS(springproof::cases::TriangleMesh, vertices, triangles)
 SPRINGPROOF_FIELDS(springproof::cases::HexMesh, nodes, cells, groups, group_of_cell, grid)
 
 } // namespace cereal

@@ -3,6 +3,7 @@
 #include "cases/mesh/vtk_clouds.hpp"
 #include "cases/mesh/vtk_grid.hpp"
 #include "cases/mesh/vtk_run.hpp"
+#include "cases/mesh/vtk_surfaces.hpp"
 #include "cases/mesh/vtk_volumes.hpp"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 } // namespace
 
 extern "C" const VtkFunctions springproof_vtk{
-    write_unstructured_grid, write_lines,    read_points, read_cells,
-    read_triangles,          nearest_points, read_volume};
+    write_unstructured_grid, write_lines,   read_points,  read_cells,       read_triangles,
+    nearest_points,          read_volume,   read_polygons, contour_of,  nearest_in_cells};
 
 } // namespace springproof::cases

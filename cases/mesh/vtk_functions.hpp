@@ -3,13 +3,33 @@
 #include "cases/case/solution.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/point_cloud.hpp"
+#include "cases/mesh/triangle_mesh.hpp"
 #include "cases/mesh/volume.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
 
-/// A surface of triangles, seen from outside anticlockwise, mm.
-using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
+/// A number at every point of a regular grid, such as the mask of a body or the density of a tissue.
+struct Picture {
+  std::array<int, 3> n_points;     ///< along x, y, z, > 0
+  Eigen::Vector3d origin, spacing; ///< mm: of the first point, and from one to the next
+  std::vector<float> values;       ///< x fastest
+
+  float largest() const { return *std::max_element(values.begin(), values.end()); }
+};
+
+struct ContourSettings {
+  double level = 0.5;
+  int n_smoothing = 0; ///< passes of VTK's windowed sinc filter, which takes the steps of a mask and shrinks
+                       ///< little; 0: as the picture has it
+  std::size_t n_triangles = 0; ///< at most about so many, by quadric decimation; 0: all
+};
+
+/// The cell of a body at rest that holds a point or is nearest to it.
+struct PlaceInCell {
+  std::size_t cell;
+  Eigen::Vector3d nearest; ///< mm: the point itself in the cell (to 1e-3 of its edge), else one on its faces
+};
 
 /// What a grid carries.
 struct GridFields {
@@ -39,6 +59,13 @@ struct VtkFunctions {
   /// Reads a file .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3.
   /// @param most_bytes  of voxels that the file can hold
   Volume (*read_volume)(const std::string& path, std::uint64_t most_bytes);
+  /// The triangles of a file .vtp's content.
+  Surface (*read_polygons)(const std::string& content);
+  /// cases::contour(), of as many values as points.
+  Surface (*contour)(const Picture&, const ContourSettings&);
+  /// Of each position.  @param mesh  with at least one cell
+  std::vector<PlaceInCell> (*nearest_in_cells)(const HexMesh& mesh,
+                                               const std::vector<Eigen::Vector3d>& positions);
 };
 
 /// The symbol by which vtk() finds them.

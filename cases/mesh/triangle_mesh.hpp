@@ -1,0 +1,35 @@
+#pragma once
+
+#include "cases/mesh/hex_mesh.hpp"
+
+namespace springproof::cases {
+
+/// A surface of triangles, seen from outside anticlockwise, whose corners have no numbers; mm.
+using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
+
+/// A surface of triangles that share their vertices.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;     ///< mm
+  std::vector<std::array<int, 3>> triangles; ///< numbers of vertices, seen from outside anticlockwise
+};
+
+/// The same surface with vertices of equal coordinates joined, and without triangles that have two of one.
+TriangleMesh joined(const Surface& surface);
+
+/// The faces of a body that belong to one cell only, each as two triangles.
+TriangleMesh outer_surface(const HexMesh& mesh);
+
+/// Barycentre of a triangle at given positions of the vertices, mm.
+Eigen::Vector3d barycentre(const std::array<int, 3>& triangle, const std::vector<Eigen::Vector3d>& positions);
+
+/// Twice a triangle's area times its unit normal, mm²; outwards.
+Eigen::Vector3d doubled_area(const std::array<int, 3>& triangle,
+                             const std::vector<Eigen::Vector3d>& positions);
+
+/// Unit normals of the vertices: of the sum of their triangles' areas as vectors, which an affine map takes
+/// along exactly. Zero at a vertex without triangles, or whose triangles cancel out.
+/// @param positions  of the vertices, mm    @param normals  one per vertex, overwritten
+void vertex_normals(const std::vector<std::array<int, 3>>& triangles,
+                    const std::vector<Eigen::Vector3d>& positions, std::vector<Eigen::Vector3d>& normals);
+
+} // namespace springproof::cases

@@ -1,0 +1,152 @@
+#include "cases/mesh/vtk_surfaces.hpp"
+
+#include "cases/mesh/vtk_grid.hpp"
+#include "cases/mesh/vtk_run.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <stdexcept>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkGenericCell.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkQuadricDecimation.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkTriangleFilter.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkWindowedSincPolyDataFilter.h>
+#include <vtkXMLPolyDataReader.h>
+
+namespace springproof::cases {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// VTK's filters take the numbers of points as they are.
+void check_points_exist(vtkCellArray& cells, vtkIdType n_points) {
+  const vtkNew<vtkIdList> corners;
+  for (cells.InitTraversal(); cells.GetNextCell(corners) != 0;)
+    for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
+      if (corners->GetId(c) < 0 || corners->GetId(c) >= n_points)
+        throw std::runtime_error("has a polygon of a point that does not exist");
+}
+
+/// The triangles alone.
+Surface triangles_of(vtkPolyData& data) {
+  Surface surface;
+  vtkCellArray& polygons = *data.GetPolys();
+  const vtkNew<vtkIdList> corners;
+  for (polygons.InitTraversal(); polygons.GetNextCell(corners) != 0;) {
+    if (corners->GetNumberOfIds() != 3) continue;
+    surface.emplace_back();
+    for (vtkIdType c = 0; c < 3; ++c)
+      data.GetPoint(corners->GetId(c), surface.back()[static_cast<std::size_t>(c)].data());
+  }
+  return surface;
+}
+
+/// The picture with a point more at each side, of a value below the level.
+vtkNew<vtkImageData> with_border(const Picture& picture, double level) {
+  vtkNew<vtkImageData> image;
+  const auto& n = picture.n_points;
+  image->SetDimensions(n[0] + 2, n[1] + 2, n[2] + 2);
+  image->SetSpacing(picture.spacing.data());
+  image->SetOrigin(Vector3d(picture.origin - picture.spacing).data());
+  image->AllocateScalars(VTK_FLOAT, 1);
+  auto* const values = static_cast<float*>(image->GetScalarPointer());
+  const float below = std::min(static_cast<float>(2 * level) - picture.largest(),
+                               *std::min_element(picture.values.begin(), picture.values.end()));
+  std::fill_n(values, image->GetNumberOfPoints(), below);
+  const std::size_t row = index(n[0]) + 2, layer = row * (index(n[1]) + 2);
+  for (std::size_t k = 0; k < index(n[2]); ++k)
+    for (std::size_t j = 0; j < index(n[1]); ++j)
+      std::copy_n(&picture.values[(k * index(n[1]) + j) * index(n[0])], n[0],
+                  values + (k + 1) * layer + (j + 1) * row + 1);
+  return image;
+}
+
+double enclosed_volume(const Surface& surface) {
+  double volume = 0;
+  for (const auto& [a, b, c] : surface) volume += a.dot(b.cross(c)) / 6;
+  return volume;
+}
+
+} // namespace
+
+Surface read_polygons(const std::string& content) {
+  const vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(content);
+  run(*reader);
+  vtkPolyData& data = *reader->GetOutput();
+  check_points_exist(*data.GetPolys(), data.GetNumberOfPoints());
+  check_points_exist(*data.GetStrips(), data.GetNumberOfPoints());
+  const vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(&data);
+  triangles->PassVertsOff();
+  triangles->PassLinesOff();
+  run(*triangles);
+  return triangles_of(*triangles->GetOutput());
+}
+
+Surface contour_of(const Picture& picture, const ContourSettings& settings) {
+  const vtkNew<vtkFlyingEdges3D> edges;
+  edges->SetInputData(with_border(picture, settings.level));
+  edges->SetValue(0, settings.level);
+  edges->ComputeNormalsOff();
+  edges->ComputeScalarsOff();
+  run(*edges);
+  vtkSmartPointer<vtkPolyData> surface = edges->GetOutput();
+  if (settings.n_smoothing > 0) {
+    const vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+    smooth->SetInputData(surface);
+    smooth->SetNumberOfIterations(settings.n_smoothing);
+    smooth->SetPassBand(0.1);
+    smooth->NormalizeCoordinatesOn();
+    smooth->NonManifoldSmoothingOn();
+    run(*smooth);
+    surface = smooth->GetOutput();
+  }
+  const auto n_triangles = static_cast<double>(surface->GetNumberOfPolys());
+  if (const auto wanted = static_cast<double>(settings.n_triangles); wanted > 0 && wanted < n_triangles) {
+    const vtkNew<vtkQuadricDecimation> decimation;
+    decimation->SetInputData(surface);
+    decimation->SetTargetReduction(1 - wanted / n_triangles);
+    decimation->VolumePreservationOn();
+    run(*decimation);
+    surface = decimation->GetOutput();
+  }
+  Surface triangles = triangles_of(*surface);
+  if (enclosed_volume(triangles) < 0)
+    for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
+  return triangles;
+}
+
+std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector<Vector3d>& positions) {
+  const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh);
+  const vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(grid);
+  locator->BuildLocator();
+  const vtkNew<vtkGenericCell> cell;
+  std::array<double, 8> weights;
+  std::vector<PlaceInCell> places;
+  for (Vector3d position : positions) {
+    Vector3d local, nearest = position;
+    vtkIdType found = locator->FindCell(position.data(), 0, cell, local.data(), weights.data());
+    if (found < 0) {
+      int part = 0;
+      double squared = 0;
+      locator->FindClosestPoint(position.data(), nearest.data(), cell, found, part, squared);
+    }
+    if (found < 0) throw std::runtime_error("a vertex of the surface has no nearest cell");
+    places.push_back({static_cast<std::size_t>(found), nearest});
+  }
+  return places;
+}
+
+} // namespace springproof::cases

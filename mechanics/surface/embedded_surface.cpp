@@ -1,0 +1,66 @@
+#include "mechanics/surface/embedded_surface.hpp"
+
+#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/vtk.hpp"
+#include "mechanics/hexahedron.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <stdexcept>
+
+namespace springproof::mechanics {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The shape functions at a point of the unit cube, and to first order from there to a place that the cube's
+/// map does not take it to.
+std::array<double, 8> weights_at(const Vector3d& place, const HexahedronVertices& vertices,
+                                 const Vector3d& at) {
+  std::array<double, 8> weights = shape_values(at);
+  const Vector3d missing = place - image(vertices, at);
+  const Eigen::Matrix<double, 3, 8> gradients = shape_gradients(at);
+  const Vector3d step = jacobian(vertices, at).partialPivLu().solve(missing);
+  for (int v = 0; v < 8; ++v) weights[cases::index(v)] += gradients.col(v).dot(step);
+  return weights;
+}
+
+} // namespace
+
+EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh) {
+  EmbeddedSurface embedded;
+  const auto places = cases::vtk().nearest_in_cells(mesh, surface.vertices);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    const auto& [cell, nearest] = places[v];
+    const HexahedronVertices vertices = cases::cell_vertices(mesh, cell);
+    // VTK finds the cell and its nearest point to some digits; what these lack, the first order adds.
+    const Vector3d at = cases::place_in_cell(vertices, nearest).value_or(Vector3d::Constant(0.5));
+    const Vector3d inside = at.cwiseMax(0).cwiseMin(1);
+    embedded.vertices.push_back({mesh.cells[cell], weights_at(surface.vertices[v], vertices, inside)});
+    for (const double weight : embedded.vertices.back().weights)
+      if (!std::isfinite(weight))
+        throw std::runtime_error("the cell nearest to vertex " + std::to_string(v) +
+                                 " of the surface is degenerate");
+    const double distance = (surface.vertices[v] - nearest).norm();
+    if (distance > 0) ++embedded.n_outside;
+    embedded.largest_distance = std::max(embedded.largest_distance, distance);
+  }
+  embedded.rest = std::move(surface);
+  return embedded;
+}
+
+Vector3d displacement_at(const EmbeddedPoint& point, const std::vector<Vector3d>& displacement) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t v = 0; v < 8; ++v) sum += point.weights[v] * displacement[cases::index(point.nodes[v])];
+  return sum;
+}
+
+void move(const EmbeddedSurface& surface, const std::vector<Vector3d>& displacement,
+          std::vector<Vector3d>& positions) {
+  positions.resize(surface.vertices.size());
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    positions[v] = surface.rest.vertices[v] + displacement_at(surface.vertices[v], displacement);
+}
+
+} // namespace springproof::mechanics

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cases/mesh/triangle_mesh.hpp"
+
+namespace springproof::mechanics {
+
+/// A place of a body of hexahedra, as a sum over the nodes of one of its cells.
+struct EmbeddedPoint {
+  std::array<int, 8> nodes;
+  std::array<double, 8> weights; ///< add up to 1; negative ones outside of the cell
+};
+
+/// A surface that a body takes along.
+struct EmbeddedSurface {
+  cases::TriangleMesh rest;
+  std::vector<EmbeddedPoint> vertices; ///< one per vertex of it
+  std::size_t n_outside = 0;           ///< of the vertices, those in no cell
+  double largest_distance = 0;         ///< mm: how far one of them is from the nearest cell
+};
+
+/// Binds the vertices of a surface to the cells of a body at rest. A vertex in a cell has the weights of its
+/// trilinear coordinates there. One outside is bound to the nearest point of the nearest cell, and its
+/// weights are extrapolated from there to first order: u(X) = u(P) + grad u(P) (X - P). So a linear
+/// displacement is reproduced wherever a vertex lies, a turned body turns all of its surface, and weights
+/// grow with the distance and no faster, as trilinear coordinates outside of their cell would.
+/// @throws std::runtime_error if the nearest cell of a vertex is degenerate there
+EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh);
+
+/// Displacement of an embedded point.  @param displacement  of the body's nodes, mm
+Eigen::Vector3d displacement_at(const EmbeddedPoint& point, const std::vector<Eigen::Vector3d>& displacement);
+
+/// Where the surface is.  @param displacement  of the body's nodes, mm
+/// @param positions  of the surface's vertices, mm, overwritten
+void move(const EmbeddedSurface& surface, const std::vector<Eigen::Vector3d>& displacement,
+          std::vector<Eigen::Vector3d>& positions);
+
+} // namespace springproof::mechanics
