@@ -287,6 +287,18 @@ struct Measure {
   std::optional<OverTime> over_time{}; ///< of a dynamic case's measures, but for norms of fields
 };
 
+/// A surface that the body takes along, STL or VTP: of a skin, say, which the cells follow in steps.
+struct SurfaceFile {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  Where where;
+};
+
+/// A place of the body's surface at which the surfaces of both models are compared.
+struct Landmark {
+  std::string name;
+  Eigen::Vector3d point; ///< mm, of the body at rest, on its surface or near it
+};
+
 /// Where an expectation's interval comes from; reports count the kinds separately.
 SPRINGPROOF_ENUMERATION(ReferenceKind, exact, converged, peer, published, regression)
 SPRINGPROOF_ENUMERATION(Quantity, error_percent, msm, fem)
@@ -361,6 +373,8 @@ struct Case {
   std::optional<Stress> stress; ///< of a hard case
   bool has_fields = false;      ///< solutions get their fields: a measure or a file of results needs them
   std::optional<Dynamics> dynamics;
+  std::optional<SurfaceFile> surface{}; ///< absent: the outer one of the cells
+  std::vector<Landmark> landmarks{};
 };
 
 /// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends

@@ -137,6 +137,26 @@ void read_measures(Table& root, Case& result) {
   result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });
 }
 
+void read_surface(Table& root, Case& result) {
+  if (root.has("surface"))
+    result.surface = root.section("surface", [&](Table& table) {
+      const Entry file = table.entry("file");
+      return SurfaceFile{read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", result.file),
+                         file.where};
+    });
+  root.know({"surface"});
+  std::vector<std::string> seen;
+  result.landmarks = root.sections("landmark", [&](Table& table) {
+    Landmark landmark{
+        table.required("name", read_text),
+        table.required("point", Vector{"three finite numbers (mm), a point of the body's surface"})};
+    if (std::find(seen.begin(), seen.end(), landmark.name) != seen.end())
+      table.entry("name").refuse("a new name: another landmark has this one");
+    seen.push_back(landmark.name);
+    return landmark;
+  });
+}
+
 /// What is asked of the finite elements and of their accuracy has to fit together.
 void check_accuracy(Table& root, const Case& definition) {
   const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
@@ -177,6 +197,7 @@ Case read_definition(Table& root, const std::string& path) {
   read_models(root, result);
   check_dynamics(root, result);
   read_measures(root, result);
+  read_surface(root, result);
   check_accuracy(root, result);
   check_turns(result);
   return result;

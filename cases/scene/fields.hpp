@@ -34,6 +34,12 @@ void serialize(Archive& archive, springproof::cases::NetworkFile& network) {
 }
 
 template<class Archive>
+void serialize(Archive& archive, springproof::cases::SurfaceFile& surface) {
+  auto& [path, where] = surface;
+  if constexpr (has_places<Archive>) archive(path, where);
+}
+
+template<class Archive>
 void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
   auto& [path, edge, where] = voxels;
   archive(edge);
@@ -72,6 +78,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poiss
                    has_volume_term, accepted, mass, iterations_per_step, where)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
                    centre, region, point, tensor_component, point_where, where, over_time)
+SPRINGPROOF_FIELDS(springproof::cases::Landmark, name, point)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
                    ends_where)
 SPRINGPROOF_FIELDS(springproof::cases::ExpectedOutcome, model, side, design, outcome, load_reached,
@@ -83,9 +90,10 @@ SPRINGPROOF_FIELDS(springproof::cases::Stress, is_heavy, start, amplitude, seed,
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Case& definition) {
   auto& [name, description, file, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics] = definition;
+         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks] =
+      definition;
   archive(name, description, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics);
+          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks);
   if constexpr (has_places<Archive>) archive(file);
 }
 
@@ -95,7 +103,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedMass, selection, added)
 SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
 SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,
-                   masses, network)
+                   masses, network, surface)
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)

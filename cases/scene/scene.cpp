@@ -5,6 +5,7 @@
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/regions.hpp"
+#include "cases/scene/surface.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -334,6 +335,7 @@ Scene make_scene(const Case& definition) {
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
       if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
   check_fields(scene);
+  read_surface_of(scene);
   return scene;
 }
 

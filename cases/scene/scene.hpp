@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/triangle_mesh.hpp"
 #include "cases/scene/network.hpp"
 
 #include <functional>
@@ -35,6 +35,7 @@ struct Scene {
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
+  TriangleMesh surface{};               ///< of the case's file; empty: it names none
 };
 
 /// Nodes, edges and faces of a region. Faces of a box are planes of the mesh's bounding box.

@@ -15,6 +15,7 @@ Comparison comparison_of(cases::Scene scene, Answers answers) {
   const MeshStudy* study = comparison.mesh_study ? &*comparison.mesh_study : nullptr;
   comparison.measures = measure(scene, answers, study);
   comparison.gates = judge(scene, answers, comparison.measures, study);
+  comparison.landmarks = landmark_distances(scene, answers);
   comparison.scene = std::move(scene);
   comparison.answers = std::move(answers);
   return comparison;

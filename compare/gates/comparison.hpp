@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/gates/judge.hpp"
+#include "compare/measure/landmarks.hpp"
 
 namespace springproof::compare {
 
@@ -12,6 +13,7 @@ struct Comparison {
   std::vector<MeasuredValue> measures;
   std::vector<Gate> gates;             ///< one per expectation
   std::optional<MeshStudy> mesh_study; ///< absent when the case has accuracy = "none"
+  std::vector<LandmarkDistance> landmarks; ///< one per landmark
 
   /// What a converged side must not be unless its case accepts that: with inverted cells, or in an unstable
   /// equilibrium.

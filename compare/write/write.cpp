@@ -8,6 +8,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/springs_text.hpp"
+#include "compare/write/write_landmarks.hpp"
 #include "compare/write/write_motion.hpp"
 
 #include <algorithm>
@@ -297,13 +298,14 @@ Json case_to_json(const Comparison& comparison) {
                 {"expectations", expectations},
                 {"status", comparison.answers.failed() ? "failed" : "converged"},
                 {"doubts", comparison.doubts()}};
+  if (!comparison.landmarks.empty()) document["landmarks"] = landmarks_to_json(comparison);
   if (comparison.scene.definition.dynamics) document["motion"] = motion_to_json(comparison);
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);
   return document;
 }
 
 void write_text(std::ostream& out, const Comparison& comparison) {
-  const auto& [scene, answers, measures, gates, mesh_study] = comparison;
+  const auto& [scene, answers, measures, gates, mesh_study, landmarks] = comparison;
   const cases::Case& definition = scene.definition;
   print(out, "{}: {}\n", definition.name, definition.description);
   write_loads(out, scene);
@@ -328,6 +330,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
     write_missing_limits(out, *mesh_study);
     if (mesh_study->refine.size() > 1) write_mesh_study(out, *mesh_study);
   }
+  write_landmarks_text(out, comparison);
   for (const std::string& doubt : comparison.doubts()) print(out, "  FAILED: {}\n", doubt);
   for (const Gate& gate : gates)
     print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED", gate.expectation.measure,
@@ -377,7 +380,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
   csv.row("case", "measure", "unit", "fem", "msm", "error_percent", "fem_status", "msm_status",
           "fem_discretisation_error_percent", "peer", "reference", "fem_limit", "fem_limit_uncertainty",
           "error_uncertainty_percent", "error_same_mesh_percent");
-  for (const auto& [scene, answers, measures, gates, study] : comparisons)
+  for (const auto& [scene, answers, measures, gates, study, landmarks] : comparisons)
     for (std::size_t i = 0; i < measures.size(); ++i) {
       const MeasuredValue& m = measures[i];
       const std::optional<Limit>& limit = m.fem_limit;
@@ -394,6 +397,7 @@ void write_results(const std::string& folder, const std::vector<Comparison>& don
   write_fields(folder, done.back());
   if (mpi_rank() != 0) return;
   write_motion(folder, done.back());
+  write_landmarks(folder, done.back());
   write_file(folder + "/comparison.csv", [&](std::ostream& out) { write_csv(out, done); });
   write_file(folder + "/results.json", [&](std::ostream& out) { out << json_text(to_json(done)); });
 }

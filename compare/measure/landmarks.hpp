@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+#include "compare/solve/answers.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
+
+namespace springproof::compare {
+
+/// How far the springs' surface is from the finite elements' about a point of it.
+struct LandmarkDistance {
+  std::string name;
+  double from_point; ///< mm: of the point from the nearest triangle's barycentre, in the body at rest
+  int n_rays = 0;    ///< that met the other surface
+  std::optional<double> mean, deviation; ///< mm, of their lengths; nothing where no ray, or but one, met it
+  std::optional<double> moved;           ///< mm: mean displacement of the barycentres in the finite elements
+  std::string missing{};                 ///< why there is nothing
+};
+
+/// Of every landmark of a case, in its order: from the barycentres of the five triangles that are nearest to
+/// it at rest, of the surface as the springs have moved it, along the triangles' normals to the nearest
+/// place, on either side, of the surface as the finite elements have moved it. The deviation is that of a
+/// sample (n - 1). The surface is the scene's, or the outer one of the body's cells. A dynamic case's are of
+/// its end. Source: thesis section 6.1.4.3 and table 6.1.
+std::vector<LandmarkDistance> landmark_distances(const cases::Scene& scene, const Answers& answers);
+
+/// The surface that a case names, or else the outer one of its cells, bound to the cells.
+/// @throws cases::InputError at the place of the surface in the case file if it cannot be bound
+mechanics::EmbeddedSurface embedded_surface(const cases::Scene& scene);
+
+} // namespace springproof::compare

@@ -1,0 +1,141 @@
+#include "compare/measure/landmarks.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "compare/gates/comparison.hpp"
+#include "compare/write/write_landmarks.hpp"
+#include "tests/support/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using namespace springproof;
+
+using namespace compare;
+using Eigen::Vector3d;
+
+namespace {
+
+const std::string block_text = R"(schema = 1
+name = "block"
+[body]
+shape = "box"
+size = [4, 4, 2]
+cells = [4, 4, 2]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.3
+poissons_ratio = 0.3
+[[fixed]]
+region = "z-"
+[[load]]
+region = "z+"
+kind = "traction"
+value = [0, 0, 0.001]
+[fem]
+accuracy = "none"
+[[measure]]
+name = "top"
+kind = "displacement"
+node = "z+ x+ y+"
+component = "z"
+[[landmark]]
+name = "top"
+point = [2.1, 1.9, 2]
+[[landmark]]
+name = "side"
+point = [4, 2.2, 1.1]
+)";
+
+Answer answer_of(const cases::Scene& scene, const std::function<Vector3d(const Vector3d&)>& displacement) {
+  Answer answer;
+  answer.solution.status = cases::Status::converged;
+  for (const Vector3d& node : scene.mesh.nodes) answer.solution.displacement.push_back(displacement(node));
+  return answer;
+}
+
+} // namespace
+
+TEST_CASE("landmarks have the distance of two flat surfaces along their normal", "[verification]") {
+  const cases::Scene scene = cases::make_scene(cases::read_case_text(block_text, "block.toml"));
+  Answers answers;
+  // Both faces stay planes: the top ends at 2.2 and 2.3 mm, the side at 3.6 and 3.56 mm.
+  answers.fem = answer_of(scene, [](const Vector3d& x) { return Vector3d(-0.1 * x.x(), 0, 0.1 * x.z()); });
+  answers.msm = answer_of(scene, [](const Vector3d& x) { return Vector3d(-0.11 * x.x(), 0, 0.15 * x.z()); });
+  const auto found = landmark_distances(scene, answers);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].name == "top");
+  CHECK(found[0].n_rays == 5);
+  CHECK(found[0].mean.value() == Approx(0.1).epsilon(1e-12));
+  CHECK(found[0].deviation.value() == Approx(0).margin(1e-13));
+  CHECK(found[0].from_point < 0.5); // triangles of half a square of 1 mm
+  CHECK(found[1].mean.value() == Approx(0.04).epsilon(1e-12));
+}
+
+TEST_CASE("landmarks on a tilted surface have the mean and deviation of their rays", "[verification]") {
+  const cases::Scene scene = cases::make_scene(cases::read_case_text(block_text, "block.toml"));
+  Answers answers;
+  // The springs stay at rest; the finite elements' top rises by 0.05 x: the ray at x has that length.
+  answers.fem = answer_of(scene, [](const Vector3d& x) { return Vector3d(0, 0, 0.025 * x.x() * x.z()); });
+  answers.msm = answer_of(scene, [](const Vector3d&) { return Vector3d(0, 0, 0); });
+  const LandmarkDistance top = landmark_distances(scene, answers)[0];
+  // Barycentres at thirds of the squares around (2.1, 1.9), by their diagonals x = y.
+  const cases::TriangleMesh outer = cases::outer_surface(scene.mesh);
+  std::vector<std::pair<double, double>> lengths; // distance from the point, length of the ray
+  for (const auto& triangle : outer.triangles) {
+    const Vector3d at = cases::barycentre(triangle, outer.vertices);
+    if (at.z() > 1.999) lengths.emplace_back((at - Vector3d(2.1, 1.9, 2)).norm(), 0.05 * at.x());
+  }
+  std::sort(lengths.begin(), lengths.end());
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < 5; ++i)
+    sum += lengths[i].second, squares += lengths[i].second * lengths[i].second;
+  CHECK(top.mean.value() == Approx(sum / 5).epsilon(1e-12));
+  CHECK(top.deviation.value() == Approx(std::sqrt((squares - sum * sum / 5) / 4)).epsilon(1e-9));
+  CHECK(top.moved.value() == Approx(sum / 5).epsilon(1e-12));
+}
+
+TEST_CASE("landmarks of a case are in text, JSON and CSV, and without a solution they say why there is none") {
+  const Comparison solved = compare_case(cases::read_case_text(block_text, "block.toml"));
+  std::ostringstream text, csv;
+  write_landmarks_text(text, solved);
+  write_landmarks_csv(csv, solved);
+  CHECK_THAT(text.str(), Catch::Contains("landmark, mm") && Catch::Contains("side"));
+  const std::string rows = csv.str();
+  CHECK(std::count(rows.begin(), rows.end(), '\n') == 3);
+  const auto json = landmarks_to_json(solved);
+  REQUIRE(json.size() == 2);
+  CHECK(json[0]["n_rays"] == 5);
+  CHECK(json[0]["mean"].get<double>() > 0);
+  CHECK(json[0]["mean"].get<double>() < json[0]["moved"].get<double>());
+
+  Request springs_alone;
+  springs_alone.only = cases::Side::msm;
+  const Comparison half = compare_case(cases::read_case_text(block_text, "block.toml"), springs_alone);
+  REQUIRE(half.landmarks.size() == 2);
+  CHECK_FALSE(half.landmarks[0].mean);
+  CHECK_FALSE(half.landmarks[0].from_point);
+  CHECK_THAT(half.landmarks[0].missing, Catch::Contains("both models"));
+}
+
+TEST_CASE("a case's surface file is read, bound and measured, and a broken one is refused at its place") {
+  const TemporaryFolder folder;
+  const std::string with_surface = block_text + "[surface]\nfile = \"top.stl\"\n";
+  const std::string triangles =
+      "solid top\n"
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 2.2\nvertex 4 0 2.2\nvertex 0 4 2.2\n"
+      "endloop\nendfacet\nendsolid\n";
+  folder.write("top.stl", triangles);
+  const std::string file = folder.write("case.toml", with_surface);
+  const cases::Scene scene = cases::make_scene(cases::read_case(file));
+  REQUIRE(scene.surface.triangles.size() == 1);
+  const auto embedded = embedded_surface(scene);
+  CHECK(embedded.n_outside == 3);
+  CHECK(embedded.largest_distance == Approx(0.2).epsilon(1e-5)); // single precision
+  folder.write("top.stl", "solid nothing\nendsolid\n");
+  CHECK_THROWS_WITH(cases::make_scene(cases::read_case(file)),
+                    Catch::Contains("case.toml:") && Catch::Contains("no triangles"));
+  CHECK_THROWS_WITH(
+      cases::read_case_text(block_text + "[[landmark]]\nname = \"top\"\npoint = [0, 0, 0]\n", "a.toml"),
+      Catch::Contains("another landmark has this one"));
+}
