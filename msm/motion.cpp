@@ -2,9 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
-#include "msm/direct/direct_system.hpp"
-#include "msm/direct/moving_lattice.hpp"
-#include "msm/grid/moving_grid.hpp"
+#include "msm/moving_body.hpp"
 
 #include <utility>
 
@@ -31,15 +29,15 @@ double volume_of(const cases::HexMesh& mesh, const Points& displacement) {
   return volume;
 }
 
-/// On any path.
-cases::Solution follow(const cases::Scene& scene, const Problem& problem, MovingSprings& motion, Vector start,
-                       const std::function<Points(const Vector&)>& to_points,
+cases::Solution follow(const cases::Scene& scene, MovingBody& body, const Points& start,
                        const mechanics::IntegrationSettings& settings) {
+  const auto points = [&](const Vector& state) { return body.to_points(state); };
   const mechanics::FollowedMotion followed = mechanics::follow_motion(
       scene,
-      {motion, to_points, [&](const Vector& state) { return volume_of(problem.mesh, to_points(state)); }},
-      std::move(start), settings);
-  cases::Solution solution = solution_of(problem, followed.work, to_points(followed.end));
+      {body.motion(), points,
+       [&](const Vector& state) { return volume_of(body.problem().mesh, points(state)); }},
+      body.to_vector(start), settings);
+  cases::Solution solution = solution_of(body.problem(), followed.work, points(followed.end));
   solution.trajectory = followed.trajectory;
   return solution;
 }
@@ -48,36 +46,23 @@ cases::Solution follow(const cases::Scene& scene, const Problem& problem, Moving
 
 cases::Solution follow(const cases::Scene& scene, Lattice lattice, Lattice damping,
                        const mechanics::IntegrationSettings& settings) {
-  Problem problem = make_moving_problem(scene);
-  problem.lattice = std::move(lattice);
-  const auto statics = make_direct_system(problem);
-  const auto motion = make_moving_lattice(problem, *statics, make_inertia(scene, std::move(damping)));
-  return follow(
-      scene, problem, *motion, to_vector(problem, start_of(scene, problem.lattice, {}, settings)),
-      [&](const Vector& state) { return to_points(problem, state); }, settings);
+  MovingBody body(scene, std::move(lattice), std::move(damping));
+  return follow(scene, body, start_of(scene, body.problem().lattice, {}, settings), settings);
 }
 
 cases::Solution follow(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
                        const ModelOptions& options, const mechanics::IntegrationSettings& settings) {
-  const auto factorised = [&] {
-    return follow(scene, make_lattice(scene.mesh, stiffness), damping_lattice(scene, stiffness), settings);
-  };
-  if (!takes_multigrid(scene, stiffness, options.path)) return factorised();
-  const Problem problem = make_moving_problem(scene);
-  const grid::GridProblem grid = grid::make_grid_problem(problem, stiffness);
-  const auto statics = grid::make_grid_system(grid, options.n_threads);
-  const auto motion = grid::make_moving_grid(problem, grid, *statics, make_inertia(scene, {}),
-                                             damping_stiffness(scene, stiffness), options.n_threads);
-  Vector start = grid::to_field(problem, grid.body, start_of(scene, stiffness, options, settings));
-  const auto points = [&](const Vector& state) { return grid::to_points(problem, grid.body, state); };
+  MovingBody body(scene, stiffness, options);
+  if (!body.is_on_grid())
+    return follow(scene, body, start_of(scene, body.problem().lattice, {}, settings), settings);
   try {
-    return follow(scene, problem, *motion, std::move(start), points, settings);
+    return follow(scene, body, start_of(scene, stiffness, options, settings), settings);
   } catch (const cases::SolveError&) {
     const bool may_be_factorised =
         options.path == Path::automatic && scene.mesh.nodes.size() <= most_factorised;
-    if (!may_be_factorised || !motion->has_failed()) throw;
+    if (!may_be_factorised || !body.motion().has_failed()) throw;
   }
-  return factorised();
+  return follow(scene, make_lattice(scene.mesh, stiffness), damping_lattice(scene, stiffness), settings);
 }
 
 } // namespace springproof::msm

@@ -86,6 +86,7 @@ Lattice damping_lattice(const cases::Scene& scene, Lattice springs) {
 void MovingSprings::external_force(double time, Vector& force) {
   force.setZero(entries_.mass.size());
   for (const auto& [history, load] : entries_.loads) force += history.at(time) * load;
+  if (given_force_.size() > 0) force += given_force_;
 }
 
 void MovingSprings::set_step(const mechanics::StepTerms& terms) {

@@ -58,6 +58,9 @@ class MovingSprings : public mechanics::DynamicProblem {
     add_stiffness_damping(motion, product);
   }
   void external_force(double time, Vector& force) override;
+  /// A force (N) beside the loads, until the next call.
+  /// @param force  0 on constrained degrees of freedom; of no size: none
+  void set_given_force(const Vector& force) { given_force_ = force; }
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);
   }
@@ -103,6 +106,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
   Vector diagonal_;
+  Vector given_force_;             ///< N; of no size: none
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
 
   const Vector& added_force(const Vector& at);

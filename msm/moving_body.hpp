@@ -1,0 +1,42 @@
+#pragma once
+
+#include "msm/grid/grid_system.hpp"
+#include "msm/model.hpp"
+#include "msm/moving_springs.hpp"
+
+namespace springproof::msm {
+
+/// A scene's springs with what moves them, on the direct or on the multigrid path: a step at a time by a
+/// mechanics::TimeIntegrator of motion().
+class MovingBody {
+ public:
+  /// On the direct path.
+  /// @param lattice  of the springs   @param damping  damping_lattice() of the same
+  MovingBody(const cases::Scene& scene, Lattice lattice, Lattice damping);
+  /// Of cells, on the path that a Model of them would take; of the options, on which threads.
+  /// @param stiffness  one for every cell of the mesh, or a single one for all
+  MovingBody(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
+             const ModelOptions& options = {});
+  MovingBody(const MovingBody&) = delete; // its parts refer to each other
+  MovingBody& operator=(const MovingBody&) = delete;
+
+  MovingSprings& motion() { return *motion_; }
+  const Problem& problem() const { return problem_; }
+  bool is_on_grid() const { return grid_.has_value(); }
+
+  /// Between the motion's vectors and one vector (mm, mm/s or N) per node of the scene's mesh.
+  Vector to_vector(const Points& points) const;
+  Points to_points(const Vector& vector) const;
+  /// Forces (N) as a vector of the motion, 0 on constrained degrees of freedom.
+  Vector forces(const std::vector<cases::NodeVector>& of_nodes) const;
+
+ private:
+  Problem problem_;
+  std::optional<grid::GridProblem> grid_;
+  std::unique_ptr<SpringSystem> statics_;
+  std::unique_ptr<MovingSprings> motion_;
+
+  void factorise(const cases::Scene& scene, Lattice lattice, Lattice damping);
+};
+
+} // namespace springproof::msm
