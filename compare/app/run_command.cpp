@@ -3,9 +3,11 @@
 #include "compare/app/design_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
+#include "compare/interact/replay.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/ranking/ranking.hpp"
 #include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
@@ -33,6 +35,7 @@ struct RunOptions {
   bool converges_time = false; ///< once more with half the step
   std::string peer;            ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
+  std::string replay;               ///< a recording of interact; empty: none
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
   bool report = false;              ///< a page of each case, in `out`
   bool json = false;
@@ -96,6 +99,7 @@ std::vector<std::string> command_of(const RunOptions& options, const std::string
     words.insert(words.end(), {option, value});
   };
   for (const std::string& setting : options.settings) add("--set", setting);
+  if (!options.replay.empty()) add("--replay", options.replay);
   if (options.only != "both") add("--only", options.only);
   if (options.meshes > 0) words.push_back(fmt::format("--converge={}", options.meshes));
   if (!options.peer.empty()) add("--peer", options.peer);
@@ -132,6 +136,11 @@ int run(const RunOptions& options) {
   if (!options.out.empty()) // for the .vtu
     for (Question& question : questions) question.scene.definition.has_fields = true;
   check_memory(questions);
+  if (!options.replay.empty()) {
+    if (questions.size() != 1) throw cases::InputError("--replay: a recording is of one case");
+    questions.front().scene =
+        with_recording(std::move(questions.front().scene), read_file(options.replay), options.replay);
+  }
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
@@ -201,6 +210,10 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->excludes("--only")
       ->excludes("--peer")
       ->excludes("--msm-displacements");
+  command
+      ->add_option("--replay", options->replay,
+                   "a recording of interact (NAME_pulls.csv), whose forces act on both models")
+      ->excludes(command->get_option("--designs"));
   command->callback([options, out, &chosen] {
     if (!options->designs.empty() && *out && !options->report)
       throw CLI::ValidationError("--designs",

@@ -6,7 +6,6 @@
 #include "compare/write/write.hpp"
 
 #include <fmt/format.h>
-#include <map>
 #include <nlohmann/json.hpp>
 
 namespace springproof::compare {
@@ -17,25 +16,6 @@ namespace {
 
 std::string page_file(const std::string& name) {
   return read_file(cases::data_folder("report") + "/" + name);
-}
-
-std::string script(const std::string& name) {
-  return read_file(cases::data_folder("scripts") + "/" + name);
-}
-
-/// page.html with every {{name}} replaced: by its value, or else by the file of that name.
-std::string fill_page(const std::map<std::string, std::string>& values) {
-  const std::string text = page_file("page.html");
-  std::string result;
-  std::size_t from = 0;
-  for (std::size_t open = text.find("{{"); open != std::string::npos; open = text.find("{{", from)) {
-    const std::size_t close = text.find("}}", open);
-    const std::string name = text.substr(open + 2, close - open - 2);
-    const auto value = values.find(name);
-    result += text.substr(from, open - from) + (value == values.end() ? page_file(name) : value->second);
-    from = close + 2;
-  }
-  return result + text.substr(from);
 }
 
 /// A picture as an address, in two thirds of the length that base64 would have.
@@ -52,6 +32,25 @@ std::string address_of(const std::string& svg) {
 
 } // namespace
 
+std::string page_script(const std::string& name) {
+  return read_file(cases::data_folder("scripts") + "/" + name);
+}
+
+std::string filled_page(const std::string& data, const std::map<std::string, std::string>& values) {
+  const auto file = [&](const std::string& name) { return read_file(cases::data_folder(data) + "/" + name); };
+  const std::string text = file("page.html");
+  std::string result;
+  std::size_t from = 0;
+  for (std::size_t open = text.find("{{"); open != std::string::npos; open = text.find("{{", from)) {
+    const std::size_t close = text.find("}}", open);
+    const std::string name = text.substr(open + 2, close - open - 2);
+    const auto value = values.find(name);
+    result += text.substr(from, open - from) + (value == values.end() ? file(name) : value->second);
+    from = close + 2;
+  }
+  return result + text.substr(from);
+}
+
 std::string embedded(const Json& document) {
   std::string result;
   for (const char c : document.dump(-1, ' ', true, Json::error_handler_t::replace))
@@ -67,12 +66,12 @@ std::string picture(const std::string& folder, const std::string& name, const st
 void write_page(const std::string& file, const std::string& title, Json data, const std::string& pictures) {
   data["provenance"] = provenance();
   data["licences"] = {page_file("three_licence.txt"), page_file("chart_licence.txt")};
-  const std::string page = fill_page({{"title", escape(title)},
-                                      {"pictures", pictures},
-                                      {"data", embedded(data)},
-                                      {"three", script("three.min.js")},
-                                      {"controls", script("OrbitControls.js")},
-                                      {"chart", script("chart.min.js")}});
+  const std::string page = filled_page("report", {{"title", escape(title)},
+                                                  {"pictures", pictures},
+                                                  {"data", embedded(data)},
+                                                  {"three", page_script("three.min.js")},
+                                                  {"controls", page_script("OrbitControls.js")},
+                                                  {"chart", page_script("chart.min.js")}});
   write_file(file, [&](std::ostream& out) { out << page; });
 }
 

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 /// The one builder of pages: a page is page.html with its data, which its scripts render.
 namespace springproof::compare {
+
+/// A script that pages are made with: three.min.js, OrbitControls.js, chart.min.js.
+std::string page_script(const std::string& name);
+
+/// page.html of a data folder with every {{name}} replaced: by its value, or else by the file of that name
+/// there.
+std::string filled_page(const std::string& data, const std::map<std::string, std::string>& values);
 
 /// JSON as it may stand in a <script>: no text of it can end the element or begin a comment.
 std::string embedded(const nlohmann::ordered_json& document);

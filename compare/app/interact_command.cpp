@@ -1,0 +1,143 @@
+#include "cases/case/installation.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/app/commands.hpp"
+#include "compare/interact/recording.hpp"
+#include "compare/interact/server.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/report/page.hpp"
+#include "compare/solve/estimate.hpp"
+#include "compare/write/escape.hpp"
+#include "compare/write/json.hpp"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+
+namespace springproof::compare {
+
+namespace {
+
+struct InteractOptions {
+  std::string file;
+  std::vector<std::string> settings;
+  int port = 0, n_spheres = 271, n_threads = 1;
+  double stiffness = 100; ///< N/m
+  double seconds = 0;     ///< 0: until the page is closed
+  bool stays = false, json = false;
+  std::string out;
+};
+
+std::string page_of(const cases::Case& definition) {
+  const std::string report = cases::data_folder("report");
+  return filled_page("interact", {{"title", escape(definition.name)},
+                                  {"three", page_script("three.min.js")},
+                                  {"controls", page_script("OrbitControls.js")},
+                                  {"three_licence", escape(read_file(report + "/three_licence.txt"))},
+                                  {"nonce", "{{nonce}}"}, // the server's
+                                  {"socket", "{{socket}}"}});
+}
+
+nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const ServerCounts& counts) {
+  return {
+      {"steps", summary.n_steps},
+      {"pulled_steps", summary.n_pulled},
+      {"failed_steps", summary.n_failures},
+      {"failure", summary.failure},
+      {"step_ms", {{"median", summary.median_ms}, {"p99", summary.p99_ms}, {"largest", summary.largest_ms}}},
+      {"frames",
+       {{"made", summary.n_frames},
+        {"sent", counts.n_frames_sent},
+        {"dropped", counts.n_frames_dropped},
+        {"with_inverted_cells", summary.n_inverted_frames}}},
+      {"pages", counts.n_pages},
+      {"refused_requests", counts.n_refused},
+      {"pages_cut_off", counts.n_cut_off}};
+}
+
+void print_summary(const SimulationSummary& summary, const ServerCounts& counts) {
+  print(std::cout,
+        "{} steps, {} of them pulled; a step took {:.3g} ms (median), {:.3g} ms (99 %), {:.3g} ms at most\n",
+        summary.n_steps, summary.n_pulled, summary.median_ms, summary.p99_ms, summary.largest_ms);
+  print(std::cout, "{} frames sent, {} dropped; {} requests refused, {} pages cut off\n",
+        counts.n_frames_sent, counts.n_frames_dropped, counts.n_refused, counts.n_cut_off);
+  if (summary.n_inverted_frames > 0)
+    print(std::cout, "{} frames had cells inside out\n", summary.n_inverted_frames);
+  if (summary.n_failures > 0)
+    print(std::cout, "{} steps could not be solved, and began anew from rest; the last: {}\n",
+          summary.n_failures, summary.failure);
+}
+
+int run(const InteractOptions& options) {
+  if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
+  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
+  claim_folder(options.out);
+  std::unique_ptr<PageServer> server; // the simulation's thread sends to it, and is stopped before it
+  Simulation simulation(
+      scene, {static_cast<std::size_t>(options.n_spheres), 1e-3 * options.stiffness, options.n_threads},
+      [&](std::shared_ptr<const std::string> frame) { server->send_frame(std::move(frame)); });
+  ServedPage page;
+  page.html = page_of(scene.definition);
+  page.first_text = simulation.description();
+  page.first_bytes = simulation.geometry();
+  page.on_control = [&] { simulation.start(); };
+  page.on_leave = [&] { simulation.pause(); };
+  page.on_text = [&](const std::string& text) {
+    const auto message = message_from(text);
+    if (message) simulation.send(*message);
+    return message.has_value();
+  };
+  page.longest_text = longest_message;
+  page.ends_with_page = !options.stays;
+  server = std::make_unique<PageServer>(std::move(page), options.port);
+  // In JSON the address would end the document's first line: it goes where progress goes.
+  print(options.json ? std::cerr : std::cout, "open {}\n", server->address());
+  (options.json ? std::cerr : std::cout).flush();
+  server->run(options.seconds);
+  simulation.stop();
+  const SimulationSummary summary = simulation.summary();
+  if (options.json)
+    std::cout << json_text({{"schema", 1}, {"interaction", summary_to_json(summary, server->counts())}});
+  else
+    print_summary(summary, server->counts());
+  if (!options.out.empty())
+    write_file(options.out + "/" + scene.definition.name + "_pulls.csv",
+               [&](std::ostream& out) { write_recording(out, simulation, scene.definition.dynamics->step); });
+  if (simulation.is_recording_full())
+    print(std::cerr, "the recording ends after {} steps with a pull\n", Simulation::most_recorded);
+  return 0;
+}
+
+} // namespace
+
+void add_interact_command(CLI::App& program, Action& chosen) {
+  auto options = std::make_shared<InteractOptions>();
+  CLI::App* command = program.add_subcommand(
+      "interact", "a dynamic case's springs on a page of this machine, to turn and to pull in real time");
+  command->add_option("case", options->file, "case file (TOML) with [dynamics]")->required();
+  command->add_option("--set", options->settings, "override a key of the case: dynamics.step=0.02")
+      ->allow_extra_args(false);
+  command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--stiffness", options->stiffness, "of the spring that pulls, N/m, at most")
+      ->check(CLI::Range(1e-6, 1e9))
+      ->capture_default_str();
+  command->add_option("--spheres", options->n_spheres, "that cover the surface, to take hold of")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--threads", options->n_threads, "of the springs' multigrid path")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--stay", options->stays, "go on when the page is closed, until Ctrl-C");
+  command->add_option("--seconds", options->seconds, "end after so many seconds in any case")
+      ->check(CLI::Range(0.1, 1e6));
+  command->add_option("--out", options->out, "folder for the recording of the pulls");
+  command->add_flag(
+      "--json", options->json,
+      "what has been, as one JSON document on standard output; the address goes to standard error");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "compare/solve/springs.hpp"
+#include "mechanics/dynamics/time_integrator.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
+#include "mechanics/surface/rays.hpp"
+#include "msm/moving_body.hpp"
+
+#include <memory>
+
+namespace springproof::compare {
+
+struct PullSettings {
+  std::size_t n_spheres = 271; ///< that cover the surface, as in the thesis (section 6.2.2.3)
+  double stiffness = 0.1;      ///< N/mm, of the spring between the pointer and the body, > 0
+  int n_threads = 1;           ///< of the multigrid path
+};
+
+/// A dynamic case's springs, moved step by step while a place of their surface is pulled by a spring, whose
+/// force goes to the nodes of the place's cell by its weights there. The force is that of the beginning of a
+/// step, and is constant in the step: so a recording of forces replays in any model.
+class PulledBody {
+ public:
+  /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start
+  PulledBody(const cases::Scene& scene, const PullSettings& settings);
+
+  /// Takes hold of the sphere that a ray meets first, if it meets one.
+  /// @return the vertex of the surface that is held from now on
+  std::optional<int> grab(const mechanics::Ray& ray);
+  /// Moves the pointer's end of the spring.
+  /// @param by  mm, from where the place was when it was grabbed; at most the body's size counts
+  void drag(const Eigen::Vector3d& by);
+  void release();
+  /// Back to the start of the motion, with nothing held.
+  void restart();
+
+  /// One step of the case. One that cannot be solved is told in failure(); then the body is back at its
+  /// start.
+  void step();
+
+  const mechanics::EmbeddedSurface& surface() const { return surface_; }
+  const mechanics::Spheres& spheres() const { return spheres_; }
+  std::optional<int> held() const { return held_; }       ///< a vertex of the surface
+  const Eigen::Vector3d& force() const { return force_; } ///< N, of the spring in the last step
+  double time() const { return motion_->now().time; }     ///< s, since the last restart
+  long n_steps() const { return n_steps_; }               ///< since the last restart
+  int n_failures() const { return n_failures_; }
+  const std::string& failure() const { return failure_; } ///< of the last failed step
+  const msm::Points& displacement();                      ///< mm, of all nodes, now
+  int n_inverted();                                       ///< cells, now
+  std::size_t n_unknowns() { return body_->motion().n_unknowns(); }
+
+ private:
+  const cases::Scene& scene_;
+  PullSettings settings_;
+  std::unique_ptr<msm::MovingBody> body_;
+  mechanics::EmbeddedSurface surface_;
+  mechanics::Spheres spheres_;
+  double size_ = 0; ///< mm: diagonal of the body's box
+  mechanics::Vector start_;
+  std::unique_ptr<mechanics::TimeIntegrator> motion_;
+  long n_steps_ = 0;
+  int n_failures_ = 0;
+  std::string failure_;
+  std::optional<int> held_;
+  std::optional<double> stiffness_; ///< N/mm, of the spring that holds; none before its first step
+  Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;
+  msm::Points displacement_;
+  bool is_displacement_of_now_ = false;
+
+  std::vector<cases::NodeVector> on_nodes(const mechanics::EmbeddedPoint& place,
+                                          const Eigen::Vector3d& force) const;
+  Eigen::Vector3d expected_place(int vertex);
+  double bearable_stiffness(const mechanics::EmbeddedPoint& place);
+};
+
+} // namespace springproof::compare

@@ -1,0 +1,356 @@
+#include "compare/interact/server.hpp"
+
+#include "cases/case/error.hpp"
+
+#include <array>
+#include <atomic>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <csignal>
+#include <deque>
+#include <openssl/crypto.h>
+#include <openssl/rand.h>
+#include <stdexcept>
+
+namespace springproof::compare {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+constexpr int most_connections = 32;
+constexpr int most_messages = 300; ///< a second
+constexpr auto time_to_ask = std::chrono::seconds(10);
+constexpr auto time_to_come_back = std::chrono::seconds(3);
+
+/// 128 random bits, hexadecimal.
+std::string random_text() {
+  std::array<unsigned char, 16> bytes;
+  if (RAND_bytes(bytes.data(), bytes.size()) != 1) throw std::runtime_error("there is no randomness");
+  std::string text;
+  for (const unsigned char byte : bytes)
+    for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
+  return text;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+} // namespace
+
+class PageSocket;
+
+struct ServerState {
+  ServerState(ServedPage served, int port)
+      : page(std::move(served)), acceptor(io), signals(io, SIGINT, SIGTERM), leaving(io) {
+    error_code error;
+    const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port));
+    acceptor.open(here.protocol(), error);
+    if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor.bind(here, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) throw cases::InputError("--port " + std::to_string(port) + ": " + error.message());
+    host = "127.0.0.1:" + std::to_string(acceptor.local_endpoint().port());
+    token = random_text();
+  }
+
+  ServedPage page;
+  int n_connections = 0;
+  ServerCounts counts;
+  asio::io_context io{1}; ///< whose end is that of what it still waits for, which counts itself off
+  tcp::acceptor acceptor;
+  asio::signal_set signals;
+  asio::steady_timer leaving;
+  std::string host, token;
+  std::shared_ptr<PageSocket> controller;
+
+  void accept();
+  void leave(const PageSocket* who);
+};
+
+/// The page in control.
+class PageSocket : public std::enable_shared_from_this<PageSocket> {
+ public:
+  PageSocket(ServerState& server, beast::tcp_stream&& stream);
+  ~PageSocket();
+
+  void accept(const http::request<http::empty_body>& request) {
+    ws_.read_message_max(server_.page.longest_text);
+    ws_.auto_fragment(false); // a picture is one frame: it is in memory as a whole
+    auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeout.idle_timeout = std::chrono::seconds(20);
+    timeout.keep_alive_pings = true;
+    ws_.set_option(timeout);
+    beast::get_lowest_layer(ws_).expires_never();
+    ws_.async_accept(request, [self = shared_from_this()](error_code error) {
+      if (error) return self->leave();
+      self->is_accepted_ = true;
+      self->server_.page.on_control();
+      self->write({true, std::make_shared<const std::string>(self->server_.page.first_text)});
+      self->write({false, std::make_shared<const std::string>(self->server_.page.first_bytes)});
+      self->read();
+    });
+  }
+
+  void send_frame(std::shared_ptr<const std::string> frame) {
+    if (!is_accepted_) return; // it was asked for by the page before
+    if (waiting_frame_) ++server_.counts.n_frames_dropped;
+    waiting_frame_ = std::move(frame);
+    write_next();
+  }
+
+  void close(websocket::close_code code) {
+    if (std::exchange(is_closing_, true)) return;
+    if (!ws_.is_open()) return leave();
+    ws_.async_close(code, [self = shared_from_this()](error_code) { self->leave(); });
+  }
+
+ private:
+  struct Outgoing {
+    bool is_text;
+    std::shared_ptr<const std::string> content;
+  };
+
+  ServerState& server_;
+  websocket::stream<beast::tcp_stream> ws_;
+  beast::flat_buffer buffer_;
+  std::deque<Outgoing> outgoing_; ///< what comes before all frames
+  std::shared_ptr<const std::string> waiting_frame_, written_;
+  bool is_accepted_ = false, is_writing_ = false, is_closing_ = false;
+  std::chrono::steady_clock::time_point second_ = std::chrono::steady_clock::now();
+  int n_in_second_ = 0;
+
+  void leave() { server_.leave(this); }
+
+  void write(Outgoing message) {
+    outgoing_.push_back(std::move(message));
+    write_next();
+  }
+
+  void write_next() {
+    if (is_writing_ || is_closing_) return;
+    bool is_text = false;
+    if (!outgoing_.empty()) {
+      is_text = outgoing_.front().is_text;
+      written_ = outgoing_.front().content;
+      outgoing_.pop_front();
+    } else if (waiting_frame_) {
+      written_ = std::exchange(waiting_frame_, nullptr);
+      ++server_.counts.n_frames_sent;
+    } else {
+      return;
+    }
+    is_writing_ = true;
+    ws_.text(is_text);
+    ws_.async_write(asio::buffer(*written_), [self = shared_from_this()](error_code error, std::size_t) {
+      self->is_writing_ = false;
+      if (error) return self->leave();
+      self->write_next();
+    });
+  }
+
+  bool is_too_fast() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - second_ > std::chrono::seconds(1)) {
+      second_ = now;
+      n_in_second_ = 0;
+    }
+    return ++n_in_second_ > most_messages;
+  }
+
+  void read() {
+    ws_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (error) {
+        if (error == websocket::error::message_too_big || error == websocket::error::buffer_overflow)
+          ++self->server_.counts.n_cut_off;
+        return self->leave();
+      }
+      const std::string text = beast::buffers_to_string(self->buffer_.data());
+      self->buffer_.consume(self->buffer_.size());
+      if (self->is_closing_) return;
+      if (self->is_too_fast() || !self->ws_.got_text() || !self->server_.page.on_text(text)) {
+        ++self->server_.counts.n_cut_off;
+        return self->close(websocket::close_code::policy_error);
+      }
+      self->read();
+    });
+  }
+};
+
+namespace {
+
+/// One request, answered or refused; the connection is closed after it.
+class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
+ public:
+  HttpRequest(ServerState& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
+    ++server_.n_connections;
+    parser_.header_limit(8192);
+    parser_.body_limit(std::uint64_t{0});
+  }
+  ~HttpRequest() { --server_.n_connections; }
+
+  void read() {
+    stream_.expires_after(time_to_ask);
+    http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (!error)
+        self->answer();
+      else if (error != http::error::end_of_stream)
+        ++self->server_.counts.n_refused;
+    });
+  }
+
+ private:
+  ServerState& server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{16384};
+  http::request_parser<http::empty_body> parser_;
+  http::response<http::string_body> response_;
+
+  void answer() {
+    const auto& request = parser_.get();
+    const std::string own_origin = "http://" + server_.host;
+    const auto origin = request.find(http::field::origin);
+    const bool has_origin = origin != request.end(), is_own = has_origin && origin->value() == own_origin;
+    const std::string target(request.target());
+    const bool is_socket = websocket::is_upgrade(request);
+    if (request.count(http::field::host) != 1 || request[http::field::host] != server_.host)
+      return refuse(http::status::misdirected_request, "this is another host");
+    if (request.count(http::field::origin) > 1 || (has_origin && !is_own) || (is_socket && !is_own))
+      return refuse(http::status::forbidden, "this page is of another origin");
+    if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "GET alone");
+    const std::string path = target.substr(0, target.find('?'));
+    if (path != (is_socket ? "/socket" : "/"))
+      return refuse(http::status::not_found, "there is no such page");
+    if (!has_token(target)) return refuse(http::status::forbidden, "the token is wrong");
+    if (!is_socket) return send_page();
+    if (server_.controller) return refuse(http::status::conflict, "another page is in control");
+    server_.controller = std::make_shared<PageSocket>(server_, std::move(stream_));
+    ++server_.counts.n_pages;
+    server_.leaving.cancel();
+    server_.controller->accept(request);
+  }
+
+  bool has_token(const std::string& target) const {
+    const std::string before = "?token=";
+    const std::size_t at = target.find(before);
+    if (at == std::string::npos) return false;
+    const std::string token = target.substr(at + before.size());
+    return token.size() == server_.token.size() &&
+           CRYPTO_memcmp(token.data(), server_.token.data(), token.size()) == 0;
+  }
+
+  void send_page() {
+    const std::string nonce = random_text();
+    const std::string socket = "ws://" + server_.host + "/socket?token=" + server_.token;
+    response_.body() = replaced(replaced(server_.page.html, "{{nonce}}", nonce), "{{socket}}", socket);
+    response_.set(http::field::content_type, "text/html; charset=utf-8");
+    response_.set("Content-Security-Policy",
+                  "default-src 'none'; script-src 'nonce-" + nonce + "'; style-src 'nonce-" + nonce +
+                      "'; connect-src ws://" + server_.host +
+                      "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+    send(http::status::ok);
+  }
+
+  void refuse(http::status status, const std::string& reason) {
+    ++server_.counts.n_refused;
+    response_.body() = reason + "\n";
+    response_.set(http::field::content_type, "text/plain; charset=utf-8");
+    send(status);
+  }
+
+  void send(http::status status) {
+    response_.result(status);
+    response_.version(11);
+    response_.keep_alive(false);
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set(http::field::x_frame_options, "DENY");
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("Cross-Origin-Resource-Policy", "same-origin");
+    response_.prepare_payload();
+    stream_.expires_after(time_to_ask);
+    http::async_write(stream_, response_, [self = shared_from_this()](error_code, std::size_t) {
+      error_code ignored;
+      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    });
+  }
+};
+
+} // namespace
+
+PageSocket::PageSocket(ServerState& server, beast::tcp_stream&& stream)
+    : server_(server), ws_(std::move(stream)) {
+  ++server_.n_connections;
+}
+
+PageSocket::~PageSocket() {
+  --server_.n_connections;
+}
+
+void ServerState::accept() {
+  acceptor.async_accept([this](error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error && n_connections < most_connections)
+      std::make_shared<HttpRequest>(*this, std::move(socket))->read();
+    accept();
+  });
+}
+
+void ServerState::leave(const PageSocket* who) {
+  if (controller.get() != who) return;
+  controller.reset();
+  page.on_leave();
+  if (!page.ends_with_page) return;
+  leaving.expires_after(time_to_come_back);
+  leaving.async_wait([this](error_code error) {
+    if (!error && !controller) io.stop();
+  });
+}
+
+PageServer::PageServer(ServedPage page, int port)
+    : state_(std::make_unique<ServerState>(std::move(page), port)) {}
+
+PageServer::~PageServer() = default;
+
+std::string PageServer::address() const {
+  return "http://" + state_->host + "/?token=" + state_->token;
+}
+
+void PageServer::send_frame(std::shared_ptr<const std::string> frame) {
+  asio::post(state_->io, [state = state_.get(), frame = std::move(frame)]() mutable {
+    if (state->controller) state->controller->send_frame(std::move(frame));
+  });
+}
+
+void PageServer::run(double seconds) {
+  asio::steady_timer end(state_->io);
+  if (seconds > 0) {
+    end.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(seconds)));
+    end.async_wait([state = state_.get()](error_code) { state->io.stop(); });
+  }
+  state_->signals.async_wait([state = state_.get()](error_code error, int) {
+    if (!error) state->io.stop();
+  });
+  state_->accept();
+  state_->io.run();
+}
+
+ServerCounts PageServer::counts() const {
+  return state_->counts;
+}
+
+} // namespace springproof::compare

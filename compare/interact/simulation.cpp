@@ -1,0 +1,229 @@
+#include "compare/interact/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+constexpr std::size_t most_messages = 1000; // between two steps
+constexpr std::size_t most_times = 100'000;
+
+template<class To, class From>
+void append(std::string& bytes, From value) {
+  const To number = static_cast<To>(value);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number); // the machines of the page and of the server are one
+  bytes.append(raw, sizeof number);
+}
+
+void append(std::string& bytes, const Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
+}
+
+/// The value that a part of the others does not exceed.
+double value_below(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[cases::index(place)];
+}
+
+double milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+} // namespace
+
+Simulation::Simulation(const cases::Scene& scene, const PullSettings& settings,
+                       std::function<void(std::shared_ptr<const std::string>)> on_frame)
+    : scene_(scene), body_(scene, settings), on_frame_(std::move(on_frame)) {
+  describe();
+  thread_ = std::thread([this] { run(); });
+}
+
+Simulation::~Simulation() {
+  stop();
+}
+
+void Simulation::start() {
+  const std::lock_guard lock(mutex_);
+  is_running_ = true;
+  wake_.notify_one();
+}
+
+void Simulation::pause() {
+  const std::lock_guard lock(mutex_);
+  is_running_ = is_frame_asked_for_ = false;
+  messages_ = {Release{}};
+}
+
+void Simulation::send(const PageMessage& message) {
+  const std::lock_guard lock(mutex_);
+  if (std::holds_alternative<AskFrame>(message)) {
+    is_frame_asked_for_ = true;
+    return;
+  }
+  const bool replaces =
+      !messages_.empty() && messages_.back().index() == message.index(); // the last one of a kind counts
+  if (replaces)
+    messages_.back() = message;
+  else if (messages_.size() < most_messages)
+    messages_.push_back(message);
+}
+
+void Simulation::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopped_ = true;
+    wake_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void Simulation::describe() {
+  const mechanics::EmbeddedSurface& surface = body_.surface();
+  std::vector<int> place(scene_.mesh.nodes.size(), -1);
+  const auto place_of = [&](int node) {
+    int& here = place[cases::index(node)];
+    if (here < 0) {
+      here = static_cast<int>(carrying_.size());
+      carrying_.push_back(node);
+    }
+    return here;
+  };
+  for (const auto& vertex : surface.vertices)
+    for (const int node : vertex.nodes) place_of(node);
+  for (const std::size_t count : {surface.vertices.size(), surface.rest.triangles.size(), carrying_.size(),
+                                  body_.spheres().vertices.size()})
+    append<std::uint32_t>(geometry_, count);
+  for (const Vector3d& vertex : surface.rest.vertices) append(geometry_, vertex);
+  for (const auto& vertex : surface.vertices)
+    for (const double weight : vertex.weights) append<float>(geometry_, weight);
+  for (const auto& vertex : surface.vertices)
+    for (const int node : vertex.nodes) append<std::uint32_t>(geometry_, place_of(node));
+  for (const auto& triangle : surface.rest.triangles)
+    for (const int vertex : triangle) append<std::uint32_t>(geometry_, vertex);
+  for (const int vertex : body_.spheres().vertices) append<std::uint32_t>(geometry_, vertex);
+  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
+                                        {"description", scene_.definition.description},
+                                        {"masses", scene_.mesh.nodes.size()},
+                                        {"cells", scene_.mesh.cells.size()},
+                                        {"unknowns", body_.n_unknowns()},
+                                        {"step_s", scene_.definition.dynamics->step},
+                                        {"triangles", surface.rest.triangles.size()},
+                                        {"spheres", body_.spheres().vertices.size()},
+                                        {"radius", body_.spheres().radius}}
+                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void Simulation::run() {
+  const auto length = std::chrono::duration_cast<SteadyClock::duration>(
+      std::chrono::duration<double>(scene_.definition.dynamics->step));
+  constexpr auto most_behind =
+      std::chrono::milliseconds(100); // what is slower than that is not caught up with
+  auto due = SteadyClock::now(), second = due;
+  long steps_at_second = 0;
+  for (std::vector<PageMessage> messages;;) {
+    {
+      std::unique_lock lock(mutex_);
+      const bool was_running = is_running_;
+      wake_.wait(lock, [&] { return is_running_ || is_stopped_; });
+      if (!was_running) due = second = SteadyClock::now(), steps_at_second = summary_.n_steps;
+      if (is_stopped_) return;
+      messages.swap(messages_);
+      messages_.clear();
+    }
+    take(messages);
+    messages.clear();
+    step();
+    const auto now = SteadyClock::now();
+    if (now - second >= std::chrono::seconds(1)) {
+      steps_per_second_ =
+          1000 * static_cast<double>(summary_.n_steps - steps_at_second) / milliseconds(now - second);
+      second = now;
+      steps_at_second = summary_.n_steps;
+    }
+    bool is_asked = false;
+    {
+      const std::lock_guard lock(mutex_);
+      is_asked = std::exchange(is_frame_asked_for_, false);
+    }
+    if (is_asked) on_frame_(frame());
+    due += length;
+    if (SteadyClock::now() - due > most_behind) due = SteadyClock::now();
+    std::unique_lock lock(mutex_);
+    wake_.wait_until(lock, due, [&] { return is_stopped_; });
+  }
+}
+
+void Simulation::take(const std::vector<PageMessage>& messages) {
+  for (const PageMessage& message : messages) {
+    if (const auto* grab = std::get_if<Grab>(&message)) body_.grab(grab->ray);
+    if (const auto* drag = std::get_if<Drag>(&message)) body_.drag(drag->by);
+    if (std::holds_alternative<Release>(message)) body_.release();
+    if (std::holds_alternative<Restart>(message)) body_.restart();
+  }
+}
+
+void Simulation::step() {
+  const auto before = SteadyClock::now();
+  body_.step();
+  const double taken = milliseconds(SteadyClock::now() - before);
+  if (step_ms_.size() < most_times)
+    step_ms_.push_back(taken);
+  else
+    step_ms_[static_cast<std::size_t>(summary_.n_steps) % most_times] = taken;
+  summary_.largest_ms = std::max(summary_.largest_ms, taken);
+  ++summary_.n_steps;
+  if (body_.n_steps() <= last_step_) recording_.clear(); // of the motion since its last start
+  last_step_ = body_.n_steps();
+  if (const auto held = body_.held(); held && !body_.force().isZero(0)) {
+    ++summary_.n_pulled;
+    if (recording_.size() < most_recorded) recording_.push_back({body_.n_steps(), *held, body_.force()});
+  }
+}
+
+std::shared_ptr<const std::string> Simulation::frame() {
+  constexpr std::size_t shown = 500; // of the last steps: their median and 99th percentile
+  const std::size_t n = std::min(shown, step_ms_.size());
+  std::vector<double> last;
+  for (std::size_t i = 0; i < n; ++i)
+    last.push_back(step_ms_[(static_cast<std::size_t>(summary_.n_steps) - 1 - i) % most_times]);
+  const int n_inverted = body_.n_inverted();
+  if (n_inverted > 0) ++summary_.n_inverted_frames;
+  auto bytes = std::make_shared<std::string>();
+  const std::array<double, frame_numbers> numbers{body_.time(),
+                                                  static_cast<double>(summary_.n_steps),
+                                                  value_below(last, 0.5),
+                                                  value_below(last, 0.99),
+                                                  steps_per_second_,
+                                                  static_cast<double>(n_inverted),
+                                                  static_cast<double>(body_.held().value_or(-1)),
+                                                  body_.force().norm(),
+                                                  static_cast<double>(body_.n_failures()),
+                                                  static_cast<double>(carrying_.size())};
+  bytes->reserve(8 * frame_numbers + 12 * carrying_.size());
+  for (const double number : numbers) append<double>(*bytes, number);
+  const msm::Points& displacement = body_.displacement();
+  for (const int node : carrying_) append(*bytes, displacement[cases::index(node)]);
+  ++summary_.n_frames;
+  return bytes;
+}
+
+SimulationSummary Simulation::summary() const {
+  SimulationSummary summary = summary_;
+  summary.median_ms = value_below(step_ms_, 0.5);
+  summary.p99_ms = value_below(step_ms_, 0.99);
+  summary.n_failures = body_.n_failures();
+  summary.failure = body_.failure();
+  return summary;
+}
+
+} // namespace springproof::compare

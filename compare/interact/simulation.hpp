@@ -1,0 +1,88 @@
+#pragma once
+
+#include "compare/interact/messages.hpp"
+#include "compare/interact/pulled_body.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace springproof::compare {
+
+/// A force of a recording: of one step on one place.
+struct RecordedPull {
+  long step;             ///< its number since the start of the motion: the force acts in it, up to its end
+  int vertex;            ///< of the surface
+  Eigen::Vector3d force; ///< N
+};
+
+struct SimulationSummary {
+  long n_steps = 0, n_frames = 0, n_pulled = 0;     ///< steps in all, frames made, steps with a pull
+  int n_failures = 0;                               ///< steps that could not be solved, each a restart
+  std::string failure;                              ///< of the last one
+  long n_inverted_frames = 0;                       ///< frames that showed inverted cells
+  double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< of a step, wall clock; of the last 100,000
+};
+
+/// A body's motion in a thread of its own, in real time where a step takes less than its own length. It never
+/// waits for who looks at it: a frame is made after a step when one was asked for since the last frame.
+class Simulation {
+ public:
+  /// @param on_frame  called from the simulation's thread; must not block
+  Simulation(const cases::Scene& scene, const PullSettings& settings,
+             std::function<void(std::shared_ptr<const std::string>)> on_frame);
+  ~Simulation();
+
+  /// Of any thread. Nothing moves before the first start().
+  void start();
+  void pause(); ///< and releases what is held
+  void send(const PageMessage& message);
+  void stop(); ///< joins the thread
+
+  /// {"name", "masses", "springs", "unknowns", "step_s", "vertices", "triangles", "nodes", "spheres",
+  /// "radius"}
+  const std::string& description() const { return description_; }
+  /// What the page draws, little endian: 4 counts as uint32 (vertices, triangles, nodes that carry them,
+  /// spheres), then as float32 the vertices at rest (3 each) and their weights (8 each), as uint32 their
+  /// nodes' places in a frame (8 each), the triangles (3 each) and the spheres' vertices.
+  const std::string& geometry() const { return geometry_; }
+
+  /// After stop(). A recording is of the motion since its last start.
+  SimulationSummary summary() const;
+  const std::vector<RecordedPull>& recording() const { return recording_; }
+  bool is_recording_full() const { return recording_.size() == most_recorded; }
+  const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
+
+  static constexpr std::size_t frame_numbers = 10; ///< float64 at the beginning of a frame
+  static constexpr std::size_t most_recorded = 2'000'000;
+
+ private:
+  const cases::Scene& scene_;
+  PulledBody body_;
+  std::function<void(std::shared_ptr<const std::string>)> on_frame_;
+  std::string description_, geometry_;
+  std::vector<int> carrying_; ///< nodes, in the order of a frame
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<PageMessage> messages_; ///< since the last step; at most one Drag in a row
+  bool is_running_ = false, is_stopped_ = false;
+  bool is_frame_asked_for_ = false;
+  std::thread thread_;
+
+  std::vector<double> step_ms_; ///< of the last steps, a ring
+  SimulationSummary summary_;
+  std::vector<RecordedPull> recording_;
+  double steps_per_second_ = 0;
+  long last_step_ = 0; ///< of the motion since its last start
+
+  void describe();
+  void run();
+  void take(const std::vector<PageMessage>& messages);
+  void step();
+  std::shared_ptr<const std::string> frame();
+};
+
+} // namespace springproof::compare

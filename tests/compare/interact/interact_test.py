@@ -1,0 +1,272 @@
+"""`springproof interact`: what is refused, what a page may say, and a real page in headless Chromium.
+
+usage: interact_test.py SPRINGPROOF CASE FOLDER [MUTATED]
+
+MUTATED: how many malformed messages are tried (default 60). A screenshot stays in FOLDER.
+"""
+
+import atexit
+import csv
+import json
+import math
+import os
+import random
+import signal
+import struct
+import subprocess
+import sys
+import time
+import urllib.parse
+from pathlib import Path
+
+from devtools import Browser, find_chromium
+from web_socket import WebSocket, answer_to, handshake, request_text
+
+POLICY = 1008  # close code of a page that is cut off
+
+
+class Program:
+    def __init__(self, springproof, case, *options):
+        self.process = subprocess.Popen([springproof, "interact", case, "--json", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        atexit.register(self.process.kill)  # where a check has failed
+        line = self.process.stderr.readline()
+        assert line.startswith("open http://127.0.0.1:"), line
+        self.address = line.split()[1]
+
+    def end(self):
+        """The summary, and the exit status."""
+        out, err = self.process.communicate(timeout=30)
+        assert self.process.returncode == 0, (self.process.returncode, err)
+        assert err == "", err
+        return json.loads(out)["interaction"]
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.end()
+
+
+class Controller(WebSocket):
+    """A page without a browser."""
+
+    def __init__(self, address):
+        super().__init__(address)
+        assert self.status == 101, self.status
+        self.description = json.loads(self.receive()[1])
+        opcode, geometry = self.receive()
+        assert opcode == 2
+        n_vertices, n_triangles, n_nodes, n_spheres = struct.unpack_from("<4I", geometry)
+        assert len(geometry) == 16 + 4 * (3 * n_vertices + 16 * n_vertices + 3 * n_triangles + n_spheres)
+        self.n_nodes = n_nodes
+        self.rest = struct.unpack_from(f"<{3 * n_vertices}f", geometry, 16)
+
+    def say(self, **message):
+        self.send(json.dumps(message))
+
+    def frame(self):
+        self.say(type="frame")
+        opcode, content = self.receive()
+        assert opcode == 2, (opcode, content)
+        names = ("time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "nodes")
+        numbers = dict(zip(names, struct.unpack_from("<10d", content)))
+        assert len(content) == 80 + 12 * self.n_nodes
+        numbers["displacement"] = struct.unpack_from(f"<{3 * self.n_nodes}f", content, 80)
+        assert all(map(math.isfinite, numbers["displacement"]))
+        return numbers
+
+
+def largest(frame):
+    return max(map(abs, frame["displacement"]))
+
+
+def check_refusals(program):
+    """Everything but the page's own requests, in one line and without the page."""
+    url = urllib.parse.urlsplit(program.address)
+    port, token = url.port, url.query.removeprefix("token=")
+    assert len(token) == 32
+    own = f"http://127.0.0.1:{port}"
+    status, body = answer_to(program.address, request_text(program.address))
+    assert status == 200 and "<canvas" in body and token in body
+    assert answer_to(program.address, request_text(program.address, Origin=own))[0] == 200
+    wrong = token[:-1] + ("0" if token[-1] != "0" else "1")
+    refused = {
+        "another host (DNS rebinding)": (421, request_text(program.address, host=f"evil.example:{port}")),
+        "localhost by its name": (421, request_text(program.address, host=f"localhost:{port}")),
+        "the host without its port": (421, request_text(program.address, host="127.0.0.1")),
+        "no host": (421, request_text(program.address).replace(f"Host: 127.0.0.1:{port}\r\n", "")),
+        "two hosts": (421, request_text(program.address, X="1\r\nHost: evil.example")),
+        "another origin": (403, request_text(program.address, Origin="http://evil.example")),
+        "another port's origin": (403, request_text(program.address, Origin=f"http://127.0.0.1:{port + 1}")),
+        "a file's origin": (403, request_text(program.address, Origin="null")),
+        "a wrong token": (403, request_text(program.address, path=f"/?token={wrong}")),
+        "half a token": (403, request_text(program.address, path=f"/?token={token[:16]}")),
+        "no token": (403, request_text(program.address, path="/")),
+        "POST": (405, request_text(program.address, method="POST", Content_Length="0")),
+        "another path": (404, request_text(program.address, path=f"/etc/passwd?token={token}")),
+        "a path that climbs": (404, request_text(program.address, path=f"/../../etc/passwd?token={token}")),
+        "a socket without an origin": (403, handshake(program.address, Origin=None)),
+        "a socket of another origin": (403, handshake(program.address, Origin="https://evil.example")),
+        "a socket for another host": (421, handshake(program.address, host=f"evil.example:{port}")),
+        "a socket with a wrong token": (403, handshake(program.address, path=f"/socket?token={wrong}")),
+    }
+    for what, (expected, text) in refused.items():
+        status, body = answer_to(program.address, text)
+        assert status == expected, (what, status, body)
+        assert token not in body and body.count("\n") == 1, (what, body)
+    for noise in (b"\0" * 1000, os.urandom(5000), b"GET / HTTP/1.1\r\n" + b"X: " + b"y" * 20000 + b"\r\n\r\n", b"GET"):
+        assert answer_to(program.address, noise)[0] in (0, 400, 431), noise[:20]
+    return len(refused)
+
+
+def check_pull(program):
+    """A ray takes hold, a drag moves the surface towards the pointer, a release lets it go back; a second page waits."""
+    page = Controller(program.address)
+    assert page.description["masses"] == 5 * 5 * 7
+    assert answer_to(program.address, handshake(program.address))[0] == 409, "a second page takes control"
+    first = page.frame()
+    assert first["held"] == -1
+    page.say(type="grab", origin=[200, 20, 50], direction=[-1, 0, 0])
+    page.say(type="drag", by=[30, 0, 0])
+    end = time.monotonic() + 20
+    while (frame := page.frame())["displacement"] and not (frame["held"] >= 0 and largest(frame) > 2):
+        assert time.monotonic() < end, frame
+    assert frame["force"] > 0 and frame["inverted"] == 0 and frame["failures"] == 0
+    held = int(frame["held"])
+    assert page.rest[3 * held] == 40, "the ray from x+ took hold of another side"
+    page.say(type="grab", origin=[200, 20, 500], direction=[0, 0, 1])  # beside the body: releases
+    while page.frame()["held"] >= 0:
+        assert time.monotonic() < end
+    moved = largest(page.frame())
+    page.say(type="restart")
+    while largest(frame := page.frame()) > 0.5 * moved:
+        assert time.monotonic() < end
+    page.close()
+
+
+def mutated(number):
+    random.seed(number)
+    good = [json.dumps(message) for message in ({"type": "frame"}, {"type": "grab", "origin": [1, 2, 3], "direction": [0, 0, 1]},
+                                                {"type": "drag", "by": [1, 2, 3]}, {"type": "release"}, {"type": "restart"})]
+    fixed = ["", "null", "[]", "{}", "{\"type\": 1}", "[" * 500, "{\"type\": \"drag\", \"by\": [1e999, 0, 0]}", "{\"type\": \"drag\", \"by\": [NaN, 0, 0]}",
+             "{\"type\": \"drag\", \"by\": [1e300, 0, 0]}", "{\"type\": \"drag\", \"by\": [1, 2]}", "{\"type\": \"drag\", \"by\": \"x\"}",
+             "{\"type\": \"grab\", \"origin\": [0, 0, 0], \"direction\": [0, 0, 0]}", "{\"type\": \"frame\", \"x\": 1}", "{\"type\": \"%s%n\"}",
+             "x" * 513, "x" * 100000, b"\0\1\2", b"{\"type\": \"frame\"}"]
+    if number < len(fixed):
+        return fixed[number]
+    text = list(random.choice(good))
+    for _ in range(random.randint(1, 6)):
+        at = random.randrange(len(text))
+        text[at:at + random.randint(0, 2)] = random.choice(["", "\\", "\"", "{", "}", "[", "9" * 30, "-", "\u0000", "e", ",", "\U0001f600", ":"])
+    return "".join(text)
+
+
+def check_malformed(program, count):
+    """Each is refused and cuts the page off, or is a message after all; the simulation goes on and stays finite."""
+    n_cut_off, steps = 0, 0
+    for number in range(count):
+        page = open_when_free(program.address)
+        message = mutated(number)
+        try:
+            page.send(message)
+            page.say(type="frame")
+            opcode, content = page.receive()
+        except ConnectionError:
+            opcode, content = 8, struct.pack("!H", POLICY)
+        if opcode == 8:
+            n_cut_off += 1
+            code, = struct.unpack_from("!H", content)
+            assert code in (POLICY, 1002, 1007, 1009), (message, code)
+        else:
+            assert opcode == 2, (message, opcode)
+            numbers = struct.unpack_from("<10d", content)
+            assert all(map(math.isfinite, numbers)) and numbers[1] > steps, (message, numbers)
+            steps = numbers[1]
+        page.close()
+    page = open_when_free(program.address)
+    for _ in range(301):
+        page.say(type="release")
+    try:
+        while page.receive()[0] != 8:
+            pass
+    except ConnectionError:
+        pass
+    page.close()
+    page = open_when_free(program.address)
+    assert page.frame()["steps"] > steps
+    page.close()
+    return n_cut_off
+
+
+def open_when_free(address):
+    """The page before leaves when the server has seen its connection close."""
+    for _ in range(200):
+        try:
+            return Controller(address)
+        except AssertionError as error:
+            if error.args != (409,):
+                raise
+            time.sleep(0.02)
+    raise AssertionError("nobody is in control, and nobody can be")
+
+
+def check_browser(springproof, case, folder):
+    """A page that loads, is pulled by a mouse, moves, turns, and ends the program when it is closed."""
+    out = folder / "out"
+    program = Program(springproof, case, "--out", out)
+    with Browser() as browser:
+        page = browser.open(program.address)
+        page.wait_until("typeof seen !== 'undefined' && seen.frames > 5")
+        other = browser.open(program.address)
+        other.wait_until("document.getElementById('state')?.textContent.includes('another page')")
+        other.close()
+        before = page.value("Array.from(surface.positions)")
+        x, y = page.value("(() => { const at = new THREE.Vector3(20, 0, 45).project(view.camera), box = canvas.getBoundingClientRect();"
+                          "return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height]; })()")
+        page.mouse("mousePressed", x, y)
+        for step in range(1, 11):
+            page.mouse("mouseMoved", x + 14 * step, y - 6 * step)
+        page.wait_until("frame.held >= 0 && frame.force > 0")
+        page.wait_until(f"Math.max(...surface.positions.map((at, i) => Math.abs(at - ({json.dumps(before)})[i]))) > 3")
+        page.screenshot(folder / "pulled.png")
+        eye = page.value("view.camera.position.toArray()")
+        page.mouse("mouseReleased", x + 140, y - 60, buttons=0)
+        page.wait_until("frame.held < 0")
+        for where, kind in ((700, "mousePressed"), (760, "mouseMoved"), (760, "mouseReleased")):
+            page.mouse(kind, where, 700, buttons=0 if kind == "mouseReleased" else 1)
+        page.wait_until("Math.abs(view.camera.position.x - " + str(eye[0]) + ") > 1e-3")
+        numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
+        assert numbers["rows"] == 10, numbers
+        problems = [problem for problem in page.problems() if "favicon" not in str(problem)]
+        assert problems == [], problems
+        page.close()
+        summary = program.end()  # by itself: its page is closed
+    assert summary["pulled_steps"] > 0 and summary["failed_steps"] == 0, summary
+    rows = list(csv.DictReader((out / "pulled-block_pulls.csv").open()))
+    assert len(rows) == summary["pulled_steps"], (len(rows), summary)
+    steps = [int(row["step"]) for row in rows]
+    assert steps == sorted(set(steps))
+    assert all(math.isfinite(float(value)) for row in rows for value in row.values())
+    return numbers
+
+
+def main():
+    springproof, case, folder = sys.argv[1], *map(Path, sys.argv[2:4])
+    count = int(sys.argv[4]) if len(sys.argv) > 4 else 60
+    folder.mkdir(parents=True, exist_ok=True)
+    folder = folder.resolve()
+    program = Program(springproof, case, "--stay")
+    n_refused = check_refusals(program)
+    check_pull(program)
+    n_cut_off = check_malformed(program, count)
+    assert n_cut_off > count / 2, n_cut_off
+    summary = program.interrupt()
+    assert summary["failed_steps"] == 0 and summary["frames"]["with_inverted_cells"] == 0, summary
+    assert summary["refused_requests"] >= n_refused, summary
+    print(f"{n_refused} kinds of requests refused, {n_cut_off} of {count} mutated messages cut off; {summary}")
+    if not find_chromium():
+        print("no Chromium here: the page itself was not opened")
+        return
+    print(f"in Chromium: {check_browser(springproof, case, folder)}")
+
+
+if __name__ == "__main__":
+    main()

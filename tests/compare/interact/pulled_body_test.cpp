@@ -1,0 +1,197 @@
+#include "compare/interact/pulled_body.hpp"
+
+#include "cases/case/read_case.hpp"
+#include "compare/error_bars/auto_fem.hpp"
+#include "compare/interact/replay.hpp"
+#include "compare/solve/solve.hpp"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+using namespace springproof;
+
+using namespace compare;
+using Eigen::Vector3d;
+
+namespace {
+
+/// @param cells  along x; of 12 the springs are on the multigrid path
+cases::Scene block(const std::string& cells, const std::string& damping = "mass_damping = 30",
+                   const std::string& scheme = "scheme = \"implicit_euler\"",
+                   const std::string& gravity = "1e-6") {
+  return cases::make_scene(cases::read_case_text(R"(schema = 1
+name = "block"
+[body]
+shape = "box"
+size = [40, 40, 60]
+cells = )" + cells + R"(
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.005
+poissons_ratio = 0.3
+density = 1000
+)" + damping + R"(
+[[fixed]]
+region = "z-"
+[[load]]
+kind = "gravity"
+value = [0, 0, )" + gravity + R"(]
+[dynamics]
+)" + scheme + R"(
+step = 0.02
+end = 1
+[fem]
+accuracy = "none"
+[msm]
+design = "moduli"
+[[measure]]
+name = "top"
+kind = "displacement"
+node = "z+ x+ y+"
+component = "x"
+)",
+                                                 "block.toml"));
+}
+
+const mechanics::Ray from_right{{200, 20, 50}, {-1, 0, 0}};
+
+double largest_displacement(PulledBody& body) {
+  double largest = 0;
+  for (const Vector3d& u : body.displacement()) largest = std::max(largest, u.norm());
+  return largest;
+}
+
+} // namespace
+
+TEST_CASE("a body that is pulled comes to the static equilibrium of the spring's force", "[verification]") {
+  for (const std::string cells : {"[3, 3, 4]", "[9, 8, 8]"}) {
+    CAPTURE(cells);
+    const cases::Scene scene = block(cells);
+    PulledBody body(scene, {50, 1e-3, 1});
+    const auto held = body.grab(from_right);
+    REQUIRE(held);
+    CHECK(body.surface().rest.vertices[cases::index(*held)].x() == Approx(40));
+    body.drag({20, 0, 5});
+    for (int step = 0; step < 400; ++step) body.step();
+    REQUIRE(body.n_failures() == 0);
+    CHECK(body.force().norm() > 1e-3);
+
+    cases::Scene loaded = scene; // the same force, by the weights of its place
+    loaded.loads.clear();
+    const auto& place = body.surface().vertices[cases::index(*held)];
+    for (std::size_t v = 0; v < 8; ++v) {
+      cases::Load load;
+      load.kind = cases::LoadKind::nodal_force;
+      load.value = place.weights[v] * body.force();
+      loaded.loads.push_back({{{place.nodes[v]}, {}, {}}, load});
+    }
+    loaded.definition.dynamics.reset();
+    const cases::Solution rest = make_model(loaded, design_for(loaded)).solve();
+    const double largest = largest_displacement(body);
+    CHECK(largest > 0.5); // mm: it was pulled
+    double difference = 0;
+    for (std::size_t n = 0; n < rest.displacement.size(); ++n)
+      difference = std::max(difference, (rest.displacement[n] - body.displacement()[n]).norm());
+    CHECK(difference < 1e-4 * largest); // what 8 s of damping and a tolerance of 1e-6 leave
+  }
+}
+
+TEST_CASE("a spring of any stiffness does not drive an undamped body on") {
+  for (const std::string scheme : {"scheme = \"implicit_euler\"", "scheme = \"bdf2\""}) {
+    CAPTURE(scheme);
+    const cases::Scene scene = block("[3, 3, 4]", "", scheme);
+    PulledBody body(scene, {50, 1e6, 1});
+    body.step();
+    REQUIRE(body.grab(from_right));
+    body.drag({10, 0, 0});
+    double largest = 0;
+    for (int step = 0; step < 1000; ++step) {
+      body.step();
+      largest = std::max(largest, largest_displacement(body));
+    }
+    CHECK(body.n_failures() == 0);
+    CHECK(largest > 1);
+    CHECK(largest < 20); // a swing without damping goes twice as far as the pointer
+  }
+}
+
+TEST_CASE("schemes that damp nothing are refused, for what pulls would drive their bodies on") {
+  for (const std::string scheme :
+       {"scheme = \"newmark\"", "scheme = \"generalized_alpha\"\nrho_infinity = 0.8"})
+    CHECK_THROWS_WITH(PulledBody(block("[3, 3, 4]", "", scheme), {50, 1e-3, 1}),
+                      Catch::Contains("\"implicit_euler\" or \"bdf2\""));
+}
+
+TEST_CASE("a ray beside the body holds nothing, and a body begins anew where it began") {
+  const cases::Scene scene = block("[3, 3, 4]");
+  PulledBody body(scene, {50, 1e-3, 1});
+  CHECK_FALSE(body.grab({{200, 20, 500}, {-1, 0, 0}}));
+  CHECK_FALSE(body.held());
+  REQUIRE(body.grab(from_right));
+  body.drag({1e9, 0, 0}); // the body's size counts
+  for (int step = 0; step < 20; ++step) body.step();
+  CHECK(largest_displacement(body) > 0.1);
+  CHECK(body.time() == Approx(0.4));
+  body.restart();
+  CHECK(largest_displacement(body) == 0);
+  CHECK_FALSE(body.held());
+  CHECK(body.n_steps() == 0);
+}
+
+TEST_CASE("a recording replays in springs as it was pulled, and in finite elements it pulls as well",
+          "[verification]") {
+  for (const std::string scheme : {"scheme = \"implicit_euler\"", "scheme = \"bdf2\""}) {
+    CAPTURE(scheme);
+    const cases::Scene scene = block("[3, 3, 4]", "mass_damping = 30", scheme, "1");
+    PulledBody body(scene, {50, 1e-3, 1});
+    std::ostringstream rows;
+    rows.precision(17);
+    rows << "step,time,x,y,z,fx,fy,fz\n";
+    for (int step = 1; step <= 50; ++step) { // as long as the case
+      if (step == 5) {
+        REQUIRE(body.grab(from_right));
+        body.drag({15, 3, 0});
+      }
+      if (step == 30) body.release();
+      body.step();
+      if (body.force().isZero(0)) continue;
+      const Vector3d& place = body.surface().rest.vertices[cases::index(*body.held())];
+      rows << body.n_steps() << ',' << 0.02 * static_cast<double>(body.n_steps()) << ',' << place.x() << ','
+           << place.y() << ',' << place.z() << ',' << body.force().x() << ',' << body.force().y() << ','
+           << body.force().z() << '\n';
+    }
+    const Answers answers = solve(with_recording(scene, rows.str(), "pulls.csv"), {}, solve_fem);
+    CAPTURE(answers.msm.solution.message);
+    REQUIRE(answers.msm.converged());
+    REQUIRE(answers.fem.converged());
+    double largest = 0, difference = 0;
+    for (std::size_t n = 0; n < body.displacement().size(); ++n) {
+      const Vector3d& replayed = answers.msm.solution.displacement[n];
+      largest = std::max(largest, replayed.norm());
+      difference = std::max(difference, (replayed - body.displacement()[n]).norm());
+    }
+    CHECK(largest > 0.01);
+    CHECK(difference < 1e-4 * largest); // tolerances 1e-6 and 1e-9 of the largest force, over 50 steps
+    const cases::Trajectory& fem = *answers.fem.solution.trajectory;
+    CHECK(fem.displacement[25].norm() > 0.1); // of the watched corner
+  }
+}
+
+TEST_CASE("what is no recording of a case is refused with its line") {
+  const cases::Scene scene = block("[3, 3, 4]");
+  const std::string header = "step,time,x,y,z,fx,fy,fz\n";
+  for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+           {"", "has no pull"},
+           {header, "has no pull"},
+           {"x,y\n", "a.csv:1: must be the header"},
+           {header + "1,0.02,0,0,0,0,0\n", "a.csv:2: must be eight numbers"},
+           {header + "1,0.02,0,0,0,0,0,nan\n", "a.csv:2: must be eight numbers"},
+           {header + "1,0.02,0,0,0,0,0,1e300\n", "a.csv:2: must be eight numbers"},
+           {header + "1.5,0.03,0,0,0,0,0,1\n", "a.csv:2: step must be a whole number"},
+           {header + "2,0.04,0,0,0,0,0,1\n2,0.04,0,0,0,0,0,1\n", "a.csv:3: step must be"},
+           {header + "2,0.05,0,0,0,0,0,1\n", "a.csv:2: time is 0.05 s, must be 0.04 s"},
+           {header + "51,1.02,0,0,0,0,0,1\n", "ends at 1.02 s: dynamics.end is 1 s"}}) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(with_recording(scene, text, "a.csv"), Catch::Contains(says));
+  }
+}
