@@ -136,7 +136,8 @@ cases::Solution Model::Assembled::solve(double load_factor, mechanics::Equilibri
   const cases::Scene& scene = body.scene;
   settings.from = last_load_factor;
   settings.to = load_factor;
-  settings = mechanics::in_small_turns(cases::largest_turn(scene.definition), std::move(settings));
+  settings = mechanics::in_small_turns(cases::largest_turn(scene.definition),
+                                       cases::least_load_steps(scene.definition), std::move(settings));
   const auto equilibrium = mechanics::find_equilibrium(body.equations, last, "finite elements", settings);
   last = equilibrium.state;
   last_load_factor = load_factor;

@@ -19,7 +19,7 @@ State start_of(const cases::Scene& scene, const AssembledBody& body) {
   if (scene.definition.dynamics->start == cases::MotionStart::rest) return body.equations.rest();
   AssembledBody still(cases::scene_before_start(scene), MPI_COMM_SELF);
   const auto settings =
-      mechanics::in_small_turns(cases::largest_turn(still.scene.definition), default_settings());
+      mechanics::in_small_turns(cases::largest_turn(still.scene.definition), 1, default_settings());
   return mechanics::find_equilibrium(still.equations, still.equations.rest(), "finite elements", settings)
       .state;
 }

@@ -34,8 +34,10 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
 
 Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
              const ModelOptions& options)
-    : solver_(scene.definition.msm.solver), largest_turn_(cases::largest_turn(scene.definition)),
-      n_threads_(options.n_threads), sharing_(options.sharing), problem_(make_problem(scene)) {
+    : solver_(scene.definition.msm.solver), relaxation_(scene.definition.msm.relaxation),
+      largest_turn_(cases::largest_turn(scene.definition)),
+      least_steps_(cases::least_load_steps(scene.definition)), n_threads_(options.n_threads),
+      sharing_(options.sharing), problem_(make_problem(scene)) {
   if (takes_multigrid(scene, stiffness, options.path)) {
     grid_ = grid::make_grid_problem(problem_, stiffness, options.deal_out);
     system_ = grid::make_grid_system(*grid_, n_threads_);
@@ -50,8 +52,10 @@ Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffn
 }
 
 Model::Model(const cases::Scene& scene, Lattice lattice, const ModelOptions& options)
-    : solver_(scene.definition.msm.solver), largest_turn_(cases::largest_turn(scene.definition)),
-      n_threads_(options.n_threads), problem_(make_problem(scene)) {
+    : solver_(scene.definition.msm.solver), relaxation_(scene.definition.msm.relaxation),
+      largest_turn_(cases::largest_turn(scene.definition)),
+      least_steps_(cases::least_load_steps(scene.definition)), n_threads_(options.n_threads),
+      problem_(make_problem(scene)) {
   if (options.path == Path::multigrid) refuse_multigrid();
   problem_.lattice = std::move(lattice);
   system_ = make_direct_system(problem_);
@@ -72,7 +76,7 @@ cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, con
 }
 
 cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, const Points& start) {
-  settings = mechanics::in_small_turns(largest_turn_, std::move(settings));
+  settings = mechanics::in_small_turns(largest_turn_, least_steps_, std::move(settings));
   Vector from = Vector::Zero(system_->load().size());
   if (!start.empty())
     from = grid_ ? grid::to_field(problem_, grid_->body, start) : to_vector(problem_, start);
@@ -81,12 +85,16 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
   if (is_newton && grid_ && !grid_->supports && start.empty() && settings.first_load_step == 1)
     settings.guess = grid::coarse_guess(*grid_, n_threads_);
   const mechanics::Equilibrium found =
-      is_newton ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
-                : relax(*system_, from, solver_, settings);
-  return solution_of(problem_, found,
-                     grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
-                           : to_points(problem_, found.state),
-                     sharing_);
+      is_newton     ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
+      : relaxation_ ? relax_for(*system_, from, *relaxation_, settings)
+                    : relax(*system_, from, solver_, settings);
+  cases::Solution solution =
+      solution_of(problem_, found,
+                  grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
+                        : to_points(problem_, found.state),
+                  sharing_);
+  if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}};
+  return solution;
 }
 
 } // namespace springproof::msm

@@ -43,7 +43,8 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Static equilibrium under the scene's loads.
+  /// Static equilibrium under the scene's loads; or, where [msm] gives force scaling a number of iterations,
+  /// what they come to, with Solution::from_equilibrium but for the distances.
   /// @param start  displacement (mm) to start from, one per node; empty: rest
   /// @throws cases::SolveError with the load reached and the outcome when the load cannot be carried
   cases::Solution solve(const mechanics::EquilibriumSettings& settings = {}, const Points& start = {});
@@ -52,7 +53,9 @@ class Model {
   cases::Solution solve_on_path(mechanics::EquilibriumSettings settings, const Points& start);
 
   cases::Solver solver_;
-  double largest_turn_; ///< of the supports, degrees
+  std::optional<cases::RelaxationCounts> relaxation_; ///< of force scaling that is not to end in equilibrium
+  double largest_turn_;                               ///< of the supports, degrees
+  int least_steps_;                                   ///< of the load
   int n_threads_;
   std::shared_ptr<const cases::Sharing> sharing_;
   std::vector<CellStiffness>

@@ -142,6 +142,28 @@ struct Fixed {
   std::array<bool, 3> components{true, true, true};
 };
 
+/// Where a motion fades out (thesis section 6.1.3, the scaled displacement method): its factor is 0 on and
+/// behind a plane, 1 from `length` beyond it on, and linear between, the zone that is scaled.
+struct ScaledDisplacement {
+  Eigen::Vector3d point;  ///< mm; of the plane
+  Eigen::Vector3d normal; ///< unit length, towards the part that moves as a whole
+  double length;          ///< mm, > 0
+  Where where;
+
+  /// In [0, 1], of a place in the body at rest (mm).
+  double factor(const Eigen::Vector3d& rest) const {
+    return std::clamp((rest - point).dot(normal) / length, 0.0, 1.0);
+  }
+};
+
+/// A piece that is cut out of the body: the cells whose centre lies in a box. Where its two sides along an
+/// axis are joined (thesis section 6.1.3, the removing method), the upper one ends on the lower one.
+struct Removed {
+  Eigen::Vector3d lower, upper; ///< mm
+  std::optional<Axis> join;     ///< absent: the cut stays open
+  Where where;
+};
+
 /// A region of prescribed motion: at load factor s, s times a displacement or a rotation by s times an angle;
 /// in a dynamic case s is its history.
 struct Moved {
@@ -152,6 +174,8 @@ struct Moved {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();        ///< unit length
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
   History history{};
+  std::optional<ScaledDisplacement> scaled{}; ///< absent: the region moves as a whole
+  int steps = 1;                              ///< of the load, at least
 };
 
 SPRINGPROOF_ENUMERATION(
@@ -233,6 +257,15 @@ struct NetworkFile {
   Where where;
 };
 
+/// How often force scaling moves the points, whether that is enough or not: some steps of the load, and
+/// further iterations at full load.
+struct RelaxationCounts {
+  int load_steps = 1;
+  int per_step = 0; ///< iterations after every load step
+  int further = 0;  ///< iterations after the last one's
+  long all() const { return static_cast<long>(load_steps) * per_step + further; }
+};
+
 struct Msm {
   Design design = Design::linear_method;
   Solver solver = Solver::newton;
@@ -255,10 +288,16 @@ struct Msm {
   PointMass mass = PointMass::cells;
   std::optional<int> iterations_per_step; ///< in time: of conjugate gradients, as a simulator's step has them
   Where where;
+  std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: until it is in equilibrium
 };
 
 SPRINGPROOF_ENUMERATION(MeasureKind, coordinate, displacement, tilt, twist, volume, displacement_field_l2,
-                        displacement_field_max, reaction, strain_energy, stress, strain)
+                        displacement_field_max, reaction, strain_energy, stress, strain, curvature)
+
+/// Of a quantity's values on several cells.
+SPRINGPROOF_ENUMERATION(Statistic, largest, mean,
+                        deviation ///< root of the mean square distance from the mean
+)
 
 /// Whether a measure is one of Solution::fields, which a displacement alone does not tell.
 constexpr bool is_of_fields(MeasureKind kind) {
@@ -285,6 +324,9 @@ struct Measure {
   Where point_where;
   Where where;
   std::optional<OverTime> over_time{}; ///< of a dynamic case's measures, but for norms of fields
+  /// stress, strain: of the cells with a face in the region, in place of the point's; where the region has no
+  /// name, of all cells
+  std::optional<Statistic> statistic{};
 };
 
 /// A surface that the body takes along, STL or VTP: of a skin, say, which the cells follow in steps.
@@ -375,6 +417,7 @@ struct Case {
   std::optional<Dynamics> dynamics;
   std::optional<SurfaceFile> surface{}; ///< absent: the outer one of the cells
   std::vector<Landmark> landmarks{};
+  std::vector<Removed> removed{}; ///< of the body
 };
 
 /// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends
@@ -386,6 +429,13 @@ inline double largest_turn(const Case& definition) {
   double largest = 0;
   for (const Moved& moved : definition.moved) largest = std::max(largest, std::abs(moved.angle));
   return largest;
+}
+
+/// Load steps that the motions ask for.
+inline int least_load_steps(const Case& definition) {
+  int steps = 1;
+  for (const Moved& moved : definition.moved) steps = std::max(steps, moved.steps);
+  return steps;
 }
 
 } // namespace springproof::cases

@@ -126,6 +126,34 @@ Fixed read_symmetry(Table& table) {
   return {{face, std::nullopt, entry.where}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}};
 }
 
+/// { point = [...], normal = [...], length = 10 }
+ScaledDisplacement read_scaled(Table& table) {
+  ScaledDisplacement scaled;
+  scaled.where = table.where();
+  scaled.point = table.required("point", read_point);
+  scaled.normal = table.required("normal", read_direction);
+  scaled.length = table.required("length", Number{"a number above 0 (mm), the length of the zone that is "
+                                                  "scaled",
+                                                  is_positive});
+  return scaled;
+}
+
+/// How the region moves: where its motion fades out, and in how many steps of the load.
+void read_way(Table& table, Moved& moved, bool is_dynamic) {
+  table.know({"scaled_displacement", "steps"});
+  table.refuse_unless(!is_dynamic, {"steps"}, "left out in a dynamic case, whose steps are those of time");
+  moved.steps = table.optional("steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
+  if (!table.has("scaled_displacement")) return;
+  moved.scaled = table.section("scaled_displacement", read_scaled);
+  const double nearer = -moved.displacement.dot(moved.scaled->normal);
+  if (!(nearer < moved.scaled->length))
+    throw InputError(
+        moved.scaled->where,
+        fmt::format("length is {} mm, must be more than the {} mm by which the displacement shortens "
+                    "the zone",
+                    moved.scaled->length, nearer));
+}
+
 Moved read_moved(Table& table, const Case& definition) {
   Moved moved;
   moved.region = read_region(table, definition.body);
@@ -148,6 +176,7 @@ Moved read_moved(Table& table, const Case& definition) {
         entry.refuse("0 in the components that are not moved");
     table.know({"angle"});
   }
+  read_way(table, moved, definition.dynamics.has_value());
   return moved;
 }
 
@@ -237,7 +266,7 @@ void read_boundary(Table& root, Case& result) {
   result.fixed = root.sections("fixed", with_body(read_fixed));
   result.symmetry = root.sections("symmetry", read_symmetry);
   const bool may_fly = result.dynamics && result.dynamics->start == MotionStart::rest;
-  const bool is_held = rigid_class(result.body) != nullptr;
+  const bool is_held = rigid_class(result.body) != nullptr || root.has("moved");
   if (result.fixed.empty() && result.symmetry.empty() && !is_held && !may_fly)
     root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
   for (std::size_t i = 0; i < result.symmetry.size(); ++i)

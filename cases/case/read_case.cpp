@@ -27,6 +27,21 @@ std::string read_case_name(const Entry& entry) {
   return name;
 }
 
+Removed read_removed(Table& table, bool is_dynamic) {
+  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
+  Removed removed;
+  const Entry box = table.entry("box");
+  removed.where = box.where;
+  const std::vector<Entry> corners = box.elements(allowed, 2);
+  removed.lower = Vector{allowed}(corners[0]);
+  removed.upper = Vector{allowed}(corners[1]);
+  if (!(removed.lower.array() < removed.upper.array()).all()) box.refuse(allowed);
+  removed.join = table.optional("join", read_name<Axis>);
+  if (removed.join && is_dynamic)
+    table.entry("join").refuse("left out in a dynamic case: cuts are joined in statics alone");
+  return removed;
+}
+
 /// Two nodes that must differ for the direction between them to exist. Different names of one node are found
 /// on the mesh.
 void check_differ(Table& table, const std::string& key, const Region& here, const Region& other,
@@ -79,11 +94,22 @@ Measure read_measure(Table& table, const Case& definition) {
     measure.region = read_region(table, definition.body);
     measure.component = table.required("component", read_name<Component>);
     break;
+  case MeasureKind::curvature:
+    measure.region = read_region(table, definition.body);
+    measure.axis = table.required("axis", read_name<Axis>);
+    break;
   case MeasureKind::stress:
   case MeasureKind::strain:
+    measure.tensor_component = read_tensor_component(table.entry("component"), measure.kind);
+    table.know({"statistic", "point", "region", "near", "radius"});
+    if ((measure.statistic = table.optional("statistic", read_name<Statistic>))) {
+      table.refuse_unless(false, {"point"}, "left out beside statistic, which is of several cells");
+      if (table.has("region") || table.has("near")) measure.region = read_region(table, definition.body);
+      break;
+    }
+    table.refuse_unless(false, {"region", "near", "radius"}, "left out without statistic");
     measure.point_where = table.entry("point").where;
     measure.point = table.required("point", Vector{"three finite numbers (mm), a point of the body at rest"});
-    measure.tensor_component = read_tensor_component(table.entry("component"), measure.kind);
     break;
   case MeasureKind::strain_energy:
   case MeasureKind::volume:
@@ -91,9 +117,9 @@ Measure read_measure(Table& table, const Case& definition) {
   case MeasureKind::displacement_field_max:
     break;
   }
-  if (definition.dynamics && is_of_fields(measure.kind))
-    table.entry("kind").refuse(
-        "a measure of displacements or volume: forces and stresses of a motion are not recorded");
+  if (definition.dynamics && (is_of_fields(measure.kind) || measure.kind == MeasureKind::curvature))
+    table.entry("kind").refuse("a measure of single nodes' displacements or of volume: forces, stresses and "
+                               "curvatures of a motion are not recorded");
   measure.over_time = read_over_time(table, measure.kind, definition.dynamics.has_value());
   return measure;
 }
@@ -190,7 +216,11 @@ Case read_definition(Table& root, const std::string& path) {
   root.required("schema", WholeNumber{"1, the version of the format that this program reads", 1, 1});
   result.name = root.required("name", read_case_name);
   result.description = root.optional("description", read_text).value_or("");
-  result.body = root.section("body", [&](Table& table) { return read_body(table, path); });
+  result.body = root.section("body", [&](Table& table) {
+    const auto read = [&](Table& piece) { return read_removed(piece, root.has("dynamics")); };
+    result.removed = table.sections("removed", read);
+    return read_body(table, path);
+  });
   result.dynamics = read_dynamics(root);
   read_materials(root, result);
   read_boundary(root, result);

@@ -249,6 +249,30 @@ void check_is_for(const Entry& design, const Msm& msm, const Material& material)
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
+/// How often force scaling moves the points, where that is given.
+void read_relaxation(Table& table, Msm& msm) {
+  const std::vector<const char*> keys{"relaxation_steps", "relaxation_iterations", "further_iterations"};
+  for (const char* key : keys)
+    table.refuse_unless(msm.solver == Solver::force_scaling, {key},
+                        "left out: it belongs to solver = \"force_scaling\"");
+  if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); })) {
+    for (const char* key : keys) table.know({key});
+    return;
+  }
+  constexpr int most = 1000000;
+  const WholeNumber iterations{"a whole number from 0 to 1000000", 0, most};
+  RelaxationCounts& counts = msm.relaxation.emplace();
+  counts.load_steps =
+      table.optional("relaxation_steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
+  counts.per_step = table.optional("relaxation_iterations", iterations).value_or(0);
+  counts.further = table.optional("further_iterations", iterations).value_or(0);
+  if (counts.all() < 1 || counts.all() > most)
+    throw InputError(table.where(),
+                     fmt::format("relaxation_steps x relaxation_iterations + further_iterations is "
+                                 "{}, must be from 1 to {}",
+                                 counts.all(), most));
+}
+
 Msm read_msm(Table& table, const Case& definition) {
   const Material& material = definition.material;
   Msm msm;
@@ -260,6 +284,7 @@ Msm read_msm(Table& table, const Case& definition) {
   if (table.has("design")) check_is_for(table.entry("design"), msm, material);
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
+  read_relaxation(table, msm);
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   msm.split =

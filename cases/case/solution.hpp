@@ -60,6 +60,15 @@ struct Trajectory {
   double largest_residual = 0; ///< that a step was left with, relative to the forces of the motion
 };
 
+/// How far an answer after a given number of explicit iterations is from the equilibrium of the same springs,
+/// which Newton's method finds.
+struct FromEquilibrium {
+  double tolerance; ///< of an equilibrium's relative residual
+  std::optional<double> largest,
+      root_mean_square; ///< mm, of all points' distances from where they are in equilibrium
+  std::string reason;   ///< why these are not known
+};
+
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
 /// displacement.
 struct Solution {
@@ -85,6 +94,10 @@ struct Solution {
       negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
   int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
   std::optional<Trajectory> trajectory{}; ///< of a dynamic case: the rest is of its end
+  /// Of an answer that was asked for after a number of iterations, equilibrium or not.
+  std::optional<FromEquilibrium> from_equilibrium{};
+
+  bool is_equilibrium() const { return !from_equilibrium || residual <= from_equilibrium->tolerance; }
 
   /// As far as the tangent's eigenvalues were looked at.
   bool is_unstable() const {

@@ -68,16 +68,20 @@ SPRINGPROOF_FIELDS(springproof::cases::RegionMaterial, material, group, lower, u
 SPRINGPROOF_FIELDS(springproof::cases::Part, cell_class, lower, upper, point, normal)
 SPRINGPROOF_FIELDS(springproof::cases::Region, name, near, where, radius, part)
 SPRINGPROOF_FIELDS(springproof::cases::Fixed, region, components)
-SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, angle, axis, centre, history)
+SPRINGPROOF_FIELDS(springproof::cases::ScaledDisplacement, point, normal, length, where)
+SPRINGPROOF_FIELDS(springproof::cases::Removed, lower, upper, join, where)
+SPRINGPROOF_FIELDS(springproof::cases::RelaxationCounts, load_steps, per_step, further)
+SPRINGPROOF_FIELDS(springproof::cases::Moved, region, components, displacement, angle, axis, centre, history,
+                   scaled, steps)
 SPRINGPROOF_FIELDS(springproof::cases::Load, region, kind, force, moment, axis, centre, history)
 SPRINGPROOF_FIELDS(springproof::cases::AddedMass, region, mass)
 SPRINGPROOF_FIELDS(springproof::cases::Fem, formulation, element, refine, has_auto_formulation,
                    has_auto_accuracy, accepted, mass, where)
 SPRINGPROOF_FIELDS(springproof::cases::Msm, design, solver, law, exponent, poissons_ratio, split, stiffness,
                    axis_stiffness, uniform_stiffness, volume_stiffness, network, paths, weights, strain_range,
-                   has_volume_term, accepted, mass, iterations_per_step, where)
+                   has_volume_term, accepted, mass, iterations_per_step, where, relaxation)
 SPRINGPROOF_FIELDS(springproof::cases::Measure, name, kind, node, axis, component, top, bottom, toward,
-                   centre, region, point, tensor_component, point_where, where, over_time)
+                   centre, region, point, tensor_component, point_where, where, over_time, statistic)
 SPRINGPROOF_FIELDS(springproof::cases::Landmark, name, point)
 SPRINGPROOF_FIELDS(springproof::cases::Expectation, measure, quantity, interval, reference, reason, where,
                    ends_where)
@@ -90,10 +94,11 @@ SPRINGPROOF_FIELDS(springproof::cases::Stress, is_heavy, start, amplitude, seed,
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Case& definition) {
   auto& [name, description, file, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks] =
-      definition;
+         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks,
+         removed] = definition;
   archive(name, description, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks);
+          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks,
+          removed);
   if constexpr (has_places<Archive>) archive(file);
 }
 
@@ -107,6 +112,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
+SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
                    unfinished_steps, largest_residual)
@@ -116,10 +122,11 @@ template<class Archive>
 void serialize(Archive& archive, springproof::cases::Solution& solution) {
   auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,
          load_reached, newton_iterations, linear_iterations, relaxation_iterations, force_evaluations,
-         factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory] = solution;
+         factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory,
+         from_equilibrium] = solution;
   archive(status, message, outcome, displacement, cell_volume, fields, unknowns, residual, load_reached,
           newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
-          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory);
+          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory, from_equilibrium);
 }
 
 } // namespace cereal

@@ -4,6 +4,7 @@
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
+#include "cases/scene/cut.hpp"
 #include "cases/scene/regions.hpp"
 #include "cases/scene/surface.hpp"
 
@@ -242,7 +243,14 @@ void check_fields(const Scene& scene) {
     if (measure.kind == MeasureKind::stress && scene.definition.msm.design == Design::network)
       throw InputError(measure.where, "kind is \"stress\", must be another one beside design = \"network\": "
                                       "the springs of a network belong to no cell, and a cell has no stress");
-    const bool is_of_point = measure.kind == MeasureKind::stress || measure.kind == MeasureKind::strain;
+    const bool is_of_cells = measure.statistic && (measure.region.near || !measure.region.name.empty());
+    if (is_of_cells && select(scene.mesh, measure.region).faces.empty())
+      throw InputError(measure.region.where,
+                       fmt::format("'{}' has no faces, and a statistic is of the cells that "
+                                   "have a face in the region",
+                                   measure.region.name));
+    const bool is_of_point =
+        !measure.statistic && (measure.kind == MeasureKind::stress || measure.kind == MeasureKind::strain);
     if (is_of_point && cells_at(scene.mesh, measure.point).empty())
       throw InputError(measure.point_where,
                        fmt::format("is [{}, {}, {}], must be a point of the body at rest (mm)",
@@ -320,11 +328,13 @@ void resolve_network(Scene& scene) {
 Scene make_scene(const Case& definition) {
   Scene scene;
   scene.definition = definition;
-  scene.mesh = make_mesh(definition.body);
+  scene.mesh = cut(make_mesh(definition.body), definition.removed);
   resolve_materials(scene);
   add_patches(scene);
   resolve_supports(scene);
   check_motions(scene);
+  check_scaled(scene);
+  join_cuts(scene);
   hold_rigid_nodes(scene);
   resolve_loads(scene);
   check_sizes(scene);
@@ -340,6 +350,7 @@ Scene make_scene(const Case& definition) {
 }
 
 Vector3d moved_by(const Moved& motion, const Vector3d& rest, double load_factor) {
+  if (motion.scaled) load_factor *= motion.scaled->factor(rest);
   if (motion.angle == 0) return load_factor * motion.displacement;
   const double angle = radians(load_factor * motion.angle);
   const Vector3d arm = rest - motion.centre;
@@ -348,6 +359,10 @@ Vector3d moved_by(const Moved& motion, const Vector3d& rest, double load_factor)
 
 Scene refine(const Scene& scene, int n) {
   if (n == 0) return scene;
+  if (const auto joined = first_joined(scene.definition))
+    throw InputError(joined->where,
+                     "is joined, and the finite elements are asked for on a finer mesh, where the "
+                     "cut would end elsewhere; leave fem.refine, sweeps and further meshes out");
   Scene fine;
   fine.definition = scene.definition;
   fine.mesh = refine(scene.mesh);

@@ -31,7 +31,7 @@ struct Scene {
   std::vector<int> material_of_cell;         ///< in materials_of(definition); empty when there is but one
   std::vector<ConstrainedNodes> constrained; ///< [[fixed]], [[symmetry]], [[moved]] and nodes of rigid cells:
                                              ///< all constrained degrees of freedom
-  std::vector<MovedNodes> moved;
+  std::vector<MovedNodes> moved; ///< the sides of joined cuts after [[moved]]
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
@@ -65,7 +65,7 @@ Scene refine(const Scene& scene, int n);
 std::vector<bool> constrained_dofs(const Scene& scene);
 
 /// Displacement (mm) that a motion prescribes at a load factor for a point of rest position `rest` (mm); 0
-/// on components that the motion leaves free.
+/// on components that the motion leaves free. Where it is scaled, that is as at a smaller load factor.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
 /// Part of a node's load or added mass that the modelled part of a symmetric scene carries, as a function of

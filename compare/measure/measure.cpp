@@ -2,6 +2,7 @@
 
 #include "cases/mesh/cells_at.hpp"
 #include "cases/mesh/sharing.hpp"
+#include "compare/measure/of_regions.hpp"
 #include "compare/measure/tensor.hpp"
 #include "mechanics/dynamics/scheme.hpp"
 #include "mechanics/hexahedron.hpp"
@@ -193,9 +194,14 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
   case MeasureKind::strain_energy:
     return solution.fields->total_energy;
   case MeasureKind::stress:
-    return at_point(measure, scene, solution, solution.fields->stress);
-  case MeasureKind::strain:
-    return at_point(measure, scene, solution, solution.fields->strain);
+  case MeasureKind::strain: {
+    const auto& of_cells =
+        measure.kind == MeasureKind::stress ? solution.fields->stress : solution.fields->strain;
+    return measure.statistic ? of_region(measure, scene, solution, of_cells)
+                             : at_point(measure, scene, solution, of_cells);
+  }
+  case MeasureKind::curvature:
+    return largest_curvature(measure, scene, solution);
   }
   return std::nan(""); // not reached: every kind is above
 }
@@ -281,6 +287,8 @@ double zero_of(const cases::Measure& measure, const cases::Scene& scene, const c
     return rounding * largest_norm(fem.fields->stress, fem);
   case MeasureKind::strain:
     return rounding * largest_norm(fem.fields->strain, fem);
+  case MeasureKind::curvature:
+    return rounding * moved / (size * size);
   // volumes are not zero, nor is the energy of what is deformed; a norm of the field is it where all
   // displacements are
   default:
@@ -304,6 +312,8 @@ std::string unit_of(const cases::Measure& measure) {
       return "MPa";
     case MeasureKind::strain:
       return "1";
+    case MeasureKind::curvature:
+      return "1/mm";
     default:
       return "mm";
     }

@@ -52,6 +52,12 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
           "displacement under it grows without bound as the mesh is refined; use a traction",
           i);
   }
+  for (std::size_t i = 0; i < scene.definition.removed.size(); ++i)
+    if (scene.definition.removed[i].join)
+      return fmt::format(
+          "body.removed[{}] is joined, and ends where cells are left: a sharp tip, about which "
+          "strains grow without bound as the mesh is refined",
+          i);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
     if (!is_area(scene.masses[i].selection))
       return fmt::format(

@@ -7,6 +7,7 @@
 #include "msm/moving_springs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <random>
@@ -250,6 +251,50 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& 
   return solution;
 }
 
+namespace {
+
+/// In one sentence.
+std::string describe_distance(const cases::Solution& solution) {
+  const cases::FromEquilibrium& from = *solution.from_equilibrium;
+  const std::string state = fmt::format("{} after {} iterations: residual {:.2e}, ",
+                                        solution.is_equilibrium() ? "in equilibrium" : "NOT IN EQUILIBRIUM",
+                                        solution.relaxation_iterations, solution.residual);
+  if (!from.largest) return state + "the distance from equilibrium is not known: " + from.reason;
+  return state +
+         fmt::format("{:.3g} mm at most and {:.3g} mm in the root mean square from the equilibrium of the "
+                     "same springs (Newton's method)",
+                     *from.largest, *from.root_mean_square);
+}
+
+/// Adds how far a solution of a given number of iterations is from the equilibrium that Newton's method
+/// finds.
+void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, int n_threads,
+                  const mechanics::EquilibriumSettings& settings, cases::Solution& solution) {
+  cases::FromEquilibrium& from = *solution.from_equilibrium;
+  cases::Scene in_equilibrium = scene;
+  in_equilibrium.definition.msm.solver = cases::Solver::newton;
+  in_equilibrium.definition.msm.relaxation.reset();
+  const Answer newton = solve_side(
+      [&] {
+        return make_model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
+      },
+      [&](msm::Model& model) { return model.solve(settings); });
+  if (!newton.converged()) {
+    from.reason = newton.solution.message;
+    return;
+  }
+  double largest_squared = 0, sum = 0;
+  for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
+    const double squared = (solution.displacement[n] - newton.solution.displacement[n]).squaredNorm();
+    if (!(squared <= largest_squared)) largest_squared = squared;
+    sum += squared;
+  }
+  from.largest = std::sqrt(largest_squared);
+  from.root_mean_square = std::sqrt(sum / static_cast<double>(solution.displacement.size()));
+}
+
+} // namespace
+
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
   if (scene.definition.dynamics)
     return solve_side(
@@ -266,7 +311,7 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
   msm::DesignResult springs;
-  return solve_side(
+  Answer answer = solve_side(
       [&] {
         design = design_for(scene);
         springs = as_solved(scene, *design);
@@ -276,6 +321,11 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
         return with_fields(scene, springs,
                            model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
       });
+  if (answer.solution.from_equilibrium) { // outside of the time that the iterations took
+    add_distance(scene, springs, n_threads, settings, answer.solution);
+    answer.solution.message = describe_distance(answer.solution);
+  }
+  return answer;
 }
 
 } // namespace springproof::compare

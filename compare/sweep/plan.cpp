@@ -1,5 +1,7 @@
 #include "compare/sweep/plan.hpp"
 
+#include "cases/scene/cut.hpp"
+
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "msm/design/design.hpp"
@@ -164,6 +166,13 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
         definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
   if (definition.dynamics)
     throw cases::InputError(definition.file + ": dynamics: a sweep is of equilibria, so it must be left out");
+  if (const auto joined = cases::first_joined(definition))
+    throw cases::InputError(
+        joined->where, "is joined, must be left out of a sweep: its sides end elsewhere on other meshes");
+  if (definition.msm.relaxation)
+    throw cases::InputError(definition.msm.where,
+                            "relaxation_steps, relaxation_iterations and further_iterations must "
+                            "be left out of a sweep, which is of equilibria");
   if (definition.msm.exponent)
     throw cases::InputError(definition.file +
                             ": msm.law: a sweep solves every design with the springs that are its own, so it "

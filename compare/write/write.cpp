@@ -34,11 +34,18 @@ void write_motion_text(std::ostream& out, const cases::Trajectory& motion, doubl
           motion.unfinished_steps, 100 * motion.largest_residual);
 }
 
+/// "converged", "failed" or "skipped"; of an answer that was asked for after a number of iterations, and that
+/// is no equilibrium, that.
+std::string status_of(const cases::Solution& solution) {
+  return solution.is_equilibrium() ? cases::name_of(solution.status) : "not_in_equilibrium";
+}
+
 void write_side(std::ostream& out, const char* label, const std::string& what, const Answer& side,
                 bool is_motion) {
   const cases::Solution& s = side.solution;
   if (s.status == cases::Status::skipped) return;
-  print(out, "  {}  {}: {}", label, what, cases::name_of(s.status));
+  print(out, "  {}  {}: {}", label, what,
+        s.is_equilibrium() ? cases::name_of(s.status) : "not in equilibrium");
   if (s.status == cases::Status::failed) {
     print(out, " at {:.4g} of the {}: {}\n", s.load_reached, is_motion ? "time" : "load", s.message);
     return;
@@ -340,7 +347,13 @@ void write_text(std::ostream& out, const Comparison& comparison) {
 
 Json side_to_json(const Answer& side) {
   const cases::Solution& s = side.solution;
-  return {{"status", cases::name_of(s.status)},
+  Json from_equilibrium;
+  if (const auto& from = s.from_equilibrium)
+    from_equilibrium = {{"is_equilibrium", s.is_equilibrium()},
+                        {"largest_mm", from->largest},
+                        {"root_mean_square_mm", from->root_mean_square},
+                        {"reason", from->reason}};
+  return {{"status", status_of(s)},
           {"message", s.message},
           {"unknowns", s.unknowns},
           {"residual", s.residual},
@@ -353,6 +366,7 @@ Json side_to_json(const Answer& side) {
           {"lowest_eigenvalue", s.lowest_eigenvalue},
           {"negative_eigenvalues", s.negative_eigenvalues},
           {"inverted_cells", s.inverted_cells},
+          {"from_equilibrium", from_equilibrium},
           {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
 }
 
@@ -385,7 +399,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
       const MeasuredValue& m = measures[i];
       const std::optional<Limit>& limit = m.fem_limit;
       csv.row(scene.definition.name, m.name, m.unit, m.fem, m.msm, m.error_percent,
-              cases::name_of(answers.fem.solution.status), cases::name_of(answers.msm.solution.status),
+              cases::name_of(answers.fem.solution.status), status_of(answers.msm.solution),
               study ? study->measures[i].discretisation_error_percent : std::nullopt, m.peer,
               m.fem_limit ? "limit" : "same_mesh", limit ? std::optional(limit->value) : std::nullopt,
               limit ? std::optional(limit->uncertainty) : std::nullopt, m.error_uncertainty_percent,

@@ -278,8 +278,8 @@ cases::Solution GridModel::follow(const mechanics::IntegrationSettings& settings
     const std::vector<double> of_cells = cell_volumes(state);
     return std::accumulate(of_cells.begin(), of_cells.end(), 0.);
   };
-  mechanics::FollowedMotion followed =
-      mechanics::follow_motion(m.scene, {motion, displacement, volume}, m.start_of_motion(settings.newton), settings);
+  mechanics::FollowedMotion followed = mechanics::follow_motion(m.scene, {motion, displacement, volume},
+                                                                m.start_of_motion(settings.newton), settings);
   cases::Solution solution = mechanics::to_solution(followed.work);
   solution.displacement = displacement(followed.end);
   solution.cell_volume = cell_volumes(followed.end);
@@ -297,7 +297,8 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   mechanics::EquilibriumSettings settings = given;
   settings.from = m.last_load_factor;
   settings.to = load_factor;
-  settings = mechanics::in_small_turns(cases::largest_turn(m.scene.definition), std::move(settings));
+  settings = mechanics::in_small_turns(cases::largest_turn(m.scene.definition),
+                                       cases::least_load_steps(m.scene.definition), std::move(settings));
   if (settings.from == 0 && settings.first_load_step == 1 && m.body.law != Law::small_strain) {
     CoarseGuess coarse = coarse_guess(m.body, m.supported, load_factor, m.n_threads);
     settings.guess = std::move(coarse.state);

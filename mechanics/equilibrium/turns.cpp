@@ -5,10 +5,12 @@
 
 namespace springproof::mechanics {
 
-EquilibriumSettings in_small_turns(double degrees, EquilibriumSettings settings) {
+EquilibriumSettings in_small_turns(double degrees, int at_least, EquilibriumSettings settings) {
   constexpr double most_degrees =
       30; ///< of a load step: a straight guess leaves the arc by 15 % of the radius
-  const double n_steps = std::ceil(std::abs(degrees * (settings.to - settings.from)) / most_degrees);
+  const double way = std::abs(settings.to - settings.from);
+  const double n_steps =
+      std::max(std::ceil(std::abs(degrees) * way / most_degrees), std::ceil(at_least * way - 1e-9));
   if (!(n_steps > 1)) return settings;
   for (double* step : {&settings.first_load_step, &settings.largest_load_step})
     *step = std::min(*step, 1 / n_steps);

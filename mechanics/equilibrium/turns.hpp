@@ -8,6 +8,7 @@ namespace springproof::mechanics {
 /// says nothing of whole turns: only small steps lead the body around with it.
 /// @param degrees   that a support turns by at load factor 1
 /// @param settings  with the load factors from and to
-EquilibriumSettings in_small_turns(double degrees, EquilibriumSettings settings);
+/// @param at_least  load steps from load factor 0 to 1
+EquilibriumSettings in_small_turns(double degrees, int at_least, EquilibriumSettings settings);
 
 } // namespace springproof::mechanics

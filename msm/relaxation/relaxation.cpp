@@ -142,7 +142,45 @@ Method make_method(cases::Solver method, NonlinearProblem& problem, double load_
   return Lbfgs(problem, load_factor, eigenvalue);
 }
 
+[[noreturn]] void give_up(const NonlinearProblem& problem, const NonlinearProblem::Work& before,
+                          mechanics::Equilibrium result, cases::Solver method, const std::string& reason) {
+  result.work = problem.work() - before;
+  throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason,
+                          mechanics::to_solution(result));
+}
+
 } // namespace
+
+mechanics::Equilibrium relax_for(NonlinearProblem& problem, const Vector& start,
+                                 const cases::RelaxationCounts& counts,
+                                 const mechanics::EquilibriumSettings& settings) {
+  const NonlinearProblem::Work before = problem.work();
+  mechanics::Equilibrium result;
+  result.n_unknowns = problem.n_unknowns();
+  const auto stop = [&](const std::string& reason) {
+    give_up(problem, before, result, cases::Solver::force_scaling, reason);
+  };
+  Vector at = start, force = problem.residual(at, 0);
+  const double alpha = 1 / largest_eigenvalue(problem, 0, at, force); // mm/N
+  for (int step = 1; step <= counts.load_steps; ++step) {
+    const bool is_last = step == counts.load_steps;
+    result.load_reached = step / static_cast<double>(counts.load_steps);
+    problem.move_supports(at, result.load_reached);
+    const int n_iterations = counts.per_step + (is_last ? counts.further : 0);
+    for (int n = 0; n < n_iterations; ++n, ++result.relaxation_iterations) {
+      problem.residual(at, result.load_reached, mechanics::Expect::residual, force);
+      at.noalias() += alpha * force; // eq. 2.11
+      if (settings.should_stop && settings.should_stop()) stop("it was stopped");
+    }
+    ++result.load_steps;
+  }
+  problem.residual(at, 1, mechanics::Expect::residual, force);
+  result.residual = problem.size(force, at).relative;
+  if (!std::isfinite(result.residual)) stop("it diverges");
+  result.state = std::move(at);
+  result.work = problem.work() - before;
+  return result;
+}
 
 mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cases::Solver method,
                              const mechanics::EquilibriumSettings& settings) {
@@ -150,11 +188,7 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
   const NonlinearProblem::Work before = problem.work();
   mechanics::Equilibrium result;
   result.n_unknowns = problem.n_unknowns();
-  const auto give_up = [&](const std::string& reason) {
-    result.work = problem.work() - before;
-    throw cases::SolveError("mass-spring equilibrium by " + cases::name_of(method) + ": " + reason,
-                            mechanics::to_solution(result));
-  };
+  const auto stop = [&](const std::string& reason) { give_up(problem, before, result, method, reason); };
   Vector at = start, previous = start;
   const double n_steps = std::ceil(1 / settings.first_load_step);
   for (double n = 1; n <= n_steps; ++n) {
@@ -168,13 +202,13 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
         make_method(method, problem, load_factor, largest_eigenvalue(problem, load_factor, at, force));
     for (;; ++result.relaxation_iterations) {
       result.residual = problem.size(force, at).relative;
-      if (!std::isfinite(result.residual)) give_up("it diverges");
+      if (!std::isfinite(result.residual)) stop("it diverges");
       if (result.residual <= tolerance) break;
       if (result.relaxation_iterations == settings.max_relaxation_iterations)
-        give_up("the limit of " + std::to_string(settings.max_relaxation_iterations) +
-                " iterations was reached");
-      if (settings.should_stop && settings.should_stop()) give_up("it was stopped");
-      if (!step(at, force)) give_up("no step lowers the potential");
+        stop("the limit of " + std::to_string(settings.max_relaxation_iterations) +
+             " iterations was reached");
+      if (settings.should_stop && settings.should_stop()) stop("it was stopped");
+      if (!step(at, force)) stop("no step lowers the potential");
     }
     result.load_reached = load_factor;
     ++result.load_steps;

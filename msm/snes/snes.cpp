@@ -366,7 +366,8 @@ cases::Solution solve_lattice_by_snes(const cases::Scene& scene, Lattice lattice
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES",
-                                  mechanics::in_small_turns(largest_turn(scene.definition), settings));
+                                  mechanics::in_small_turns(largest_turn(scene.definition),
+                                                            least_load_steps(scene.definition), settings));
   return solution_of(problem, equilibrium, system.displacement(equilibrium.state, sharing.get()), sharing);
 }
 

@@ -35,7 +35,8 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Formulation>(4);
   check_names<Element>(5);
   check_names<Design>(15);
-  check_names<MeasureKind>(11);
+  check_names<MeasureKind>(12);
+  check_names<Statistic>(3);
   check_names<Axis>(3);
   check_names<Component>(4);
   check_names<TensorComponent>(10);

@@ -211,3 +211,40 @@ TEST_CASE("a mistake in [[moved]] is refused where it is made") {
        {"is missing", "[[moved]]"}},
   });
 }
+
+TEST_CASE("a motion that fades out over a zone is read, and the steps of its load") {
+  const Case c = read_text(replaced(good_case, "[[load]]\nregion = 'z+'",
+                                    "[[moved]]\nregion = 'x+ y+'\ndisplacement = [-1, 0, 0]\nsteps = 10\n"
+                                    "scaled_displacement = { point = [1, 2, 3], normal = 'x', length = 5 }\n"
+                                    "[[load]]\nregion = 'z+'"));
+  REQUIRE(c.moved.size() == 1);
+  CHECK(c.moved[0].steps == 10);
+  CHECK(least_load_steps(c) == 10);
+  REQUIRE(c.moved[0].scaled);
+  CHECK(c.moved[0].scaled->point == Eigen::Vector3d(1, 2, 3));
+  CHECK(c.moved[0].scaled->normal == Eigen::Vector3d(1, 0, 0));
+  CHECK(c.moved[0].scaled->length == 5);
+}
+
+TEST_CASE("a mistake in a motion that fades out is refused where it is made") {
+  const std::string from = "[[load]]\nregion = 'z+'",
+                    moved = "[[moved]]\nregion = 'x+ y+'\ndisplacement = [-1, 0, 0]\n";
+  check_mistakes({
+      {from,
+       moved + "scaled_displacement = { point = [1, 2, 3], normal = 'x', length = 1 }\n" + from,
+       17,
+       "moved[0].scaled_displacement",
+       {"must be more than the 1 mm by which"}},
+      {from,
+       moved + "scaled_displacement = { point = [1, 2, 3], normal = 'x', length = 0 }\n" + from,
+       17,
+       "moved[0].scaled_displacement.length",
+       {"above 0 (mm)"}},
+      {from,
+       moved + "scaled_displacement = { point = [1, 2, 3], normal = 'x', lenght = 2 }\n" + from,
+       17,
+       "moved[0].scaled_displacement.lenght",
+       {"length"}},
+      {from, moved + "steps = 0\n" + from, 17, "moved[0].steps", {"from 1 to 1000"}},
+  });
+}

@@ -422,3 +422,27 @@ TEST_CASE("a key of very many dotted parts is refused with its line, however it 
   for (int level = 0; level < 100; ++level) nested += level < 99 ? "]}\n" : "]\n";
   CHECK_THROWS_AS(read_case_text(nested, "a.toml"), InputError);
 }
+
+TEST_CASE("pieces that are removed from a body are read") {
+  const Case c = read_text(replaced(good_case, "cells = [10, 10, 10]",
+                                    "cells = [10, 10, 10]\n[[body.removed]]\nbox = [[1, 2, 3], [4, 5, 6]]\n"
+                                    "[[body.removed]]\nbox = [[7, 2, 3], [8, 5, 6]]\njoin = 'y'"));
+  REQUIRE(c.removed.size() == 2);
+  CHECK(c.removed[0].lower == Eigen::Vector3d(1, 2, 3));
+  CHECK(c.removed[0].upper == Eigen::Vector3d(4, 5, 6));
+  CHECK_FALSE(c.removed[0].join);
+  CHECK(c.removed[1].join == Axis::y);
+  const std::string from = "cells = [10, 10, 10]";
+  check_mistakes({
+      {from,
+       from + "\n[[body.removed]]\nbox = [[1, 2, 3], [1, 5, 6]]",
+       9,
+       "body.removed[0].box",
+       {"lower first"}},
+      {from,
+       from + "\n[[body.removed]]\nbox = [[1, 2, 3], [2, 5, 6]]\njoin = 'w'",
+       10,
+       "body.removed[0].join",
+       {"\"x\""}},
+  });
+}

@@ -113,3 +113,21 @@ TEST_CASE("a mistake in [[expect]] is refused where it is made") {
       {"reason = 'Table 4.5'\n", "", 32, "expect[0].reason", {"is missing"}},
   });
 }
+
+TEST_CASE("a statistic of a strain is of a region or of all cells, and has no point") {
+  const std::string from = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'";
+  const auto with = [&](const std::string& keys) {
+    return replaced(good_case, from, "kind = 'strain'\ncomponent = 'principal_1'\n" + keys);
+  };
+  const Case c = read_text(with("statistic = 'deviation'\nregion = 'z-'"));
+  CHECK(c.measures[0].statistic == Statistic::deviation);
+  CHECK(c.measures[0].region.name == "z-");
+  CHECK(read_text(with("statistic = 'largest'")).measures[0].region.name.empty());
+  CHECK_THROWS_WITH(read_text(with("statistic = 'mean'\npoint = [1, 1, 1]")),
+                    Catch::Contains("left out beside statistic"));
+  CHECK_THROWS_WITH(read_text(with("region = 'z-'\npoint = [1, 1, 1]")),
+                    Catch::Contains("left out without statistic"));
+  CHECK(read_text(replaced(good_case, from, "kind = 'curvature'\nregion = 'z+ x-'\naxis = 'y'"))
+            .measures[0]
+            .axis == Axis::y);
+}

@@ -254,3 +254,22 @@ TEST_CASE("stiffnesses are of kinds of springs, of kinds along every axis, or of
   CHECK(read("design = 'uniform'\nstiffness = 45\n").uniform_stiffness == 45);
   CHECK_FALSE(read("design = 'uniform'\n").uniform_stiffness);
 }
+
+TEST_CASE("numbers of iterations belong to force scaling") {
+  const auto with = [](const std::string& keys) {
+    return replaced(good_case, "design = 'moduli'", "design = 'moduli'\n" + keys);
+  };
+  const Case c = read_text(with("solver = 'force_scaling'\nrelaxation_steps = 10\nrelaxation_iterations = 30\n"
+                                "further_iterations = 2000"));
+  REQUIRE(c.msm.relaxation);
+  CHECK(c.msm.relaxation->all() == 2300);
+  CHECK_FALSE(read_text(with("solver = 'force_scaling'")).msm.relaxation);
+  const auto refused = [&](const std::string& keys, const std::string& reason) {
+    CHECK_THROWS_WITH(read_text(with(keys)), Catch::Contains(reason));
+  };
+  refused("solver = 'fire'\nfurther_iterations = 5", "belongs to solver = \"force_scaling\"");
+  refused("solver = 'force_scaling'\nrelaxation_steps = 10", "is 0, must be from 1 to 1000000");
+  refused("solver = 'force_scaling'\nrelaxation_steps = 1000\nrelaxation_iterations = 1001",
+          "is 1001000, must be");
+  refused("solver = 'force_scaling'\nrelaxation_steps = 0\nrelaxation_iterations = 1", "from 1 to 1000");
+}

@@ -243,3 +243,45 @@ TEST_CASE("an expectation is met on its closed interval alone, and never by a va
   expectation.interval = {1, 1};
   CHECK(is_met(std::nullopt)); // fem = 1 is judged, not the error
 }
+
+TEST_CASE("a statistic of cells is of those with a face in the region, weighted by their volumes") {
+  const cases::Scene scene = cube(); // 2 x 2 x 2 cells
+  cases::Solution solution = moved(scene, [](const Vector3d& x) { return x; });
+  solution.fields.emplace();
+  for (int c = 0; c < 8; ++c) solution.fields->strain.push_back({c + 1., 0, 0, 0, 0, 0}); // x runs fastest
+  cases::Measure strain = measure(MeasureKind::strain);
+  strain.tensor_component = cases::TensorComponent::principal_1;
+  const auto value = [&](cases::Statistic statistic, const std::string& where) {
+    strain.statistic = statistic;
+    strain.region = region(where);
+    return compare::evaluate(strain, scene, solution);
+  };
+  using cases::Statistic;
+  CHECK(value(Statistic::largest, "") == 8);
+  CHECK(value(Statistic::largest, "z-") == 4);
+  CHECK(value(Statistic::mean, "z-") == Approx(2.5).epsilon(rounding));
+  CHECK(value(Statistic::deviation, "z-") == Approx(std::sqrt(1.25)).epsilon(rounding));
+  CHECK(value(Statistic::mean, "") == Approx(4.5).epsilon(rounding));
+  solution.fields->strain[7][0] = std::numeric_limits<double>::quiet_NaN();
+  for (const Statistic statistic : {Statistic::largest, Statistic::mean, Statistic::deviation})
+    CHECK(std::isnan(value(statistic, "")));
+}
+
+TEST_CASE("the curvature of a line that is bent to a circle is the inverse of its radius") {
+  const cases::Scene scene = cube();
+  const double radius = 3;
+  const auto bent = moved(scene, [&](const Vector3d& x) {
+    const double angle = x.x() / radius;
+    return Vector3d(radius * std::sin(angle), x.y(), x.z() + radius * (1 - std::cos(angle)));
+  });
+  cases::Measure curvature = measure(MeasureKind::curvature);
+  curvature.axis = cases::Axis::x;
+  for (const char* where : {"z+", "z+ y-"}) {
+    curvature.region = region(where);
+    CHECK(compare::evaluate(curvature, scene, bent) == Approx(1 / radius).epsilon(1e-12)); // rounding
+  }
+  curvature.axis = cases::Axis::y; // stays straight
+  curvature.region = region("z+");
+  CHECK(compare::evaluate(curvature, scene, bent) == 0);
+  CHECK(compare::unit_of(curvature) == "1/mm");
+}

@@ -10,7 +10,7 @@ TEST_CASE("load steps turn a support by 30 degrees at most, and leave room for h
     settings.from = from;
     settings.to = to;
     settings.smallest_load_step = 0.1;
-    return mechanics::in_small_turns(degrees, settings);
+    return mechanics::in_small_turns(degrees, 1, settings);
   };
   CHECK(steps_of(0, 0, 1).largest_load_step == 1);
   CHECK(steps_of(30, 0, 1).first_load_step == 1);
@@ -28,7 +28,7 @@ TEST_CASE("load steps that are smaller already stay as they are") {
   mechanics::EquilibriumSettings settings;
   settings.first_load_step = 0.01;
   settings.largest_load_step = 0.02;
-  const auto turned = mechanics::in_small_turns(90, settings);
+  const auto turned = mechanics::in_small_turns(90, 1, settings);
   CHECK(turned.first_load_step == 0.01);
   CHECK(turned.largest_load_step == 0.02);
 }

@@ -83,3 +83,43 @@ TEST_CASE("an explicit relaxation can be stopped") {
                   cases::SolveError);
   CHECK(asked == 4);
 }
+
+TEST_CASE("force scaling of a given number of iterations takes as many, and is in equilibrium after enough") {
+  cases::Case pressed = bodies::clamped_box({3, 3, 3}, {});
+  cases::Moved down;
+  down.region = bodies::region("z+");
+  down.displacement = {0, 0, -0.3};
+  pressed.moved = {down};
+  const cases::Solution newton = solve(pressed, cases::Solver::newton, thesis_cell);
+  CHECK_FALSE(newton.from_equilibrium);
+  pressed.msm.relaxation = cases::RelaxationCounts{5, 3, 20};
+  const cases::Solution few = solve(pressed, cases::Solver::force_scaling, thesis_cell);
+  CHECK(few.status == cases::Status::converged);
+  CHECK(few.relaxation_iterations == 35);
+  CHECK(few.residual > 1e-9);
+  CHECK(few.outcome == cases::Outcome::unknown);
+  CHECK_FALSE(few.is_equilibrium());
+  CHECK(few.displacement.back().z() == -0.3);
+  pressed.msm.relaxation = cases::RelaxationCounts{5, 30, 3000};
+  const cases::Solution many = solve(pressed, cases::Solver::force_scaling, thesis_cell);
+  CHECK(many.relaxation_iterations == 3150);
+  CHECK(many.is_equilibrium());
+  CHECK(largest_difference(many, newton) < 1e-6); // mm; 1e-9 of reactions of some 0.1 N over 1e-3 N/mm
+  CHECK(largest_difference(few, newton) > 1e-4);
+}
+
+TEST_CASE("force scaling moves points along their forces by one length of step at all iterations") {
+  cases::Case pulled = bodies::clamped_box({2, 2, 2}, bodies::tensile(1e-6)); // small: forces are linear
+  const auto after = [&](int n) {
+    pulled.msm.relaxation = cases::RelaxationCounts{1, 0, n};
+    return solve(pulled, cases::Solver::force_scaling, thesis_cell).displacement;
+  };
+  const auto once = after(1), twice = after(2);
+  // Without springs' forces yet: alpha times the load on the top, nothing elsewhere.
+  const double alpha_load = once.back().z();
+  CHECK(alpha_load > 0);
+  for (std::size_t n = 0; n < 18; ++n) CHECK(once[n].norm() == 0); // below the top
+  CHECK(twice.back().z() > alpha_load);
+  CHECK(twice.back().z() < 2 * alpha_load);
+  CHECK(twice[9 + 4].z() > 0); // the layer below is pulled now
+}
