@@ -75,13 +75,7 @@ Labels read_labels(Table& table, const std::string& case_path) {
       "a picture in three dimensions, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3", case_path);
   labels.edge = table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive});
   labels.classes = read_classes(table);
-  if (table.has("crop")) {
-    const Entry entry = table.entry("crop");
-    const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
-    const std::vector<Entry> corners = entry.elements(allowed, 2);
-    labels.crop = {Vector{allowed}(corners[0]), Vector{allowed}(corners[1])};
-    if (!(labels.crop->at(0).array() < labels.crop->at(1).array()).all()) entry.refuse(allowed);
-  }
+  if (table.has("crop")) labels.crop = read_corners(table.entry("crop"));
   if (table.has("keep")) read_keep(table.entry("keep"), labels);
   table.know({"crop", "keep"});
   return labels;

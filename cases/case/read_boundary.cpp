@@ -55,15 +55,6 @@ std::vector<std::string> names_of(const std::vector<LabelClass>& classes) {
   return names;
 }
 
-/// Two corners of a box, the lower one first.
-void read_box(const Entry& entry, Part& part) {
-  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
-  const std::vector<Entry> corners = entry.elements(allowed, 2);
-  part.lower = Vector{allowed}(corners[0]);
-  part.upper = Vector{allowed}(corners[1]);
-  if (!(part.lower.array() <= part.upper.array()).all()) entry.refuse(allowed);
-}
-
 /// { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }
 Region read_part(const Entry& entry, const Body& body) {
   const std::string allowed = "the name of a region, or a table with one or more of class, box and beyond";
@@ -79,7 +70,9 @@ Region read_part(const Entry& entry, const Body& body) {
   if (labels != nullptr && !part.cell_class.empty()) table.entry("class").word(names_of(labels->classes));
   region.name = part.cell_class.empty() ? "nodes" : "nodes of " + part.cell_class;
   if (table.has("box")) {
-    read_box(table.entry("box"), part);
+    const auto corners = read_corners(table.entry("box"), true);
+    part.lower = corners[0];
+    part.upper = corners[1];
     region.name +=
         fmt::format(" between ({}) and ({})", fmt::join(part.lower, ", "), fmt::join(part.upper, ", "));
   }

@@ -28,14 +28,12 @@ std::string read_case_name(const Entry& entry) {
 }
 
 Removed read_removed(Table& table, bool is_dynamic) {
-  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
   Removed removed;
   const Entry box = table.entry("box");
   removed.where = box.where;
-  const std::vector<Entry> corners = box.elements(allowed, 2);
-  removed.lower = Vector{allowed}(corners[0]);
-  removed.upper = Vector{allowed}(corners[1]);
-  if (!(removed.lower.array() < removed.upper.array()).all()) box.refuse(allowed);
+  const auto corners = read_corners(box);
+  removed.lower = corners[0];
+  removed.upper = corners[1];
   removed.join = table.optional("join", read_name<Axis>);
   if (removed.join && is_dynamic)
     table.entry("join").refuse("left out in a dynamic case: cuts are joined in statics alone");

@@ -285,4 +285,14 @@ std::string read_file_name(const Entry& entry, const std::vector<std::string>& e
   return path.string();
 }
 
+std::array<Eigen::Vector3d, 2> read_corners(const Entry& entry, bool may_be_flat) {
+  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
+  const std::vector<Entry> corners = entry.elements(allowed, 2);
+  const Eigen::Vector3d lower = Vector{allowed}(corners[0]), upper = Vector{allowed}(corners[1]);
+  const bool is_box =
+      may_be_flat ? (lower.array() <= upper.array()).all() : (lower.array() < upper.array()).all();
+  if (!is_box) entry.refuse(allowed);
+  return {lower, upper};
+}
+
 } // namespace springproof::cases

@@ -169,4 +169,8 @@ class Table {
   std::set<std::string> asked_;
 };
 
+/// Two corners of a box (mm), the lower one first in each coordinate.
+/// @param may_be_flat  whether the box may be a rectangle, a line or a point
+std::array<Eigen::Vector3d, 2> read_corners(const Entry& entry, bool may_be_flat = false);
+
 } // namespace springproof::cases

@@ -1,5 +1,7 @@
 #include "cases/scene/cut.hpp"
 
+#include "cases/mesh/pieces.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -38,34 +40,6 @@ void for_each_cell(const Grid& grid, const Action& action) {
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i) action(std::array<int, 3>{i, j, k}, number++);
-}
-
-/// Pieces that hang together by faces.
-int n_pieces(const Grid& grid) {
-  std::vector<bool> is_left = grid.present;
-  std::vector<std::size_t> to_visit;
-  const auto visit = [&](std::size_t cell) {
-    if (!is_left[cell]) return;
-    is_left[cell] = false;
-    to_visit.push_back(cell);
-  };
-  int n = 0;
-  for (std::size_t first = 0; first < is_left.size(); ++first) {
-    if (!is_left[first]) continue;
-    ++n;
-    for (visit(first); !to_visit.empty();) {
-      const std::size_t cell = to_visit.back();
-      to_visit.pop_back();
-      std::size_t stride = 1;
-      for (const int along : grid.cells) {
-        const std::size_t place = cell / stride % index(along);
-        if (place > 0) visit(cell - stride);
-        if (place + 1 < index(along)) visit(cell + stride);
-        stride *= index(along);
-      }
-    }
-  }
-  return n;
 }
 
 /// One side of a removed piece across the axis of its joint.
@@ -175,7 +149,7 @@ HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed) {
     });
     if (n_cells == 0) throw InputError(removed[r].where, "no cell has its centre in the box");
   }
-  if (const int n = n_pieces(grid); n != 1)
+  if (const int n = static_cast<int>(pieces_of(grid).sizes.size()); n != 1)
     throw InputError(removed.back().where,
                      n == 0 ? std::string("nothing is left of the body")
                             : fmt::format("the body falls into {} pieces that share no face", n));
