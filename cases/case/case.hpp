@@ -329,9 +329,18 @@ struct Measure {
   std::optional<Statistic> statistic{};
 };
 
-/// A surface that the body takes along, STL or VTP: of a skin, say, which the cells follow in steps.
-struct SurfaceFile {
-  std::string path; ///< as opened: relative paths are resolved against the case file
+/// The surface that divides the intensities of a picture.
+struct PictureContour {
+  double intensity;
+  int n_smoothing;            ///< passes of a filter; 0: none
+  std::size_t most_triangles; ///< about so many at most; 0: all
+};
+
+/// A surface that the body takes along: of a skin, say, which the cells follow in steps. Triangles of a file
+/// (STL, VTP), or the contour of the picture that the body is made of.
+struct BodySurface {
+  std::string path; ///< of the file or the picture, as opened: relative paths are resolved
+  std::optional<PictureContour> contour;
   Where where;
 };
 
@@ -415,7 +424,7 @@ struct Case {
   std::optional<Stress> stress; ///< of a hard case
   bool has_fields = false;      ///< solutions get their fields: a measure or a file of results needs them
   std::optional<Dynamics> dynamics;
-  std::optional<SurfaceFile> surface{}; ///< absent: the outer one of the cells
+  std::optional<BodySurface> surface{}; ///< absent: the outer one of the cells
   std::vector<Landmark> landmarks{};
   std::vector<Removed> removed{}; ///< of the body
 };

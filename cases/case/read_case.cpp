@@ -161,12 +161,31 @@ void read_measures(Table& root, Case& result) {
   result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });
 }
 
+BodySurface read_contour(Table& table, const Labels& picture) {
+  const Entry intensity = table.entry("intensity");
+  const PictureContour contour{
+      Number{"a finite number, an intensity"}(intensity),
+      table.optional("smoothing", WholeNumber{"a whole number of passes, 0 to 1000", 0, 1000}).value_or(0),
+      static_cast<std::size_t>(
+          table.optional("triangles", WholeNumber{"a whole number, 100 to 5000000", 100, 5'000'000})
+              .value_or(0))};
+  table.refuse_unless(false, {"file"}, "left out: the surface is the contour of the body's picture");
+  return {picture.path, contour, intensity.where};
+}
+
+BodySurface read_surface_file(Table& table, const std::string& case_path) {
+  table.refuse_unless(false, {"intensity", "smoothing", "triangles"},
+                      "left out: with shape = \"labels\" alone there is a picture to make a contour of");
+  const Entry file = table.entry("file");
+  return {read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", case_path), {}, file.where};
+}
+
 void read_surface(Table& root, Case& result) {
   if (root.has("surface"))
     result.surface = root.section("surface", [&](Table& table) {
-      const Entry file = table.entry("file");
-      return SurfaceFile{read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", result.file),
-                         file.where};
+      const Labels* const picture = std::get_if<Labels>(&result.body);
+      return picture != nullptr && table.has("intensity") ? read_contour(table, *picture)
+                                                          : read_surface_file(table, result.file);
     });
   root.know({"surface"});
   std::vector<std::string> seen;

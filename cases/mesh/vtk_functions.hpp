@@ -23,6 +23,7 @@ struct ContourSettings {
   int n_smoothing = 0; ///< passes of VTK's windowed sinc filter, which takes the steps of a mask and shrinks
                        ///< little; 0: as the picture has it
   std::size_t n_triangles = 0; ///< at most about so many, by quadric decimation; 0: all
+  bool has_one_piece = false;  ///< only the piece of the most triangles
 };
 
 /// The cell of a body at rest that holds a point or is nearest to it.

@@ -13,6 +13,7 @@
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataConnectivityFilter.h>
 #include <vtkQuadricDecimation.h>
 #include <vtkSmartPointer.h>
 #include <vtkStaticCellLocator.h>
@@ -102,6 +103,13 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
   edges->ComputeScalarsOff();
   run(*edges);
   vtkSmartPointer<vtkPolyData> surface = edges->GetOutput();
+  if (settings.has_one_piece && surface->GetNumberOfPolys() > 0) {
+    const vtkNew<vtkPolyDataConnectivityFilter> pieces;
+    pieces->SetInputData(surface);
+    pieces->SetExtractionModeToLargestRegion();
+    run(*pieces);
+    surface = pieces->GetOutput();
+  }
   if (settings.n_smoothing > 0) {
     const vtkNew<vtkWindowedSincPolyDataFilter> smooth;
     smooth->SetInputData(surface);

@@ -33,9 +33,12 @@ void serialize(Archive& archive, springproof::cases::NetworkFile& network) {
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
+SPRINGPROOF_FIELDS(springproof::cases::PictureContour, intensity, n_smoothing, most_triangles)
+
 template<class Archive>
-void serialize(Archive& archive, springproof::cases::SurfaceFile& surface) {
-  auto& [path, where] = surface;
+void serialize(Archive& archive, springproof::cases::BodySurface& surface) {
+  auto& [path, contour, where] = surface;
+  archive(contour);
   if constexpr (has_places<Archive>) archive(path, where);
 }
 

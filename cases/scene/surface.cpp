@@ -1,5 +1,6 @@
 #include "cases/scene/surface.hpp"
 
+#include "cases/mesh/label_surface.hpp"
 #include "cases/mesh/read_surface.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ void read_surface_of(Scene& scene) {
     throw InputError(file->where, has_path ? reason : file->path + ": " + reason);
   };
   try {
-    scene.surface = read_surface(file->path);
+    scene.surface = file->contour ? label_surface(std::get<Labels>(scene.definition.body), *file->contour)
+                                  : read_surface(file->path);
   } catch (const std::runtime_error& error) {
     refuse(error.what());
   }

@@ -1,5 +1,6 @@
 #include "compare/report/bodies.hpp"
 
+#include "compare/report/lengths.hpp"
 #include "compare/write/json.hpp"
 
 #include <Eigen/Geometry>
@@ -11,24 +12,6 @@ namespace springproof::compare {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-/// Coordinates one after the other, in whole numbers of a unit.
-struct Lengths {
-  double unit_mm = 1;
-  std::vector<long> values;
-  bool operator==(const Lengths& other) const { return unit_mm == other.unit_mm && values == other.values; }
-};
-
-/// Points in the power of ten that leaves the largest coordinate five digits; 1 mm where all are 0.
-Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
-  double largest = 0;
-  for (const Eigen::Vector3d& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  Lengths result;
-  if (largest > 0) result.unit_mm = std::pow(10.0, std::floor(std::log10(largest)) - 4);
-  for (const Eigen::Vector3d& x : points)
-    for (const double coordinate : x) result.values.push_back(std::lround(coordinate / result.unit_mm));
-  return result;
-}
 
 /// The part of a mesh that can be seen.
 struct Surface {

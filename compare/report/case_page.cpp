@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
+#include "compare/report/skin.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
@@ -57,7 +58,10 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
       overlay_of(comparison, definition.name + (motion ? fmt::format(", at {:.6g} s", motion->end) : "")));
   view.measures.clear();
   view.description.clear();
-  document["views"] = views_to_json({view});
+  if (Json skin = skin_to_json(comparison); !skin.is_null())
+    document["skin"] = std::move(skin); // in place of the cells that it hides
+  else
+    document["views"] = views_to_json({view});
   if (ranking) document["ranking"] = ranking_to_json(*ranking);
   return document;
 }

@@ -17,8 +17,8 @@ namespace springproof::compare {
 void write_case_page(const std::string& folder, const Comparison& comparison, const Ranking* ranking,
                      const std::vector<std::string>& commands);
 
-/// What the page is rendered from: "heading", "subheading", "verdict", "case" (as in results.json), "views"
-/// (views_to_json()), "ranking" (ranking_to_json()), "commands".
+/// What the page is rendered from: "heading", "subheading", "verdict", "case" (as in results.json), "skin"
+/// (skin_to_json()) or else "views" (views_to_json()), "ranking" (ranking_to_json()), "commands".
 nlohmann::ordered_json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
                                          const std::vector<std::string>& commands);
 

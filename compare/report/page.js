@@ -11,8 +11,10 @@ function about() {
     report.licences.map((text) => make("pre", null, text)))];
 }
 
-const page_sections = [["verdict", "Verdict", verdict], ["measures", "Measures", measures], ["motion", "Motion", motion],
-  ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies], ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
+const page_sections = [["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
+  ["measures", "Measures", measures], ["motion", "Motion", motion],
+  ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
+  ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
   ["thesis", "The thesis, reproduced", thesis], ["repeat", "Make it again", repeat], ["about", "About this page", about]];
 
 (function () {

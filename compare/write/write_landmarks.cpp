@@ -3,9 +3,9 @@
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
+#include "compare/write/json.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 

@@ -80,6 +80,60 @@ def check_motion(springproof, folder):
     assert len(motion["time"]) == 51, motion["time"]
 
 
+SKIN = '''
+schema = 1
+name = "skinned"
+[body]
+shape = "box"
+size = [4, 4, 4]
+cells = [2, 2, 2]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+[[fixed]]
+region = "z-"
+[[moved]]
+region = "z+"
+displacement = [1, 0, 0]
+[fem]
+accuracy = "none"
+[surface]
+file = "skin.stl"
+[[landmark]]
+name = "tip <b>of</b> the skin"
+point = [4, 2, 3]
+[[measure]]
+name = "everywhere"
+kind = "displacement_field_max"
+'''
+# An open sheet around two sides of the body.
+SHEET = "solid skin\n" + "".join(
+    f"facet normal 0 0 0\nouter loop\n{''.join(f'vertex {x} {y} {z}' + chr(10) for x, y, z in corners)}endloop\nendfacet\n"
+    for corners in ([(4, 0, 0), (4, 4, 0), (4, 4, 4)], [(4, 0, 0), (4, 4, 4), (4, 0, 4)],
+                    [(0, 0, 0), (4, 0, 0), (4, 0, 4)], [(0, 0, 0), (4, 0, 4), (0, 0, 4)],
+                    [(4, 0, 2), (4, 4, 2), (4, 2, 3)])) + "endsolid\n"
+
+
+def check_skin(springproof, folder):
+    """A named surface stands in for the cells: four pictures that turn together, and a row for the landmark."""
+    case, out = folder / "skinned.toml", folder / "skinned"
+    case.write_text(SKIN)
+    (folder / "skin.stl").write_text(SHEET)
+    done = subprocess.run([springproof, "run", case, "--out", out, "--report", "--json"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    landmark, = json.loads(done.stdout)["cases"][0]["landmarks"]
+    copy, found = examine(out / "skinned.html", "examined.html", Path(__file__).parent / "check_skin.js", options=("--window-size=1280,1000",))
+    copy.unlink()
+    assert found["names"] == ["skin-rest", "skin-fem", "skin-springs", "skin-distance"], found["names"]
+    assert all(0.05 < part < 0.95 for part in found["painted"]), found["painted"]
+    assert found["colours"][3] > found["colours"][1], found["colours"]
+    assert found["keys_turn_all"] and found["mouse_turns_all"] and found["bodies"] == 0, found
+    row, = found["landmarks"]
+    assert row.startswith("tip <b>of</b> the skin") and f"{landmark['mean']:.3g}"[:5] in row, (row, landmark)
+    assert found["legend"].startswith("0") and found["legend"].endswith(" mm"), found["legend"]
+
+
 def main():
     springproof, source, folder = sys.argv[1], *map(Path, sys.argv[2:])
     if not find_chromium():
@@ -113,6 +167,7 @@ def main():
         error, bar = measure["error_percent"], measure["error_uncertainty_percent"]
         assert bars["springs"][i]["x"] == error and bars["uncertainty of the reference"][i] == [error - bar, error + bar], (bars, measure)
     check_motion(springproof, folder)
+    check_skin(springproof, folder)
     print("the page of a case is whole")
 
 

@@ -1,0 +1,154 @@
+// The surface that a case names, as a skin to turn: at rest, as each model has moved it, and the distance between the two.
+"use strict";
+const skin_record = report.skin;
+const skin_colour = 0xd9b9a0;
+
+// One geometry at rest displacements u (mm), shaded by its own normals.
+function skin_geometry(rest, displacement, triangles) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(rest.map((x, i) => x + (displacement ? displacement[i] : 0))), 3));
+  geometry.setIndex(triangles);
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+const skin_sides = () => {
+  const lengths = (side) => side && side.displacement.map((u) => u * side.unit_mm);
+  return { fem: lengths(skin_record.fem), springs: lengths(skin_record.springs) };
+};
+
+// mm, one per vertex; null without both models.
+function skin_distances({ fem, springs }) {
+  if (!fem || !springs) return null;
+  const distances = new Array(fem.length / 3);
+  for (let i = 0; i < distances.length; ++i)
+    distances[i] = Math.hypot(springs[3 * i] - fem[3 * i], springs[3 * i + 1] - fem[3 * i + 1], springs[3 * i + 2] - fem[3 * i + 2]);
+  return distances;
+}
+
+// From where the landmarks are seen, a little from above and aside; without them as bodies are.
+function skin_eye(centre) {
+  const eye = new THREE.Vector3();
+  for (const { point } of skin_record.marks) eye.add(new THREE.Vector3(...point).sub(centre).normalize());
+  if (eye.length() < 1e-3) return new THREE.Vector3(...seen_from);
+  eye.normalize();
+  eye.z = Math.max(eye.z, 0) + 0.1;
+  return eye.applyAxisAngle(new THREE.Vector3(0, 0, 1), 0.45).normalize();
+}
+
+class SkinPicture {
+  constructor(canvas, geometry, material, marks, all) {
+    Object.assign(this, { canvas, all });
+    this.scene = new THREE.Scene();
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.light = new THREE.DirectionalLight(0xffffff, 0.75);
+    this.scene.add(mesh, this.light, this.light.target, new THREE.AmbientLight(0xffffff, 0.45));
+    for (const { point } of marks) {
+      const mark = new THREE.Mesh(all.mark, all.mark_material);
+      mark.position.set(...point);
+      this.scene.add(mark);
+    }
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { enableZoom: false, enablePan: false, enableKeys: false });
+    this.controls.target.copy(all.centre);
+    this.look();
+    this.controls.addEventListener("change", () => {
+      if (this.is_looking) return;
+      all.eye.copy(this.camera.position).sub(this.controls.target).normalize();
+      for (const one of all.pictures) {
+        if (one !== this) one.look();
+        one.draw();
+      }
+    });
+    canvas.addEventListener("keydown", (event) => {
+      const [around, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] || [];
+      if (around === undefined) return;
+      event.preventDefault();
+      const turn = new THREE.Spherical().setFromCartesianCoords(all.eye.y, all.eye.z, all.eye.x), step = Math.PI / 18;
+      turn.theta += around * step;
+      turn.phi = Math.min(Math.max(turn.phi - up * step, 0.05), Math.PI - 0.05);
+      const eye = new THREE.Vector3().setFromSpherical(turn);
+      all.eye.set(eye.z, eye.x, eye.y);
+      for (const one of all.pictures) { one.look(); one.draw(); }
+    });
+  }
+  look() {
+    this.camera.position.copy(this.all.centre).addScaledVector(this.all.eye, this.all.radius);
+    Object.assign(this.camera, { near: -10 * this.all.radius, far: 10 * this.all.radius });
+    this.is_looking = true; // its change is not a turn by the pointer
+    this.controls.update();
+    this.is_looking = false;
+  }
+  draw() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight, density = window.devicePixelRatio || 1;
+    if (width === 0 || height === 0) return;
+    this.canvas.width = Math.round(width * density);
+    this.canvas.height = Math.round(height * density);
+    const half = this.all.radius / Math.min(width, height);
+    Object.assign(this.camera, { left: -half * width, right: half * width, top: half * height, bottom: -half * height });
+    this.camera.updateProjectionMatrix();
+    // Light comes from the viewer's upper left, whichever way the skin is turned.
+    const side = new THREE.Vector3(0, 0, 1).cross(this.all.eye).normalize();
+    this.light.target.position.copy(this.all.centre);
+    this.light.target.updateMatrixWorld();
+    this.light.position.copy(this.all.centre).addScaledVector(this.all.eye, 1).addScaledVector(side, -0.6).add(new THREE.Vector3(0, 0, 0.6));
+    renderer().setSize(this.canvas.width, this.canvas.height, false);
+    renderer().render(this.scene, this.camera);
+    this.canvas.getContext("2d").drawImage(renderer().domElement, 0, 0);
+  }
+}
+
+function skin() {
+  if (!skin_record) return null;
+  const sides = skin_sides(), distances = skin_distances(sides), largest = distances ? largest_of(distances) : 0;
+  const figure = (name, title, ...more) => make("figure", { class: "view", id: "skin-" + name }, make("canvas", { role: "img", tabindex: 0,
+    "aria-label": `The skin, ${title}. The arrow keys turn it.` }), make("figcaption", null, make("b", null, title)), more);
+  const shown_figures = [["rest", figure("rest", "before")], sides.fem && ["fem", figure("fem", "after, finite elements")],
+    sides.springs && ["springs", figure("springs", "after, springs")],
+    distances && ["distance", figure("distance", "distance of both models", make("div", { class: "error-legend" }, make("span", null, "0"),
+      make("span", { class: "scale-bar", style: `background: linear-gradient(to right, ${viridis.join(", ")})` }),
+      make("span", null, `${general(largest, 2)} mm`)))]].filter((one) => one);
+  const section = make("div", null, make("p", null, "Drag a skin, or use the arrow keys: all turn with it.",
+    skin_record.marks.length > 0 && " Balls are the landmarks."),
+  make("div", { class: "views" }, shown_figures.map(([, one]) => one)));
+  section.draw = () => {
+    try {
+      renderer();
+    } catch (error) {
+      section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the skin to turn."));
+      return;
+    }
+    const rest = skin_record.rest.map((x) => x * skin_record.unit_mm), triangles = skin_record.triangles;
+    const sphere = new THREE.Box3().setFromArray(rest).getBoundingSphere(new THREE.Sphere());
+    const all = { centre: sphere.center, radius: sphere.radius || 1, pictures: [], eye: skin_eye(sphere.center),
+      mark: new THREE.SphereGeometry(0.012 * sphere.radius, 16, 12), mark_material: new THREE.MeshBasicMaterial({ color: body_colours.fem }) };
+    const plain = new THREE.MeshLambertMaterial({ color: skin_colour, side: THREE.DoubleSide });
+    for (const [name, one] of shown_figures) {
+      const geometry = skin_geometry(rest, name === "rest" ? null : sides[name === "distance" ? "springs" : name], triangles);
+      if (name === "distance") geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(distances.flatMap((distance) =>
+        colour_at(distance / (largest || 1)).toArray())), 3));
+      all.pictures.push(new SkinPicture(one.querySelector("canvas"), geometry, name === "distance"
+        ? new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, emissive: 0x111111 }) : plain,
+      name === "rest" ? skin_record.marks : [], all));
+    }
+    const draw = () => all.pictures.forEach((picture) => picture.draw());
+    draw();
+    window.addEventListener("resize", draw);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  };
+  return section;
+}
+
+function landmarks() {
+  const found = one_case && one_case.landmarks;
+  if (!found) return null;
+  const length = (value) => cell(missing(value) ? "–" : general(value, 3));
+  return [table("landmark-table", "Springs' surface to the finite elements', mm", row([text_head("landmark"), head("mean"), head("deviation"),
+    head("rays"), head("moved by (finite elements)")]), body(found.map((one) => row([row_head([in_words(one.name), one.reason &&
+      make("small", { class: "reason" }, one.reason)]), length(one.mean), length(one.deviation), cell(String(one.n_rays)),
+    length(one.moved)])))),
+  make("p", { class: "quiet" }, "Along the normals of the five triangles nearest to each landmark, from their barycentres.")];
+}
