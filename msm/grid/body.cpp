@@ -44,20 +44,28 @@ bool has_cell(const Body& body, int i, int j, int k) {
   return false;
 }
 
-std::optional<Body> coarsen(const Body& fine) {
-  if (fine.part) return *fine.part->coarser;
+std::optional<std::array<int, 3>> coarsening_factor(const std::array<int, 3>& cells,
+                                                    const Eigen::Vector3d& spacing) {
   double smallest = INFINITY;
   for (std::size_t a = 0; a < 3; ++a)
-    if (fine.cells[a] > 2) smallest = std::min(smallest, fine.spacing[static_cast<int>(a)]);
+    if (cells[a] > 2) smallest = std::min(smallest, spacing[static_cast<int>(a)]);
   if (std::isinf(smallest)) return std::nullopt;
+  std::array<int, 3> factor;
+  for (std::size_t a = 0; a < 3; ++a)
+    factor[a] = cells[a] > 2 && spacing[static_cast<int>(a)] < 1.5 * smallest ? 2 : 1;
+  return factor;
+}
+
+std::optional<Body> coarsen(const Body& fine) {
+  if (fine.part) return *fine.part->coarser;
+  const auto coarsening = coarsening_factor(fine.cells, fine.spacing);
+  if (!coarsening) return std::nullopt;
+  const std::array<int, 3>& factor = *coarsening;
   Body coarse;
   coarse.exponents = fine.exponents;
-  std::array<int, 3> factor;
   bool divides = true;
   for (std::size_t a = 0; a < 3; ++a) {
-    double& spacing = coarse.spacing[static_cast<int>(a)] = fine.spacing[static_cast<int>(a)];
-    factor[a] = fine.cells[a] > 2 && spacing < 1.5 * smallest ? 2 : 1;
-    spacing *= factor[a];
+    coarse.spacing[static_cast<int>(a)] = factor[a] * fine.spacing[static_cast<int>(a)];
     coarse.cells[a] = (fine.cells[a] + factor[a] - 1) / factor[a];
     divides = divides && fine.cells[a] % factor[a] == 0;
   }

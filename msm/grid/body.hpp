@@ -57,6 +57,11 @@ void set_layout(Body& body, const std::function<bool(int i, int j, int k, int co
 /// Whether a node touches a cell that is here.
 bool has_cell(const Body& body, int i, int j, int k);
 
+/// How many cells along each axis a coarser one has: 2 along those whose spacing is (almost) the smallest, so
+/// that cells tend to cubes, 1 along the others; nothing where no axis has more than two cells.
+std::optional<std::array<int, 3>> coarsening_factor(const std::array<int, 3>& cells,
+                                                    const Eigen::Vector3d& spacing);
+
 /// The same body in cells of twice the edge along those axes whose spacing is (almost) the smallest, so that
 /// cells tend to cubes; nothing when it is as coarse as it gets. A coarse spring has the energy of the fine
 /// ones in the same uniform strain; cells that are half outside have half the stiffness. A node is held where

@@ -136,16 +136,16 @@ class GridSystem : public SpringSystem {
       add(residual, -eigenvalue, basis[0], n_threads_);
       examine(1, residual);
       const auto products = [&](const Columns& left, const Columns& right) {
-        Eigen::MatrixXd all(n, n);
+        Eigen::MatrixXd all(n, n); // symmetric, both of them
         for (int r = 0; r < n; ++r)
-          for (int c = 0; c < n; ++c) all(r, c) = dot(left[index(r)], right[index(c)]);
+          for (int c = 0; c <= r; ++c) all(r, c) = all(c, r) = dot(left[index(r)], right[index(c)]);
         return all;
       };
       const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
       const Eigen::LLT<Eigen::MatrixXd> factor(gram);
       if (factor.info() != Eigen::Success || !(factor.matrixL().toDenseMatrix().diagonal().minCoeff() > 1e-7))
         break; // nothing new in the residual
-      const Eigen::MatrixXd left = factor.matrixL().solve(0.5 * (small + small.transpose()));
+      const Eigen::MatrixXd left = factor.matrixL().solve(small);
       const Eigen::MatrixXd reduced = factor.matrixL().solve(left.transpose());
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
       const Eigen::VectorXd weights = factor.matrixU().solve(ritz.eigenvectors().col(0));

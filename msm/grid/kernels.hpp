@@ -54,12 +54,20 @@ struct Springs {
   /// With holes or several stiffnesses: such arrays [k][spring]; else null.
   const Real* by_node;
   const Real* packed; ///< the same as pack_stiffness() lays it out; null where by_node is
+  /// Of every pack of nodes, row by row, PackUse as pack_stiffness() finds it; null where by_node is.
+  const unsigned char* pack_use;
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
   Real rest_volume; ///< mm³
   /// 1 for nodes whose springs and cells (those that lead upwards from them) count in the energy, else 0: an
   /// array of layout.plane from the first node of any plane on.
   const Real* counted;
+};
+
+/// Whether a sweep has to touch a pack of nodes: much of a body's bounding box may be empty.
+enum PackUse : unsigned char {
+  sends_springs = 1, ///< some spring from it to another node has a stiffness
+  meets_springs = 2  ///< it, or a node next to it in its row, is an end of such a spring
 };
 
 enum class Clamp { no, yes };
@@ -83,6 +91,11 @@ constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
   return tile_row * (2 * 27 * (layout.nodes[1] + 2) + 3 * n_springs) + 24 * 64 + 16;
 }
 
+/// Entries of Springs::pack_use, with any instruction set.
+constexpr std::ptrdiff_t pack_use_size(const Layout& layout) {
+  return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * layout.nodes[0];
+}
+
 /// Entries of Springs::packed, with any instruction set.
 constexpr std::ptrdiff_t packed_size(const Layout& layout) {
   return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * ((layout.nodes[0] + 15) / 16 * 16) * n_springs;
@@ -99,7 +112,7 @@ struct Kernels {
   void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
   /// The stiffnesses by_node in the order that springs are swept in.
-  void (*pack_stiffness)(const Springs<Real>&, Real* to);
+  void (*pack_stiffness)(const Springs<Real>&, Real* to, unsigned char* use);
 };
 
 struct InstructionSet {

@@ -156,19 +156,46 @@ SPRINGPROOF_INLINE std::ptrdiff_t packed_row(const Layout& layout, int k, int j)
          pack_size<Real>;
 }
 
-template<class Real>
-void pack_stiffness(const Springs<Real>& s, Real* to) {
-  for (int k = 0; k < s.layout.nodes[2]; ++k)
-    for (int j = 0; j < s.layout.nodes[1]; ++j)
-      fill_stiffness(s, {0, packs_of_row<Real>(s.layout), true}, k, j, to + packed_row<Real>(s.layout, k, j));
+/// Of a row's packs.
+template<class Real, class Byte>
+SPRINGPROOF_INLINE Byte* use_of_row(const Layout& layout, Byte* use, int k, int j) {
+  return use + (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout);
 }
 
-/// One vector field along a row into the scratch; h is what lies between neighbours.
+template<class Real>
+void pack_stiffness(const Springs<Real>& s, Real* to, unsigned char* use) {
+  const Layout& layout = s.layout;
+  const std::ptrdiff_t n_packs = packs_of_row<Real>(layout),
+                       n_stiffnesses = stiffness_packs * pack_size<Real>;
+  for (std::ptrdiff_t p = 0; p < pack_use_size(layout); ++p) use[p] = 0;
+  const auto meets = [&](int k, int j, std::ptrdiff_t p) {
+    if (k < layout.nodes[2] && j >= 0 && j < layout.nodes[1])
+      use_of_row<Real>(layout, use, k, j)[p] |= meets_springs;
+  };
+  for (int k = 0; k < layout.nodes[2]; ++k)
+    for (int j = 0; j < layout.nodes[1]; ++j) {
+      Real* const row = to + packed_row<Real>(layout, k, j);
+      fill_stiffness(s, {0, n_packs, true}, k, j, row);
+      for (std::ptrdiff_t p = 0; p < n_packs; ++p) {
+        bool any = false;
+        for (std::ptrdiff_t i = 0; i < n_stiffnesses; ++i) any = any || row[p * n_stiffnesses + i] != 0;
+        if (!any) continue;
+        use_of_row<Real>(layout, use, k, j)[p] |= sends_springs;
+        meets(k, j, p);
+        meets(k, j + 1, p);
+        for (int side = -1; side <= 1; ++side) meets(k + 1, j + side, p);
+      }
+    }
+}
+
+/// One vector field along a row into the scratch; h is what lies between neighbours. Packs that meet no
+/// spring keep what is there, which no spring reads.
 template<std::ptrdiff_t stride, class Real>
 SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h, std::ptrdiff_t n,
-                               Real* to) {
+                               const unsigned char* use, Real* to) {
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
-  for (std::ptrdiff_t p = 0; p < n; ++p)
+  for (std::ptrdiff_t p = 0; p < n; ++p) {
+    if (use && !(use[p] & meets_springs)) continue;
     for (int c = 0; c < 3; ++c) {
       const Real* at = from + p * lanes + c * distance;
       Real* const out = to + (p * stride + c) * lanes;
@@ -177,6 +204,7 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
       store(out + 3 * lanes, load(at));
       store(out + 6 * lanes, load(at + 1) + step);
     }
+  }
 }
 
 /// One spring of a pack of nodes: the senders' sum grows, that of the nodes at the other end shrinks.
@@ -221,27 +249,32 @@ SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, const Action& action
 
 /// All springs of a tile's packs in one row.
 /// @tparam upwards  whether there is a plane above
+/// @param use       of the packs; null: all have springs
 template<bool upwards, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffness,
-                                  Real* here, Real* above, std::ptrdiff_t n) {
+                                  const unsigned char* use, Real* here, Real* above, std::ptrdiff_t n) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
   const Vec<Real> edges = rest_edges(s);
   const Vec<P> edge{P{} + edges.x, P{} + edges.y, P{} + edges.z};
   for (std::ptrdiff_t p = 0; p < n; ++p) {
-    const Vec<P> u = load_three(here + 3 * lanes);
-    Vec<P> v{};
-    if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
-    Real* const sum = here + (sums_at<Action> + 3) * lanes;
-    Vec<P> own = load_three(sum);
-    sweep_spring<n_springs - 1>(s, action, Vec<P>{} - u, v, stiffness, here, own);
-    if constexpr (upwards) {
-      sweep_group<0>(s, action, edge, u, v, stiffness, above, own);
-      sweep_group<1>(s, action, edge, u, v, stiffness, above, own);
-      sweep_group<2>(s, action, edge, u, v, stiffness, above, own);
+    if (!use || (use[p] & sends_springs)) {
+      const Vec<P> u = load_three(here + 3 * lanes);
+      Vec<P> v{};
+      if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
+      Real* const sum = here + (sums_at<Action> + 3) * lanes;
+      Vec<P> own = load_three(sum);
+      sweep_spring<n_springs - 1>(s, action, Vec<P>{} - u, v, stiffness, here, own);
+      if constexpr (upwards) {
+        sweep_group<0>(s, action, edge, u, v, stiffness, above, own);
+        sweep_group<1>(s, action, edge, u, v, stiffness, above, own);
+        sweep_group<2>(s, action, edge, u, v, stiffness, above, own);
+      }
+      sweep_group<3>(s, action, edge, u, v, stiffness, here, own);
+      store_three(sum, own);
+    } else if constexpr (upwards) { // what group 2 sets
+      clear_packs(above + (tile * node_packs<Action> + sums_at<Action>)*lanes, 9);
     }
-    sweep_group<3>(s, action, edge, u, v, stiffness, here, own);
-    store_three(sum, own);
     here += node_packs<Action> * lanes;
     above += node_packs<Action> * lanes;
     stiffness += stiffness_packs * lanes;
@@ -293,12 +326,16 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       slab.scratch + (64 - reinterpret_cast<std::size_t>(slab.scratch) % 64) / sizeof(Real);
   Real* const planes = stiffness + 3 * stiffness_row;
   const auto first_row = [&](int k) { return planes + (k - slab.first) % 2 * plane + row; };
+  const auto use_of = [&](int k, int j) -> const unsigned char* {
+    return s.packed ? use_of_row<Real>(layout, s.pack_use, k, j) + t.first : nullptr;
+  };
   const auto unpack_row = [&](int k, int j) {
     Real* const to = first_row(k) + j * row;
     const std::ptrdiff_t at = layout.at(0, j, k) + t.first * lanes;
-    unpack<node_packs<Action>>(displacement + at, layout.size, s.rest[12][0], t.n, to);
+    unpack<node_packs<Action>>(displacement + at, layout.size, s.rest[12][0], t.n, use_of(k, j), to);
     if constexpr (Action::needs_direction)
-      unpack<node_packs<Action>>(direction + at, layout.size, Real(0), t.n, to + direction_at * lanes);
+      unpack<node_packs<Action>>(direction + at, layout.size, Real(0), t.n, use_of(k, j),
+                                 to + direction_at * lanes);
   };
   const auto fold_row = [&](int k, int j) {
     Real* const to = result_plane(layout, slab, result, k, 0) + j * layout.row + t.first * lanes;
@@ -334,9 +371,9 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       Real *const here = first_row(k) + j * row, *const above = first_row(k + 1) + j * row;
       if (upwards) {
         if (j + 1 < rows) unpack_row(k + 1, j + 1);
-        sweep_row<true>(s, action, of_row, here, above, t.n);
+        sweep_row<true>(s, action, of_row, use_of(k, j), here, above, t.n);
       } else {
-        sweep_row<false>(s, action, of_row, here, above, t.n);
+        sweep_row<false>(s, action, of_row, use_of(k, j), here, above, t.n);
       }
       fold_row(k, j);
     }

@@ -139,7 +139,7 @@ class MovingGrid : public MovingSprings {
     multigrid_.reset(); // it refers to the bodies
     const Body all = damping_body_ ? stiffened(body_, damping_factor_, *damping_body_) : body_;
     bodies_ = coarsenings(all);
-    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
+    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion, Coarsening::rediscretised);
     multigrid_->set_diagonal(scale_of(all) * diagonal());
     is_slow_ = true;
   }

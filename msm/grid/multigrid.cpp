@@ -61,11 +61,18 @@ Multigrid::Level::Level(const Body& of, int n_threads)
 }
 
 Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads,
-                     const mechanics::grid::Chebyshev& smoother)
+                     const mechanics::grid::Chebyshev& smoother, Coarsening coarsening)
     : smoother_(smoother), n_threads_(n_threads) {
   for (const Body& body : bodies) levels_.emplace_back(body, n_threads);
   for (std::size_t l = 0; l + 1 < bodies.size(); ++l)
     transfers_.emplace_back(bodies[l], bodies[l + 1], n_threads);
+  const Body& finest = bodies.front();
+  if (coarsening == Coarsening::merged && !finest.is_uniform() && !finest.part && bodies.size() > 1) {
+    merged_.emplace(finest, smoother, n_threads);
+    while (levels_.size() > 1) levels_.pop_back();
+    transfers_.clear();
+    return;
+  }
   const Body& last = bodies.back();
   for (int c = 0; c < 3; ++c)
     for_each_place(last.layout.nodes, [&](int i, int j, int k) {
@@ -99,9 +106,10 @@ void Multigrid::linearise(const Field<double>& displacement) {
     transfers_[l].sample(levels_[l].displacement, levels_[l + 1].displacement);
   for (last_ = 0;; ++last_) {
     Level& level = levels_[last_];
-    if (last_ + 1 == levels_.size()) return factorise_coarsest();
+    if (last_ + 1 == levels_.size() && !merged_) return factorise_coarsest();
     level.springs.inverse_diagonal(Clamp::yes, level.displacement, level.inverse_diagonal, level.diagonal);
     estimate_largest_eigenvalue(level);
+    if (merged_) return merged_->linearise(level.displacement);
     if (needs_no_coarser(level)) return;
   }
 }
@@ -187,7 +195,7 @@ void Multigrid::smooth(Level& level, bool keeps_residual) {
 void Multigrid::cycle(std::size_t l) {
   Level& level = levels_[l];
   level.solution.setZero();
-  if (l + 1 == levels_.size()) {
+  if (l + 1 == levels_.size() && !merged_) {
     const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
     if (n == 0) return;
     coarsest_answer_.resize(n);
@@ -200,11 +208,15 @@ void Multigrid::cycle(std::size_t l) {
           static_cast<float>(coarsest_answer_[u]);
     return;
   }
-  if (l == last_) return smooth(level, false);
+  if (l == last_ && !merged_) return smooth(level, false);
   smooth(level, true);
-  transfers_[l].restrict(level.residual, levels_[l + 1].residual);
-  cycle(l + 1);
-  transfers_[l].prolong(levels_[l + 1].solution, level.correction);
+  if (merged_) {
+    merged_->correct(level.residual, level.correction);
+  } else {
+    transfers_[l].restrict(level.residual, levels_[l + 1].residual);
+    cycle(l + 1);
+    transfers_[l].prolong(levels_[l + 1].solution, level.correction);
+  }
   correct(level, true);
   smooth(level, false);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanics/grid/smoother.hpp"
+#include "msm/grid/merged_multigrid.hpp"
 #include "msm/grid/spring_field.hpp"
 #include "msm/grid/transfer.hpp"
 
@@ -21,6 +22,12 @@ constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
 /// And in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
 constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
 
+/// What coarse levels of bodies with holes or of several stiffnesses are.
+enum class Coarsening {
+  rediscretised, ///< lattices of their own (coarsen()): prepared fast
+  merged         ///< MergedMultigrid: fewer iterations
+};
+
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: one
 /// V-cycle in single precision. Coarse lattices are rediscretised at the sampled displacement; the smoother
 /// is Chebyshev's iteration on the block Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before
@@ -30,7 +37,8 @@ class Multigrid {
  public:
   /// @param bodies  must outlive it; on parts of a body every function is collective
   Multigrid(const std::deque<Body>& bodies, int n_threads,
-            const mechanics::grid::Chebyshev& smoother = smoother_at_rest);
+            const mechanics::grid::Chebyshev& smoother = smoother_at_rest,
+            Coarsening coarsening = Coarsening::merged);
 
   /// From the next linearise() on.
   /// @param diagonal  of the finest body, N/mm times scale_of() it; 0 on constrained entries
@@ -56,6 +64,7 @@ class Multigrid {
   mechanics::grid::Chebyshev smoother_;
   std::deque<Level> levels_;
   std::deque<Transfer<float>> transfers_; ///< between levels l and l + 1
+  std::optional<MergedMultigrid> merged_; ///< below the first level, in place of all others
   int n_threads_;
   Field<double> linearised_at_;
   bool is_linearised_ = false;

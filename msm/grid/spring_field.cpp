@@ -59,7 +59,11 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
       if (!body.part || body.part->owns(i, j, body.part->own_first[2])) counted[i + body.layout.row * j] = 1;
   springs_.counted = counted.data();
   is_constrained_.resize(index(3 * body.layout.size));
-  for (const std::ptrdiff_t entry : body.constrained) is_constrained_[index(entry)] = true;
+  for (const std::ptrdiff_t entry : body.constrained) {
+    is_constrained_[index(entry)] = true;
+    const auto [i, j, k, c] = body.layout.place(entry);
+    if (body.part || has_cell(body, i, j, k)) held_.push_back(entry);
+  }
   // Slabs of some sixteen planes of nodes: the same on any number of threads, so that sums are too, and an
   // even number, so that two threads have the same to do.
   const int planes = body.layout.nodes[2], n = planes < 8 ? 1 : 2 * std::max(1, planes / 16);
@@ -121,8 +125,10 @@ void SpringField<Real>::set_by_node() {
   Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(packed_size(layout) + line));
   const auto at = reinterpret_cast<std::size_t>(packed.data()) / sizeof(Real);
   Real* const start = packed.data() + (line - static_cast<std::ptrdiff_t>(at) % line) % line;
-  kernels<Real>().pack_stiffness(springs_, start);
+  pack_use_.resize(index(pack_use_size(layout)));
+  kernels<Real>().pack_stiffness(springs_, start, pack_use_.data());
   springs_.packed = start;
+  springs_.pack_use = pack_use_.data();
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
@@ -173,7 +179,7 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
   for_each_slab(3, product.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().product(springs_, slab, clamp, displacement.data(), direction.data(), product.data());
   });
-  clear_constrained(body_, product);
+  for (const std::ptrdiff_t entry : held_) product[entry] = 0; // the others without an unknown meet no spring
   update_ghosts(body_, product);
 }
 

@@ -36,8 +36,10 @@ class SpringField {
   int n_threads_;
   Springs<Real> springs_;
   std::vector<Slab<Real>> slabs_;
-  std::deque<Field<Real>> arrays_;   ///< what springs_ and slabs_ point to
+  std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
+  std::vector<unsigned char> pack_use_;
   std::vector<bool> is_constrained_; ///< every entry of a field
+  std::vector<std::ptrdiff_t> held_; ///< constrained entries that have a cell
   mutable std::vector<double> energy_of_slab_;
 
   void set_shares();

@@ -7,7 +7,9 @@
 using namespace springproof;
 
 using msm::grid::Body;
+using msm::grid::Cells;
 using msm::grid::Field;
+using msm::grid::MergedCells;
 
 namespace {
 
@@ -17,6 +19,54 @@ Body clamped_body(const std::array<int, 3>& cells) {
   body.spacing = {1, 1, 1};
   body.springs = {{{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0}};
   set_layout(body, [](int, int, int k, int) { return k == 0; });
+  return body;
+}
+
+/// Cells of 8 x 8 x 8 that are there, and their nodes.
+template<class Has>
+Cells cells_of(const Has& has) {
+  Cells cells;
+  std::vector<int> number(9 * 9 * 9, -1);
+  msm::grid::for_each_place(std::array<int, 3>{8, 8, 8}, [&](int i, int j, int k) {
+    if (!has(i, j, k)) return;
+    cells.places.push_back({i, j, k});
+    cells.nodes.emplace_back();
+    for (int v = 0; v < 8; ++v) {
+      const int place = i + (v & 1) + 9 * (j + ((v >> 1) & 1) + 9 * (k + (v >> 2)));
+      int& node = number[static_cast<std::size_t>(place)];
+      if (node < 0) node = cells.n_nodes++;
+      cells.nodes.back()[static_cast<std::size_t>(v)] = node;
+    }
+  });
+  return cells;
+}
+
+std::vector<Eigen::Vector3d> positions(const Cells& cells, const Eigen::Vector3d& edge) {
+  std::vector<Eigen::Vector3d> at(static_cast<std::size_t>(cells.n_nodes));
+  for (std::size_t cell = 0; cell < cells.nodes.size(); ++cell)
+    for (int v = 0; v < 8; ++v) {
+      const auto& [i, j, k] = cells.places[cell];
+      at[static_cast<std::size_t>(cells.nodes[cell][static_cast<std::size_t>(v)])] =
+          Eigen::Vector3d(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2)).cwiseProduct(edge);
+    }
+  return at;
+}
+
+/// Two plates, a cell apart, that a wall at x = 0 joins.
+bool in_two_plates(int i, int, int k) {
+  return i == 0 || k < 3 || k == 4;
+}
+
+Body two_plates() {
+  Body body;
+  body.cells = {8, 8, 8};
+  body.spacing = {1, 1, 1};
+  msm::grid::for_each_place(body.cells, [&](int i, int j, int k) {
+    body.springs.emplace_back();
+    if (in_two_plates(i, j, k))
+      body.springs.back() = {{0.031, 0.031, 0.031}, {0.047, 0.047, 0.047}, 0.033, 0.02};
+  });
+  set_layout(body, [](int i, int, int, int) { return i == 0; });
   return body;
 }
 
@@ -104,4 +154,56 @@ TEST_CASE("one multigrid cycle removes most of an error at rest") {
   multigrid.apply(right, found);
   CHECK(energy_norm(exact - found) <
         0.2 * energy_norm(exact)); // measured 0.0x; a broken level leaves 0.5 or more
+}
+
+TEST_CASE("merged cells interpolate linear fields exactly, whatever the body") {
+  const std::array<int, 3> factor = GENERATE(std::array<int, 3>{2, 2, 2}, std::array<int, 3>{2, 1, 2});
+  const Cells fine = cells_of([](int i, int j, int k) { return (5 * i + 3 * j + 7 * k) % 4 != 1; });
+  const MergedCells merged = merge(fine, factor);
+  const auto on_fine = positions(fine, {1, 1, 1});
+  const auto on_coarse = positions(merged.cells, {double(factor[0]), double(factor[1]), double(factor[2])});
+  REQUIRE(merged.interpolation.start.size() == on_fine.size() + 1);
+  for (std::size_t node = 0; node < on_fine.size(); ++node) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int e = merged.interpolation.start[node]; e < merged.interpolation.start[node + 1]; ++e) {
+      const auto& [column, weight] = merged.interpolation.entries[static_cast<std::size_t>(e)];
+      sum += double(weight) * on_coarse[static_cast<std::size_t>(column)];
+    }
+    REQUIRE((sum - on_fine[node]).norm() < 1e-12); // the weights are quarters and eighths
+  }
+}
+
+TEST_CASE("merged cells of both sides of a gap have nodes of their own") {
+  const auto n_nodes = [](const auto& has) { return merge(cells_of(has), {2, 2, 2}).cells.n_nodes; };
+  CHECK(n_nodes([](int, int, int) { return true; }) == 125);
+  // Coarse nodes at 0 to 4 along each axis, the wall between the first two along x; the plates' are at 0 to 3
+  // in z. The gap, fine cells 3, lies in the coarse ones from 1 to 2: at 2 both plates have nodes, but where
+  // the wall is.
+  const int places = 2 * 5 * 5 + 3 * 5 * 4;
+  CHECK(n_nodes(in_two_plates) == places + 3 * 5);
+}
+
+TEST_CASE("the multigrid cycle of merged cells is symmetric and positive definite") {
+  const std::deque<Body> bodies = msm::grid::coarsenings(two_plates());
+  REQUIRE(bodies.size() > 1);
+  msm::grid::Multigrid multigrid(bodies, 1);
+  multigrid.linearise(0.1 * any_field(bodies.front(), 5));
+  const Field<double> a = any_field(bodies.front(), 1), b = any_field(bodies.front(), 2);
+  Field<double> inverse_a = a, inverse_b = b;
+  multigrid.apply(a, inverse_a);
+  multigrid.apply(b, inverse_b);
+  CHECK(a.dot(inverse_a) > 0);
+  CHECK(std::abs(a.dot(inverse_b) - b.dot(inverse_a)) < 1e-4 * a.dot(inverse_a)); // single precision inside
+}
+
+TEST_CASE("the multigrid cycle of merged cells is the same on any number of threads") {
+  const std::deque<Body> bodies = msm::grid::coarsenings(two_plates());
+  const Field<double> displacement = 0.1 * any_field(bodies.front(), 5), a = any_field(bodies.front(), 1);
+  Field<double> one = a, two = a;
+  for (const int n_threads : {1, 2}) {
+    msm::grid::Multigrid multigrid(bodies, n_threads);
+    multigrid.linearise(displacement);
+    multigrid.apply(a, n_threads == 1 ? one : two);
+  }
+  CHECK(one == two);
 }
