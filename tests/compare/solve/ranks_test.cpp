@@ -146,16 +146,19 @@ Field<double> any_field(const Body& body, unsigned seed) {
 
 } // namespace
 
-TEST_CASE("a grid's equilibrium and the way to it are the same on any number of ranks", "[ranks]") {
+TEST_CASE("a grid's equilibrium is the same on any number of ranks, and on full bodies the way to it",
+          "[ranks]") {
   msm::CellStiffness hooke = bodies::hybrid_cell, power_log = hooke;
   power_log.exponents = {-1.3, -1.8, -2.2};
-  const auto [name, scene, cell] = GENERATE_REF(table<std::string, cases::Scene, msm::CellStiffness>(
-      {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003))), hooke},
-       {"mask", masked_scene(), hooke},
-       {"mask of power-log springs", masked_scene(), power_log},
-       {"moved supports", scene_of(moved_box()), hooke},
-       {"symmetry planes", scene_of(quarter_of_a_box()), hooke},
-       {"flat cells", scene_of(flat_cells()), hooke}}));
+  // Bodies with holes have merged cells on one rank and rediscretised lattices on several: another way.
+  const auto [name, scene, cell, is_full] =
+      GENERATE_REF(table<std::string, cases::Scene, msm::CellStiffness, bool>(
+          {{"box", scene_of(bodies::clamped_box({16, 16, 16}, bodies::shear(0.003))), hooke, true},
+           {"mask", masked_scene(), hooke, false},
+           {"mask of power-log springs", masked_scene(), power_log, false},
+           {"moved supports", scene_of(moved_box()), hooke, true},
+           {"symmetry planes", scene_of(quarter_of_a_box()), hooke, true},
+           {"flat cells", scene_of(flat_cells()), hooke, true}}));
   INFO(name);
   const std::vector<msm::CellStiffness> springs{cell};
   const cases::Solution alone = msm::solve_by_snes(scene, springs, PETSC_COMM_SELF, to_rounding());
@@ -165,9 +168,11 @@ TEST_CASE("a grid's equilibrium and the way to it are the same on any number of 
   CHECK(largest_difference(alone, together) <= 1e-9 * size);
   CHECK(together.outcome == alone.outcome);
   CHECK(together.inverted_cells == alone.inverted_cells);
-  CHECK(together.newton_iterations == alone.newton_iterations); // the same method, rounded in another order
-  const auto n_linear = static_cast<double>(together.linear_iterations);
-  CHECK(n_linear == Approx(static_cast<double>(alone.linear_iterations)).epsilon(0.2));
+  if (is_full) { // the same method, rounded in another order
+    CHECK(together.newton_iterations == alone.newton_iterations);
+    const auto n_linear = static_cast<double>(together.linear_iterations);
+    CHECK(n_linear == Approx(static_cast<double>(alone.linear_iterations)).epsilon(0.2));
+  }
   const cases::Solution assembled = msm::Model(scene, springs, {msm::Path::direct, 1}).solve(to_rounding());
   CHECK(largest_difference(assembled, together) <= 1e-8); // mm
   // strains are differences of displacements that agree to 1e-9, over a cell's edge
