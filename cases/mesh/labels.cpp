@@ -8,10 +8,12 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
+#include <tuple>
 
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell)
+SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell, lowest, highest)
 
 } // namespace cereal
 
@@ -56,6 +58,23 @@ std::vector<std::uint8_t> class_of_voxels(const Volume& volume, const Labels& la
           volume.intensities[v] <= static_cast<float>(labels.classes[c].upper))
         classes[v] = static_cast<std::uint8_t>(c + 1);
   return classes;
+}
+
+/// Lowest and highest intensity that are numbers; 0 and 0 where none is.
+std::pair<float, float> range_of(const Volume& volume) {
+  std::optional<std::pair<float, float>> range;
+  for (const float intensity : volume.intensities) {
+    if (!std::isfinite(intensity)) continue;
+    if (!range) range = {intensity, intensity};
+    range->first = std::min(range->first, intensity);
+    range->second = std::max(range->second, intensity);
+  }
+  return range.value_or(std::pair(0.F, 0.F));
+}
+
+/// A wrong order of bytes shows in them.
+std::string intensities_text(const LabelGrid& grid) {
+  return fmt::format("the picture's intensities are from {:.6g} to {:.6g}", grid.lowest, grid.highest);
 }
 
 LabelGrid empty_label_grid(const Volume& volume, const Labels& labels) {
@@ -108,6 +127,7 @@ LabelGrid label_cells(const Volume& volume, const Labels& labels) {
   for (std::size_t a = 0; a < 3; ++a)
     along[a] = overlaps(grid.cells[a], grid.origin[static_cast<int>(a)], labels.edge, volume.voxels[a],
                         volume.spacing[static_cast<int>(a)]);
+  std::tie(grid.lowest, grid.highest) = range_of(volume);
   std::vector<double> filled(labels.classes.size() + 1);
   std::size_t cell = 0;
   for (const auto& in_z : along[2])
@@ -136,7 +156,8 @@ void keep_piece(LabelGrid& grid, const Labels& labels) {
   const Pieces pieces = pieces_of(grid_of(grid, labels.edge));
   const auto& sizes = pieces.sizes;
   if (sizes.empty())
-    refuse_labels(fmt::format("no cell of edge {} mm is filled by a class for the most part", labels.edge));
+    refuse_labels(fmt::format("no cell of edge {} mm is filled by a class for the most part; {}", labels.edge,
+                              intensities_text(grid)));
   int kept = 0;
   if (labels.keep == Keep::all) {
     if (sizes.size() == 1) return;
@@ -170,9 +191,9 @@ HexMesh mesh_of(const LabelGrid& labelled, const Labels& labels) {
   }
   for (std::size_t c = 0; c < n_cells.size(); ++c)
     if (n_cells[c] == 0)
-      refuse_labels(fmt::format("class '{}', from {} to {}, has no cell of edge {} mm",
+      refuse_labels(fmt::format("class '{}', from {} to {}, has no cell of edge {} mm; {}",
                                 labels.classes[c].name, labels.classes[c].lower, labels.classes[c].upper,
-                                labels.edge));
+                                labels.edge, intensities_text(labelled)));
   return mesh;
 }
 
@@ -182,7 +203,8 @@ LabelGrid label_grid_from(const std::string& bytes, std::size_t n_classes) {
   double n = 1;
   for (const int cells : grid.cells) n *= cells > 0 ? cells : 0;
   const bool is_sound = n > 0 && n == static_cast<double>(grid.class_of_cell.size()) &&
-                        grid.origin.allFinite() &&
+                        grid.origin.allFinite() && std::isfinite(grid.lowest) &&
+                        std::isfinite(grid.highest) &&
                         std::all_of(grid.class_of_cell.begin(), grid.class_of_cell.end(),
                                     [&](std::uint8_t c) { return c <= n_classes; });
   if (!is_sound) refuse_labels("is no sound grid of classes");

@@ -13,7 +13,8 @@ struct LabelGrid {
   std::array<int, 3> cells{};
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< mm
   std::vector<std::uint8_t>
-      class_of_cell; ///< x fastest; 0: none, else one more than a place in Labels::classes
+      class_of_cell;             ///< x fastest; 0: none, else one more than a place in Labels::classes
+  float lowest = 0, highest = 0; ///< intensity of the whole picture, what is no number left out
 };
 
 /// The classes of the cells that cover a volume, or its crop: each cell takes the class that fills most of

@@ -1,10 +1,13 @@
 #include "cases/mesh/volume_files.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace springproof::cases {
 
@@ -35,6 +38,72 @@ void check_is_beside(const std::string& name) {
         "' for its voxels, must be the name of one file in its own folder, without blanks");
 }
 
+using HeaderLines = std::map<std::string, std::string>; ///< values of keys, both in small letters
+
+/// @throws std::runtime_error unless the header has the key  @return its value
+const std::string& value_in(const HeaderLines& lines, const std::string& key) {
+  const auto found = lines.find(key);
+  if (found == lines.end()) throw std::runtime_error("has a header without '" + key + "'");
+  return found->second;
+}
+
+void check_value(const HeaderLines& lines, const std::string& key, const std::vector<std::string>& allowed) {
+  const std::string& value = value_in(lines, key);
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+  std::string list;
+  for (const std::string& one : allowed) list += (list.empty() ? "" : " or ") + one;
+  throw std::runtime_error("has a header with " + key + " '" + value.substr(0, 100) + "', must be " + list);
+}
+
+std::size_t n_words(const std::string& text) {
+  std::istringstream words(text);
+  std::size_t n = 0;
+  for (std::string word; words >> word;) ++n;
+  return n;
+}
+
+/// What the format requires of a header. VTK crashes without sizes, reads text from a wrong place and takes
+/// this machine's order of bytes where none is said.
+void check_nrrd(const HeaderLines& lines) {
+  const std::string& type = value_in(lines, "type");
+  check_value(lines, "dimension", {"3"});
+  if (n_words(value_in(lines, "sizes")) != 3) throw std::runtime_error("must have three sizes");
+  check_value(lines, "encoding", {"raw", "gzip", "gz"});
+  const bool is_of_bytes = type.find("char") != std::string::npos || type.find("int8") != std::string::npos;
+  if (!is_of_bytes) check_value(lines, "endian", {"little", "big"});
+}
+
+std::uint64_t whole_number(const std::string& text) {
+  const bool is_one =
+      !text.empty() && text.size() < 19 && text.find_first_not_of("0123456789") == std::string::npos;
+  return is_one ? std::strtoull(text.c_str(), nullptr, 10) : 0;
+}
+
+void check_meta(const HeaderLines& lines, VolumeHeader& header) {
+  check_value(lines, "ndims", {"3"});
+  value_in(lines, "dimsize");
+  value_in(lines, "elementtype");
+  value_in(lines, "elementdatafile");
+  check_value(lines, "binarydata", {"true"});
+  if (lines.count("headersize") != 0) {
+    const std::string& size = value_in(lines, "headersize");
+    header.skipped = whole_number(size);
+    if (header.skipped == 0 && size != "0" && size != "-1")
+      throw std::runtime_error("has a header with headersize '" + size.substr(0, 100) +
+                               "', must be -1, 0 or a number of bytes");
+  }
+  if (!header.is_compressed) return;
+  header.compressed = whole_number(value_in(lines, "compresseddatasize"));
+  if (header.compressed == 0)
+    throw std::runtime_error("has a header with a compresseddatasize that is no number of bytes above 0");
+}
+
+/// @throws std::runtime_error if the file is a link that leads out of its folder
+void check_is_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  if (std::filesystem::canonical(file).parent_path() != std::filesystem::canonical(folder))
+    throw std::runtime_error("is a link to another folder");
+}
+
 std::uint64_t size_of_regular_file(const std::string& path) {
   std::error_code absent;
   if (!std::filesystem::is_regular_file(path, absent))
@@ -49,6 +118,7 @@ VolumeHeader header_of_volume(const std::string& beginning) {
   const bool is_nrrd = beginning.rfind("NRRD", 0) == 0; // whose header ends with an empty line
   bool has_end = !is_nrrd;
   VolumeHeader header;
+  HeaderLines values;
   for (std::string line; std::getline(lines, line);) {
     header.bytes = std::min(beginning.size(), static_cast<std::size_t>(header.bytes) + line.size() + 1);
     if (is_nrrd && (line.empty() || line == "\r")) {
@@ -59,9 +129,9 @@ VolumeHeader header_of_volume(const std::string& beginning) {
     if (at == std::string::npos) continue;
     const std::string key = in_small_letters(without_blanks_around(line.substr(0, at)));
     const std::string value = without_blanks_around(line.substr(at + 1)), word = in_small_letters(value);
+    values[key] = word;
     if (key == "encoding") header.is_compressed = word != "raw";
     if (key == "compresseddata") header.is_compressed = word != "false";
-    if (key == "binarydata") header.is_compressed = header.is_compressed || word == "false";
     if (key == "elementdatafile" && word == "local") break; // its last line: voxels follow
     if (key != "data file" && key != "datafile" && key != "elementdatafile") continue;
     check_is_beside(value);
@@ -73,6 +143,10 @@ VolumeHeader header_of_volume(const std::string& beginning) {
   has_end = has_end || (text.size() == beginning.size() && text.back() == '\n');
   if (is_nrrd && (!has_end || text.find('\0') != std::string::npos))
     throw std::runtime_error("has a header without an end, which is an empty line");
+  if (is_nrrd)
+    check_nrrd(values);
+  else
+    check_meta(values, header);
   return header;
 }
 
@@ -85,15 +159,23 @@ VolumeBytes bytes_of_volume(const std::string& path) {
   std::string beginning(std::min<std::uint64_t>(bytes, longest_header), '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  if ((ending == ".nrrd" || ending == ".nhdr") && beginning.rfind("NRRD", 0) != 0)
+    throw std::runtime_error("is no NRRD: does not begin with that word");
   const VolumeHeader header = header_of_volume(beginning);
   std::uint64_t with_voxels = bytes - std::min(bytes, header.bytes);
   if (!header.file.empty()) try {
-      with_voxels = size_of_regular_file((std::filesystem::path(path).parent_path() / header.file).string());
+      const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+      with_voxels = size_of_regular_file((folder / header.file).string());
+      check_is_in(folder, folder / header.file);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error("names '" + header.file.substr(0, 200) + "' for its voxels: " + error.what());
     }
-  return {header.file.empty() ? bytes : bytes + with_voxels,
-          header.is_compressed ? most_compressed * with_voxels : with_voxels};
+  const std::uint64_t in_files = header.file.empty() ? bytes : bytes + with_voxels;
+  with_voxels -= std::min(with_voxels, header.skipped);
+  if (header.compressed > with_voxels)
+    throw std::runtime_error("is cut short: says that its voxels take " + std::to_string(header.compressed) +
+                             " bytes, has " + std::to_string(with_voxels));
+  return {in_files, header.is_compressed ? most_compressed * with_voxels : with_voxels};
 }
 
 } // namespace springproof::cases

@@ -7,13 +7,16 @@ namespace springproof::cases {
 
 /// What the header of a NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd) says of its voxels.
 struct VolumeHeader {
-  std::string file;           ///< that they are in; empty: the same file
-  bool is_compressed = false; ///< or text
-  std::uint64_t bytes = 0;    ///< of the header
+  std::string file; ///< that they are in; empty: the same file
+  bool is_compressed = false;
+  std::uint64_t bytes = 0;      ///< of the header
+  std::uint64_t skipped = 0;    ///< of what stands before the voxels, MetaImage's HeaderSize
+  std::uint64_t compressed = 0; ///< of the compressed voxels, where the header says that
 };
 
 /// @param beginning  of the file
-/// @throws std::runtime_error if it names several files, or one that is not in the header's own folder
+/// @throws std::runtime_error if it lacks what its format requires or has it in a form that is not read, if
+/// it names several files, or one that is not in the header's own folder
 VolumeHeader header_of_volume(const std::string& beginning);
 
 /// The files of a picture.

@@ -3,6 +3,8 @@
 #include "cases/mesh/inv3.hpp"
 #include "cases/mesh/vtk_run.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vtkDataArray.h>
@@ -10,6 +12,7 @@
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkMetaImageReader.h>
+#include <vtkNIFTIImageHeader.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkNrrdReader.h>
@@ -32,6 +35,28 @@ Scale scale_of(vtkMetaImageReader& reader) {
 }
 Scale scale_of(vtkNrrdReader&) {
   return {};
+}
+
+void check_header(vtkMetaImageReader&) {}
+void check_header(vtkNrrdReader&) {}
+
+/// VTK takes other magic words for its elders, and what is no length for 1 mm.
+void check_header(vtkNIFTIImageReader& reader) {
+  vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
+  const std::string magic = header.GetMagic() == nullptr ? "" : header.GetMagic();
+  if (magic.rfind("n+1", 0) != 0 && magic.rfind("n+2", 0) != 0)
+    throw std::runtime_error("is no NIfTI file with its voxels: its magic word is neither n+1 nor n+2");
+  for (int a = 1; a <= std::min<std::int64_t>(3, header.GetDim(0)); ++a)
+    if (const double length = header.GetPixDim(a); !(length > 0))
+      throw std::runtime_error("has voxels of " + std::to_string(length) + " mm, must be above 0 mm");
+  const int bits =
+      8 * vtkDataArray::GetDataTypeSize(reader.GetDataScalarType()) * reader.GetNumberOfScalarComponents();
+  if (header.GetBitPix() != bits)
+    throw std::runtime_error("says " + std::to_string(header.GetBitPix()) + " bits a voxel, its type has " +
+                             std::to_string(bits));
+  const Scale scale = scale_of(reader);
+  if (!std::isfinite(scale.slope) || !std::isfinite(scale.intercept))
+    throw std::runtime_error("has a scale of its intensities that is no number");
 }
 
 /// VTK's messages name the file, objects and addresses, in several lines.
@@ -68,6 +93,7 @@ Volume read_with_vtk(const std::string& path, std::uint64_t most_bytes) {
     throw std::runtime_error(
         "has " + std::to_string(n) +
         " numbers a voxel, must have one (a first axis of up to 9 in NRRD is taken for that)");
+  check_header(*reader);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
   if (bytes_a_voxel < 1) throw std::runtime_error("has voxels of no type of numbers");
   const std::size_t n =

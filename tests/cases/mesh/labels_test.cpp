@@ -236,6 +236,72 @@ TEST_CASE("a broken picture is refused in one line") {
   CHECK_THAT(refusal(bone_and_fat(1, (folder.path / "absent.nii").string())), Contains("No such file"));
 }
 
+TEST_CASE("a cut picture is refused wherever it is cut") {
+  const TemporaryFolder folder;
+  const std::string voxels = bytes_of_picture<std::int16_t>();
+  const std::vector<std::pair<std::string, std::string>> pictures{{"cut.nii", nifti({12, 3, 2}) + voxels},
+                                                                  {"cut.nrrd", nrrd() + voxels},
+                                                                  {"cut.mha", meta("LOCAL") + voxels},
+                                                                  {"cut.inv3", project(plist(), voxels)}};
+  for (const auto& [name, content] : pictures) {
+    const std::size_t end = name == "cut.inv3" ? 3 * 512 + plist().size() : content.size(); // then zeros
+    for (std::size_t bytes = 0; bytes < end; bytes += end / 11 + 1) {
+      INFO(name << " of " << bytes << " bytes");
+      CHECK_THAT(refusal(bone_and_fat(1, folder.write(name, content.substr(0, bytes)))), Contains(name));
+    }
+  }
+}
+
+TEST_CASE("a header that lacks a field or has one of another kind is refused by its name") {
+  const TemporaryFolder folder;
+  const std::string voxels = bytes_of_picture<std::int16_t>();
+  const auto refused = [&](const std::string& name, std::string content, const std::string& from,
+                           const std::string& to) {
+    const std::size_t at = content.find(from);
+    REQUIRE(at != std::string::npos);
+    content.replace(at, from.size(), to);
+    return refusal(bone_and_fat(1, folder.write(name, content)));
+  };
+  const std::string of_nrrd = nrrd() + voxels, of_meta = meta("LOCAL") + voxels;
+  for (const char* key : {"type", "dimension", "sizes", "encoding", "endian"})
+    CHECK_THAT(refused("a.nrrd", of_nrrd, std::string(key) + ":", "# "),
+               Contains(std::string("without '") + key + "'"));
+  CHECK_THAT(refused("a.nrrd", of_nrrd, "dimension: 3", "dimension: 4"), Contains("must be 3"));
+  CHECK_THAT(refused("a.nrrd", of_nrrd, "sizes: 12", "sizes:"), Contains("three sizes"));
+  CHECK_THAT(refused("a.nrrd", of_nrrd, "raw", "text"), Contains("must be raw or gzip"));
+  CHECK_THAT(refused("a.nrrd", of_nrrd, "little", "middle"), Contains("must be little or big"));
+  CHECK_THAT(refused("a.nrrd", of_nrrd, "NRRD", "nrrd"), Contains("is no NRRD"));
+  for (const char* key : {"NDims", "DimSize", "BinaryData", "ElementType", "ElementDataFile"})
+    CHECK_THAT(refused("a.mha", of_meta, std::string(key) + " =", "Comment ="), Contains("without '"));
+  CHECK_THAT(refused("a.mha", of_meta, "NDims = 3", "NDims = 2"), Contains("must be 3"));
+  CHECK_THAT(refused("a.mha", of_meta, "BinaryData = True", "BinaryData = False"), Contains("must be true"));
+  CHECK_THAT(refused("a.mha", of_meta, "NDims", "HeaderSize = 1000000000\nNDims"), Contains("more than the"));
+  CHECK_THAT(refused("a.mha", of_meta, "NDims", "HeaderSize = -5\nNDims"), Contains("headersize"));
+  const auto packed = [&](const std::string& size) {
+    return refused("a.mha", of_meta, "NDims", "CompressedData = True\n" + size + "NDims");
+  };
+  CHECK_THAT(packed(""), Contains("without 'compresseddatasize'"));
+  CHECK_THAT(packed("CompressedDataSize = -5\n"), Contains("no number of bytes above 0"));
+  CHECK_THAT(packed("CompressedDataSize = 1000\n"), Contains("cut short"));
+  const auto with = [&](std::size_t at, auto value) {
+    std::string content = nifti({12, 3, 2}) + voxels;
+    std::memcpy(&content[at], &value, sizeof value);
+    return refusal(bone_and_fat(1, folder.write("a.nii", content)));
+  };
+  CHECK_THAT(with(344, 'x'), Contains("magic word"));
+  CHECK_THAT(with(345, 'i'), Contains("magic word")); // whose voxels are in another file
+  CHECK_THAT(with(84, 0.F), Contains("must be above 0 mm"));
+  CHECK_THAT(with(72, std::int16_t{64}), Contains("64 bits a voxel, its type has 16"));
+  CHECK_THAT(with(112, NAN), Contains("is no number"));
+}
+
+TEST_CASE("a wrong order of bytes shows in the intensities that the refusal tells") {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("a.nrrd", nrrd("", "12 3 2", "big") + bytes_of_picture<std::int16_t>());
+  CHECK_THAT(refusal(bone_and_fat(1, path)), Contains("intensities are from 0 to 25600")); // 100 is 0x64
+}
+
 TEST_CASE("a header leads to no file outside of its folder") {
   const TemporaryFolder folder;
   for (const char* name : {"/etc/passwd", "../c.raw", "c%02d.raw 1 2 1", "LIST", "a\\b", "..", "c 1 9 0"}) {
@@ -246,7 +312,12 @@ TEST_CASE("a header leads to no file outside of its folder") {
     CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.mhd", meta(name)))), Contains("in its own folder"));
   }
   CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.mhd", meta("absent.raw")))), Contains("absent.raw"));
-  CHECK(header_of_volume("NRRD0004\ntype: short\n\ndata file: /etc/passwd\n").file.empty()); // voxels
+  std::filesystem::create_symlink("/etc/passwd", folder.path / "link.raw");
+  CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.nhdr", nrrd("data file: link.raw\n")))),
+             Contains("link to another folder"));
+  CHECK_THAT(refusal(bone_and_fat(1, folder.write("a.mhd", meta("link.raw")))),
+             Contains("link to another folder"));
+  CHECK(header_of_volume(nrrd() + "data file: /etc/passwd\n").file.empty()); // voxels
   CHECK(header_of_volume(meta("LOCAL") + "\nElementDataFile = ../x\n").file.empty());
 }
 
