@@ -334,8 +334,8 @@ Scene make_scene(const Case& definition) {
   resolve_supports(scene);
   check_motions(scene);
   check_scaled(scene);
+  hold_rigid_nodes(scene); // a cut is joined where bone holds its sides
   join_cuts(scene);
-  hold_rigid_nodes(scene);
   resolve_loads(scene);
   check_sizes(scene);
   for (const AddedMass& added : definition.masses)

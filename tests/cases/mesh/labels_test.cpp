@@ -364,3 +364,39 @@ TEST_CASE("nodes of a rigid class are held where nothing moves them, on finer me
     CHECK(n_held > finer.moved[0].selection.nodes.size());
   }
 }
+
+TEST_CASE("a piece of a labelled body is removed and the cut joined where its rigid class holds the sides") {
+  const TemporaryFolder folder;
+  std::string header = nrrd("", "12 3 5"), voxels; // bone 1 mm high under 4 mm of fat
+  header.replace(header.find("1 2 3"), 5, "1 1 1");
+  for (int v = 0; v < 12 * 3 * 5; ++v) voxels += {v < 12 * 3 ? 100 : 50, 0};
+  Case definition;
+  definition.body = bone_and_fat(1, folder.write("a.nrrd", header + voxels));
+  Removed piece;
+  piece.lower = {5, 0, 0};
+  piece.upper = {7, 3, 3};
+  piece.join = Axis::x;
+  definition.removed.push_back(piece);
+  Moved setback;
+  setback.region.name = "bone beyond the cut";
+  setback.region.part = Part{"bone", {7, 0, 0}, {12, 3, 1}};
+  setback.components = {true, true, true};
+  setback.displacement = {-2, 0, 0};
+  definition.moved.push_back(setback);
+  const Scene scene = make_scene(definition);
+  CHECK(scene.mesh.cells.size() == 12 * 3 * 5 - 2 * 3 * 3);
+  CHECK(std::count(scene.mesh.group_of_cell.begin(), scene.mesh.group_of_cell.end(), "bone") == 10 * 3);
+  const std::vector<bool> constrained = constrained_dofs(scene);
+  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
+    const Vector3d& node = scene.mesh.nodes[n];
+    const bool is_bone = node.z() <= 1, is_side = node.x() == 5 || node.x() == 7;
+    CHECK(constrained[3 * n] == (is_bone || (is_side && node.z() == 2))); // at 3 cells are left over the cut
+    CHECK(constrained[3 * n + 1] == is_bone);
+    CHECK(constrained[3 * n + 2] == is_bone);
+  }
+  REQUIRE(scene.moved.size() == 3);
+  CHECK(scene.moved[1].motion.displacement == Vector3d(0, 0, 0)); // the lower side, held by its bone
+  CHECK(scene.moved[2].motion.displacement == Vector3d(-2, 0, 0));
+  definition.moved[0].displacement = {-1, 0, 0};
+  CHECK_THROWS_WITH(make_scene(definition), Contains("its sides end 1 mm apart along x"));
+}
