@@ -15,8 +15,6 @@ enum class Path {
 
 /// Nodes from which the multigrid path was measured to be the faster one.
 constexpr std::size_t multigrid_from = 500;
-/// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
-constexpr std::size_t most_factorised = 40000;
 
 struct ModelOptions {
   Path path = Path::automatic;

@@ -9,6 +9,9 @@ namespace springproof::msm {
 
 using mechanics::Vector;
 
+/// Nodes up to which a lattice is factorised where multigrid would take many iterations or fails.
+constexpr std::size_t most_factorised = 40000;
+
 /// A supported and loaded lattice.
 struct Problem {
   cases::HexMesh mesh;

@@ -53,7 +53,10 @@ struct Springs {
   const Real* share_z;
   /// With holes or several stiffnesses: such arrays [k][spring]; else null.
   const Real* by_node;
-  const Real* packed; ///< the same as pack_stiffness() lays it out; null where by_node is
+  /// The same as the springs are swept: blocks of the 13 springs of a pack of nodes, those that differ; null
+  /// where by_node is.
+  const Real* packed;
+  const int* block_of_pack; ///< in `packed`, of every pack of nodes, row by row; null where by_node is
   /// Of every pack of nodes, row by row, PackUse as pack_stiffness() finds it; null where by_node is.
   const unsigned char* pack_use;
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
@@ -74,7 +77,8 @@ enum class Clamp { no, yes };
 
 /// Part of an array that one call works on: planes first to last - 1. Contributions to plane `last` go to
 /// `spill` (as many planes as the result has arrays), because that plane belongs to another part; spill and
-/// the planes themselves are set, not added to.
+/// the planes themselves are set, not added to, but for nodes that meet no spring, which stay 0 as in every
+/// field.
 template<class Real>
 struct Slab {
   int first, last;
@@ -91,12 +95,20 @@ constexpr std::ptrdiff_t scratch_size(const Layout& layout) {
   return tile_row * (2 * 27 * (layout.nodes[1] + 2) + 3 * n_springs) + 24 * 64 + 16;
 }
 
+/// How the packs of a row are shared out among tiles: tile t begins at pack first_of_tile(n_packs, t).
+constexpr std::ptrdiff_t tiles_of_row(std::ptrdiff_t n_packs) {
+  return (n_packs + tile - 1) / tile;
+}
+constexpr std::ptrdiff_t first_of_tile(std::ptrdiff_t n_packs, std::ptrdiff_t t) {
+  return n_packs * t / tiles_of_row(n_packs);
+}
+
 /// Entries of Springs::pack_use, with any instruction set.
 constexpr std::ptrdiff_t pack_use_size(const Layout& layout) {
   return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * layout.nodes[0];
 }
 
-/// Entries of Springs::packed, with any instruction set.
+/// Entries that pack_stiffness() fills, with any instruction set.
 constexpr std::ptrdiff_t packed_size(const Layout& layout) {
   return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * ((layout.nodes[0] + 15) / 16 * 16) * n_springs;
 }
@@ -111,8 +123,9 @@ struct Kernels {
   /// Diagonal 3x3 blocks of the tangent as six arrays: xx, yy, zz, yz, xz, xy. spill has six planes.
   void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
-  /// The stiffnesses by_node in the order that springs are swept in.
+  /// The stiffnesses by_node as springs are swept: a block of the 13 springs for every pack, row by row.
   void (*pack_stiffness)(const Springs<Real>&, Real* to, unsigned char* use);
+  int pack; ///< numbers computed at once
 };
 
 struct InstructionSet {

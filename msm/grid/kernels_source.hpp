@@ -190,7 +190,8 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
 }
 
 template<class Real>
-constexpr Kernels<Real> all{force<Real>, product<Real>, diagonal<Real>, energy<Real>, pack_stiffness<Real>};
+constexpr Kernels<Real> all{force<Real>,  product<Real>,        diagonal<Real>,
+                            energy<Real>, pack_stiffness<Real>, static_cast<int>(pack_size<Real>)};
 
 } // namespace
 

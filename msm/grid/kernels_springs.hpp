@@ -156,10 +156,10 @@ SPRINGPROOF_INLINE std::ptrdiff_t packed_row(const Layout& layout, int k, int j)
          pack_size<Real>;
 }
 
-/// Of a row's packs.
-template<class Real, class Byte>
-SPRINGPROOF_INLINE Byte* use_of_row(const Layout& layout, Byte* use, int k, int j) {
-  return use + (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout);
+/// What there is of a row's packs, of what there is of all packs row by row.
+template<class Real, class T>
+SPRINGPROOF_INLINE T* of_packs(const Layout& layout, T* all, int k, int j) {
+  return all + (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout);
 }
 
 template<class Real>
@@ -170,7 +170,7 @@ void pack_stiffness(const Springs<Real>& s, Real* to, unsigned char* use) {
   for (std::ptrdiff_t p = 0; p < pack_use_size(layout); ++p) use[p] = 0;
   const auto meets = [&](int k, int j, std::ptrdiff_t p) {
     if (k < layout.nodes[2] && j >= 0 && j < layout.nodes[1])
-      use_of_row<Real>(layout, use, k, j)[p] |= meets_springs;
+      of_packs<Real>(layout, use, k, j)[p] |= meets_springs;
   };
   for (int k = 0; k < layout.nodes[2]; ++k)
     for (int j = 0; j < layout.nodes[1]; ++j) {
@@ -180,7 +180,7 @@ void pack_stiffness(const Springs<Real>& s, Real* to, unsigned char* use) {
         bool any = false;
         for (std::ptrdiff_t i = 0; i < n_stiffnesses; ++i) any = any || row[p * n_stiffnesses + i] != 0;
         if (!any) continue;
-        use_of_row<Real>(layout, use, k, j)[p] |= sends_springs;
+        of_packs<Real>(layout, use, k, j)[p] |= sends_springs;
         meets(k, j, p);
         meets(k, j + 1, p);
         for (int side = -1; side <= 1; ++side) meets(k + 1, j + side, p);
@@ -249,16 +249,20 @@ SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, const Action& action
 
 /// All springs of a tile's packs in one row.
 /// @tparam upwards  whether there is a plane above
+/// @param stiffnesses  blocks of a pack's springs
+/// @param blocks    of the packs; null: one after the other
 /// @param use       of the packs; null: all have springs
 template<bool upwards, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffness,
-                                  const unsigned char* use, Real* here, Real* above, std::ptrdiff_t n) {
+SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffnesses,
+                                  const int* blocks, const unsigned char* use, Real* here, Real* above,
+                                  std::ptrdiff_t n) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
   const Vec<Real> edges = rest_edges(s);
   const Vec<P> edge{P{} + edges.x, P{} + edges.y, P{} + edges.z};
   for (std::ptrdiff_t p = 0; p < n; ++p) {
     if (!use || (use[p] & sends_springs)) {
+      const Real* const stiffness = stiffnesses + (blocks ? blocks[p] : p) * stiffness_packs * lanes;
       const Vec<P> u = load_three(here + 3 * lanes);
       Vec<P> v{};
       if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
@@ -277,7 +281,6 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
     }
     here += node_packs<Action> * lanes;
     above += node_packs<Action> * lanes;
-    stiffness += stiffness_packs * lanes;
   }
 }
 
@@ -285,9 +288,10 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
 /// for the next tile, which finds it; what goes to the node before it is added there.
 /// @param result  of the tile's first node
 /// @param n_nodes  that the row has from there on
+/// @param use      of the packs: where no spring is met the result stays as it is; null: all have springs
 template<class Action, class Real>
 SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std::ptrdiff_t distance,
-                             std::ptrdiff_t n_nodes) {
+                             std::ptrdiff_t n_nodes, const unsigned char* use) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>;
   Vec<P> before{};
@@ -298,6 +302,10 @@ SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std:
       at[-1] += sums[c * lanes];
     }
   for (std::ptrdiff_t p = 0; p < t.n; ++p, sums += node_packs<Action> * lanes) {
+    if (use && !(use[p] & meets_springs)) {
+      before = Vec<P>{};
+      continue;
+    }
     const Vec<P> left = load_three(sums), right = load_three(sums + 6 * lanes);
     const Vec<P> next = p + 1 < t.n ? load_three(sums + node_packs<Action> * lanes) : Vec<P>{};
     Vec<P> total = load_three(sums + 3 * lanes) + window(before, right, lanes - 1) + window(left, next, 1);
@@ -327,7 +335,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   Real* const planes = stiffness + 3 * stiffness_row;
   const auto first_row = [&](int k) { return planes + (k - slab.first) % 2 * plane + row; };
   const auto use_of = [&](int k, int j) -> const unsigned char* {
-    return s.packed ? use_of_row<Real>(layout, s.pack_use, k, j) + t.first : nullptr;
+    return s.packed ? of_packs<Real>(layout, s.pack_use, k, j) + t.first : nullptr;
   };
   const auto unpack_row = [&](int k, int j) {
     Real* const to = first_row(k) + j * row;
@@ -340,7 +348,8 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   const auto fold_row = [&](int k, int j) {
     Real* const to = result_plane(layout, slab, result, k, 0) + j * layout.row + t.first * lanes;
     fold<Action>(t, first_row(k) + j * row + sums_at<Action> * lanes, to,
-                 k < slab.last ? layout.size : layout.plane, n_nodes);
+                 k < slab.last ? layout.size : layout.plane, n_nodes,
+                 s.volume_stiffness ? nullptr : use_of(k, j)); // from what is there, cells' terms are taken
   };
   // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are
   // the same in all planes but the first and the last.
@@ -365,15 +374,14 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       unpack_row(k + 1, 0);
     }
     for (int j = 0; j < rows; ++j) {
-      const Real* const of_row =
-          s.packed ? s.packed + packed_row<Real>(layout, k, j) + t.first * stiffness_packs * lanes
-                   : stiffness + kind(j) * stiffness_row;
+      const Real* const of_row = s.packed ? s.packed : stiffness + kind(j) * stiffness_row;
+      const int* const blocks = s.packed ? of_packs<Real>(layout, s.block_of_pack, k, j) + t.first : nullptr;
       Real *const here = first_row(k) + j * row, *const above = first_row(k + 1) + j * row;
       if (upwards) {
         if (j + 1 < rows) unpack_row(k + 1, j + 1);
-        sweep_row<true>(s, action, of_row, use_of(k, j), here, above, t.n);
+        sweep_row<true>(s, action, of_row, blocks, use_of(k, j), here, above, t.n);
       } else {
-        sweep_row<false>(s, action, of_row, use_of(k, j), here, above, t.n);
+        sweep_row<false>(s, action, of_row, blocks, use_of(k, j), here, above, t.n);
       }
       fold_row(k, j);
     }
@@ -386,9 +394,9 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
 template<class Real, class Action>
 void sweep_springs(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
                    const Real* displacement, const Real* direction, Real* result) {
-  const std::ptrdiff_t n_packs = packs_of_row<Real>(s.layout), n_tiles = (n_packs + tile - 1) / tile;
+  const std::ptrdiff_t n_packs = packs_of_row<Real>(s.layout), n_tiles = tiles_of_row(n_packs);
   for (std::ptrdiff_t t = 0; t < n_tiles; ++t) {
-    const std::ptrdiff_t first = n_packs * t / n_tiles, last = n_packs * (t + 1) / n_tiles;
-    sweep_tile(s, slab, {first, last - first, t + 1 == n_tiles}, action, displacement, direction, result);
+    const std::ptrdiff_t first = first_of_tile(n_packs, t), n = first_of_tile(n_packs, t + 1) - first;
+    sweep_tile(s, slab, {first, n, t + 1 == n_tiles}, action, displacement, direction, result);
   }
 }

@@ -65,6 +65,9 @@ std::optional<double> exponent_between(const std::optional<Exponents>& exponents
 MergedMultigrid::MergedMultigrid(const Body& finest, const mechanics::grid::Chebyshev& smoother,
                                  int n_threads)
     : finest_(finest), smoother_(smoother), n_threads_(n_threads) {
+  for (int step = 0; step < 8; ++step)
+    rest_length_[index(step)] =
+        Eigen::Vector3d(step & 1, (step >> 1) & 1, step >> 2).cwiseProduct(finest.spacing).norm();
   const Layout& layout = finest.layout;
   std::vector<bool> is_constrained(index(3 * layout.size));
   for (const std::ptrdiff_t entry : finest.constrained) is_constrained[index(entry)] = true;
@@ -172,14 +175,11 @@ MergedMultigrid::CellMatrix MergedMultigrid::stiffness_of(std::size_t cell,
       const double stiffness = stiffness_between(springs, v, w);
       if (stiffness == 0) continue;
       const Eigen::Vector3d d = x[index(w)] - x[index(v)];
-      double rest = 0;
-      for (int c = 0; c < 3; ++c)
-        if (((v ^ w) >> c) & 1) rest += finest_.spacing[c] * finest_.spacing[c];
+      const double rest = rest_length_[index(v ^ w)];
       // Points that coincide have no direction: such a spring is left out of a preconditioner.
-      if (!(d.squaredNorm() > 1e-12 * rest)) continue;
-      const Eigen::Matrix3d block =
-          spring_stiffness(d, {stiffness, std::sqrt(rest), exponent_between(finest_.exponents, v, w)},
-                           TransverseTerm::clamped);
+      if (!(d.squaredNorm() > 1e-12 * rest * rest)) continue;
+      const Eigen::Matrix3d block = spring_stiffness(
+          d, {stiffness, rest, exponent_between(finest_.exponents, v, w)}, TransverseTerm::clamped);
       add(v, v, block);
       add(w, w, block);
       add(v, w, -block);

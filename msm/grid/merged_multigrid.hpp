@@ -47,6 +47,7 @@ class MergedMultigrid {
   const Body& finest_;
   mechanics::grid::Chebyshev smoother_;
   int n_threads_;
+  std::array<double, 8> rest_length_;        ///< of a cell's springs, mm, by the axes along which they lead
   Cells cells_;                              ///< of the finest body, without those that are held as a whole
   std::vector<std::ptrdiff_t> entry_;        ///< of every node, along x
   std::vector<std::array<bool, 3>> is_held_; ///< every node's components

@@ -9,6 +9,7 @@ namespace {
 
 using mechanics::grid::apply_blocks;
 
+constexpr double nearby = 1e-3; ///< of the shortest edge of a cell
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
 /// Calls action(stiffness) for all stiffnesses of a body.
@@ -96,7 +97,11 @@ void Multigrid::set_diagonal(const Field<double>& diagonal) {
 
 void Multigrid::linearise(const Field<double>& displacement) {
   const Body& finest = levels_.front().body;
-  if (is_linearised_ && on_all_ranks(finest, linearised_at_ == displacement)) return;
+  // A preconditioner may be of a place nearby.
+  if (is_linearised_ &&
+      on_all_ranks(finest, (linearised_at_ - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
+                               nearby * finest.spacing.minCoeff()))
+    return;
   linearised_at_ = displacement;
   is_linearised_ = true;
   for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {

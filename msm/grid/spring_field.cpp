@@ -3,6 +3,8 @@
 #include "cases/mesh/hex_mesh.hpp"
 
 #include <Eigen/LU>
+#include <string_view>
+#include <unordered_map>
 
 namespace springproof::msm::grid {
 
@@ -121,13 +123,43 @@ void SpringField<Real>::set_by_node() {
       stiffness[(n_springs * k + s) * layout.plane + i + layout.row * j] = static_cast<Real>(sum);
     });
   }
+  pack_stiffness();
+}
+
+/// A block of stiffnesses is kept once, where the sweeps come to it first: inside a body all packs have the
+/// same, and what would be read from memory stays in the cache.
+template<class Real>
+void SpringField<Real>::pack_stiffness() {
+  const Layout& layout = springs_.layout;
+  Field<Real> all(packed_size(layout));
+  pack_use_.resize(index(pack_use_size(layout)));
+  kernels<Real>().pack_stiffness(springs_, all.data(), pack_use_.data());
+  const std::ptrdiff_t pack = kernels<Real>().pack, n_packs = (layout.nodes[0] + pack - 1) / pack,
+                       n_rows = std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1], block = n_springs * pack;
+  const auto bytes = [&](std::ptrdiff_t p) {
+    return std::string_view(reinterpret_cast<const char*>(all.data() + p * block),
+                            index(block) * sizeof(Real));
+  };
+  block_of_pack_.resize(index(n_rows * n_packs));
+  std::unordered_map<std::string_view, int> number;
+  std::vector<std::ptrdiff_t> first_pack; // with a block
+  for (std::ptrdiff_t t = 0; t < tiles_of_row(n_packs); ++t)
+    for (std::ptrdiff_t row = 0; row < n_rows; ++row)
+      for (std::ptrdiff_t p = first_of_tile(n_packs, t); p < first_of_tile(n_packs, t + 1); ++p) {
+        const std::ptrdiff_t at = row * n_packs + p;
+        const auto [found, is_new] = number.try_emplace(bytes(at), static_cast<int>(number.size()));
+        if (is_new) first_pack.push_back(at);
+        block_of_pack_[index(at)] = found->second;
+      }
   constexpr std::ptrdiff_t line = 64 / sizeof(Real); // of the cache
-  Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(packed_size(layout) + line));
+  const auto n_blocks = static_cast<std::ptrdiff_t>(first_pack.size());
+  Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(n_blocks * block + line));
   const auto at = reinterpret_cast<std::size_t>(packed.data()) / sizeof(Real);
   Real* const start = packed.data() + (line - static_cast<std::ptrdiff_t>(at) % line) % line;
-  pack_use_.resize(index(pack_use_size(layout)));
-  kernels<Real>().pack_stiffness(springs_, start, pack_use_.data());
+  for (std::ptrdiff_t b = 0; b < n_blocks; ++b)
+    std::copy_n(all.data() + first_pack[index(b)] * block, block, start + b * block);
   springs_.packed = start;
+  springs_.block_of_pack = block_of_pack_.data();
   springs_.pack_use = pack_use_.data();
 }
 
@@ -162,7 +194,13 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 template<class Real>
 void SpringField<Real>::force(const Field<Real>& displacement, Field<Real>& force) const {
   reactions(displacement, force);
-  clear_constrained(body_, force);
+  clear_held(force);
+}
+
+/// Entries of nodes without a cell are constrained too, but nothing writes to them.
+template<class Real>
+void SpringField<Real>::clear_held(Field<Real>& field) const {
+  for (const std::ptrdiff_t entry : held_) field[entry] = 0;
 }
 
 template<class Real>
@@ -179,7 +217,7 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
   for_each_slab(3, product.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().product(springs_, slab, clamp, displacement.data(), direction.data(), product.data());
   });
-  for (const std::ptrdiff_t entry : held_) product[entry] = 0; // the others without an unknown meet no spring
+  clear_held(product);
   update_ghosts(body_, product);
 }
 

@@ -38,12 +38,15 @@ class SpringField {
   std::vector<Slab<Real>> slabs_;
   std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
   std::vector<unsigned char> pack_use_;
+  std::vector<int> block_of_pack_;
   std::vector<bool> is_constrained_; ///< every entry of a field
   std::vector<std::ptrdiff_t> held_; ///< constrained entries that have a cell
   mutable std::vector<double> energy_of_slab_;
 
   void set_shares();
   void set_by_node();
+  void pack_stiffness();
+  void clear_held(Field<Real>& field) const;
   template<class Run>
   void for_each_slab(int components, Real* result, const Run& run) const;
 };

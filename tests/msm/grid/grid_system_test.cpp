@@ -1,9 +1,11 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/grid/rigidity.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 using namespace springproof;
@@ -141,4 +143,81 @@ TEST_CASE("a displacement that is no body's spoils nothing that comes after it")
     CHECK((*after - *before).norm() <
           1e-4 * before->norm()); // 1e-6 of the forces, and how soft the softest is
   }
+}
+
+namespace {
+
+using Place = std::array<int, 3>;
+
+/// Cells of 4 x 3 x 3, held at some nodes.
+msm::grid::Body body_of(const std::function<bool(const Place&)>& has_cell,
+                        const std::function<bool(const Place&)>& is_held) {
+  msm::grid::Body body;
+  body.cells = {4, 3, 3};
+  body.spacing = {1, 1.2, 0.8};
+  msm::grid::for_each_place(body.cells, [&](int i, int j, int k) {
+    body.springs.emplace_back();
+    if (has_cell({i, j, k})) body.springs.back() = {{1, 1.1, 1.2}, {2, 2.1, 2.2}, 3, 0};
+  });
+  set_layout(body, [&](int i, int j, int k, int) { return is_held({i, j, k}); });
+  return body;
+}
+
+/// Lowest eigenvalue of the tangent at rest over the largest one.
+double softest(const msm::grid::Body& body) {
+  const msm::grid::SpringField<double> springs(body, 1);
+  const msm::grid::Field<double> rest = msm::grid::Field<double>::Zero(3 * body.layout.size);
+  msm::grid::Field<double> direction = rest, image = rest;
+  std::vector<std::ptrdiff_t> free;
+  msm::grid::for_each_place(body.layout.nodes, [&](int i, int j, int k) {
+    for (int c = 0; c < 3; ++c)
+      if (const auto entry = body.layout.at(i, j, k, c);
+          !std::binary_search(body.constrained.begin(), body.constrained.end(), entry))
+        free.push_back(entry);
+  });
+  Eigen::MatrixXd tangent(free.size(), free.size());
+  for (std::size_t column = 0; column < free.size(); ++column) {
+    direction[free[column]] = 1;
+    springs.product(msm::grid::Clamp::no, rest, direction, image);
+    direction[free[column]] = 0;
+    for (std::size_t row = 0; row < free.size(); ++row)
+      tangent(Eigen::Index(row), Eigen::Index(column)) = image[free[row]];
+  }
+  const Eigen::VectorXd all = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tangent).eigenvalues();
+  return all[0] / all[all.size() - 1];
+}
+
+} // namespace
+
+TEST_CASE("what counting calls rigid is, and hinges, balls and too few supports are not called so") {
+  const auto at_wall = [](const Place& node) { return node[0] == 0; };
+  const auto everywhere = [](const Place&) { return true; };
+  const auto joined_at = [](const Place& second) { // to the cell 0, 0, 0
+    return [second](const Place& cell) { return cell == Place{0, 0, 0} || cell == second; };
+  };
+  const auto held_at = [](const std::vector<Place>& nodes) {
+    return [nodes](const Place& node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+  };
+  const Place a{0, 0, 0}, b{0, 0, 1}, on_line{0, 0, 3}, off_line{0, 1, 0};
+  const auto& [body, is_rigid] = GENERATE_COPY(table<msm::grid::Body, bool>(
+      {{body_of(everywhere, at_wall), true},
+       {body_of(joined_at({1, 0, 0}), at_wall), true},
+       {body_of(joined_at({1, 1, 0}), at_wall), false},        // a hinge
+       {body_of(joined_at({1, 1, 1}), at_wall), false},        // a ball
+       {body_of(joined_at({0, 1, 1}), at_wall), true},         // a hinge, and both are held
+       {body_of(everywhere, held_at({a, b, on_line})), false}, // it turns about the line
+       {body_of(everywhere, held_at({a, b, off_line})), true},
+       {body_of([](const Place& cell) { return (cell[0] + cell[1]) % 2 == 0 || cell[2] == 1; }, at_wall),
+        true}}));
+  CHECK(is_rigid_by_faces(body) == is_rigid);
+  CHECK((softest(body) > 1e-6) == is_rigid);
+}
+
+TEST_CASE("counting does not count on springs that are missing, negative or weak") {
+  const auto all = [](const Place&) { return true; };
+  msm::grid::Body body = body_of(all, [](const Place& node) { return node[2] == 0; });
+  REQUIRE(is_rigid_by_faces(body));
+  const double k = GENERATE(0.0, -1.0, 1e-4);
+  body.springs[7].internal_diagonal = k;
+  CHECK_FALSE(is_rigid_by_faces(body));
 }
