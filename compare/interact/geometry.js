@@ -17,6 +17,9 @@ class Surface {
     this.triangles = take(Uint32Array, 3 * n_triangles);
     this.spheres = take(Uint32Array, n_spheres);
     this.positions = Float32Array.from(this.rest);
+    this.normals = new Float32Array(3 * n_vertices);
+    this.drawn = this.triangles;
+    this.turn();
   }
   // Positions of the vertices for the nodes' displacement.
   move(displacement) {
@@ -33,12 +36,54 @@ class Surface {
       positions[v + 1] = y;
       positions[v + 2] = z;
     }
+    this.turn();
+  }
+  // Normals of the drawn triangles' vertices, weighted by areas; of any length, which the shader makes 1.
+  turn() {
+    const {positions, normals, drawn: triangles} = this;
+    normals.fill(0);
+    for (let t = 0; t < triangles.length; t += 3) {
+      const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+      const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1],
+            uz = positions[b + 2] - positions[a + 2];
+      const vx = positions[c] - positions[a], vy = positions[c + 1] - positions[a + 1],
+            vz = positions[c + 2] - positions[a + 2];
+      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      for (const at of [a, b, c]) {
+        normals[at] += x;
+        normals[at + 1] += y;
+        normals[at + 2] += z;
+      }
+    }
+  }
+  // Draws triangles between some of the vertices, one for each cube of this many along the longest axis: what is
+  // left of the surface where its vertices in a cube are one (Rossignac and Borrel 1993).
+  coarsen(n_cubes) {
+    const lower = [Infinity, Infinity, Infinity], upper = [-Infinity, -Infinity, -Infinity], rest = this.rest;
+    for (let v = 0; v < rest.length; ++v) {
+      lower[v % 3] = Math.min(lower[v % 3], rest[v]);
+      upper[v % 3] = Math.max(upper[v % 3], rest[v]);
+    }
+    const edge = Math.max(...upper.map((at, axis) => at - lower[axis])) / n_cubes;
+    const first = new Map(), stands_for = new Uint32Array(rest.length / 3);
+    for (let v = 0; v < stands_for.length; ++v) {
+      const cube = lower.map((from, axis) => Math.floor((rest[3 * v + axis] - from) / edge)).join();
+      if (!first.has(cube)) first.set(cube, v);
+      stands_for[v] = first.get(cube);
+    }
+    const left = [];
+    for (let t = 0; t < this.triangles.length; t += 3) {
+      const [a, b, c] = [0, 1, 2].map((corner) => stands_for[this.triangles[t + corner]]);
+      if (a !== b && b !== c && c !== a) left.push(a, b, c);
+    }
+    if (left.length < this.drawn.length) this.drawn = Uint32Array.from(left);
   }
   place(vertex) { return new THREE.Vector3().fromArray(this.positions, 3 * vertex); }
 }
 
 const frame_numbers = [
-  "time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "nodes"
+  "time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags",
+  "nodes"
 ];
 
 function read_frame(buffer) {

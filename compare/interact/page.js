@@ -13,13 +13,24 @@ const seen = {
   since: performance.now(),
   rate: 0,
   asked_at: 0,
-  latency_ms: 0,
-  bytes: 0
-}; // for the panel and for tests
+  answer_ms: 0,   // from a question to its frame
+  latency_ms: [], // from the pointer's move to the picture of a step that has it, of the last ones
+  bytes: 0,
+  resolution: 1,  // of the picture, as a part of the screen's
+  n_coarsened: 0  // how often it was made coarser
+};                // for the panel and for tests
+const least_between_ms = 10; // of questions, and of moves: the server cuts off who says more than 300 a second
+
+function is_drawn_by_processor() {
+  const gl = document.createElement("canvas").getContext("webgl");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  return !names || /swiftshader|llvmpipe|software/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
 
 class View {
   constructor() {
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true});
+    const antialias = (window.devicePixelRatio || 1) < 2 && !is_drawn_by_processor();
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true});
     this.renderer.setClearColor(0x000000, 0);
     this.scene = new THREE.Scene();
     this.geometry = new THREE.BufferGeometry();
@@ -27,7 +38,9 @@ class View {
     this.positions.setUsage(THREE.DynamicDrawUsage);
     this.geometry.setAttribute("position", this.positions);
     this.geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
-    this.geometry.computeVertexNormals();
+    this.normals = new THREE.BufferAttribute(surface.normals, 3);
+    this.normals.setUsage(THREE.DynamicDrawUsage);
+    this.geometry.setAttribute("normal", this.normals);
     this.mesh = new THREE.Mesh(
         this.geometry,
         new THREE.MeshPhongMaterial({color: 0xd89a8c, shininess: 25, side: THREE.DoubleSide}));
@@ -58,14 +71,30 @@ class View {
     this.controls.update();
   }
   moved() {
-    this.positions.needsUpdate = true;
-    this.geometry.computeVertexNormals();
+    this.positions.needsUpdate = this.normals.needsUpdate = true;
     this.geometry.boundingSphere = null;
+  }
+  draw_less() { // fewer pixels, light at the vertices alone, coarser triangles: where a processor draws
+    const cubes = [56, 40, 28][seen.n_coarsened];
+    if (cubes === undefined) return;
+    ++seen.n_coarsened;
+    seen.resolution *= 0.8;
+    this.mesh.material = new THREE.MeshLambertMaterial({color: 0xd89a8c, side: THREE.DoubleSide});
+    surface.coarsen(cubes);
+    this.geometry.setIndex(new THREE.BufferAttribute(surface.drawn, 1));
+  }
+  wait_for_picture() { // a pixel is read when all are drawn
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
   draw() {
     const width = canvas.clientWidth, height = canvas.clientHeight;
-    this.renderer.setPixelRatio(window.devicePixelRatio || 1);
-    this.renderer.setSize(width, height, false);
+    const size = `${width} ${height} ${seen.resolution}`;
+    if (size !== this.drawn_size) { // it clears the picture
+      this.renderer.setPixelRatio((window.devicePixelRatio || 1) * seen.resolution);
+      this.renderer.setSize(width, height, false);
+      this.drawn_size = size;
+    }
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
     this.renderer.render(this.scene, this.camera);
@@ -84,7 +113,11 @@ const pull = {
   plane: null,
   from: null,
   by: null,
-  held_from: null
+  held_from: null,
+  is_new: false, // the last move is not sent yet
+  sent_at: 0,
+  n_sent: 0,  // drags, after those that the simulation had when the page was loaded
+  moved_at: [] // when the pointer moved, of the drags that no picture shows yet
 };
 
 function begin_pull(event) {
@@ -105,7 +138,18 @@ function go_on(event) {
   const place = view.ray(event).ray.intersectPlane(pull.plane, new THREE.Vector3());
   if (!place) return;
   pull.by = place.sub(pull.from);
-  pull.is_new = true; // sent once a picture: a mouse moves more often
+  if (!pull.is_new) pull.newest_at = event.timeStamp;
+  pull.is_new = true;
+  send_drag();
+}
+function send_drag() { // a mouse may move more often
+  const now = performance.now();
+  if (!pull.plane || !pull.is_new || now - pull.sent_at < least_between_ms) return;
+  send({type: "drag", by: pull.by.toArray()});
+  pull.is_new = false;
+  pull.sent_at = now;
+  ++pull.n_sent;
+  pull.moved_at.push(pull.newest_at);
 }
 function end_pull() {
   if (!pull.plane) return;
@@ -121,10 +165,7 @@ document.getElementById("restart").addEventListener("click", () => send({type: "
 
 function ask() {
   seen.asked_at = performance.now();
-  if (pull.plane && pull.is_new) {
-    send({type: "drag", by: pull.by.toArray()});
-    pull.is_new = false;
-  }
+  send_drag();
   send({type: "frame"});
 }
 
@@ -149,14 +190,27 @@ function show_frame() {
     seen.rate = 1000 * (seen.frames - (seen.counted || 0)) / (now - seen.since);
     seen.counted = seen.frames;
     seen.since = now;
+    if (seen.rate < 30) view.draw_less();
     show_numbers();
   }
+}
+
+function draw_newest() {
+  view.is_due = false;
+  if (view.asks_later) ask();
+  view.asks_later = false;
+  show_frame();
+  const n_shown = pull.moved_at.length - (pull.n_sent - (frame.drags - seen.drags_before));
+  if (n_shown > 0) view.wait_for_picture();
+  for (const moved_at of pull.moved_at.splice(0, Math.max(0, n_shown)))
+    seen.latency_ms.push(performance.now() - moved_at);
+  if (seen.latency_ms.length > 500) seen.latency_ms.splice(0, seen.latency_ms.length - 500);
 }
 
 function show_numbers() {
   const rows = [
     [ "masses", description.masses ], [ "unknowns", description.unknowns ],
-    [ "triangles", description.triangles ],
+    [ "triangles", description.triangles ], [ "drawn", surface.drawn.length / 3 ],
     [ "time step", `${+ (1000 * description.step_s).toPrecision(4)} ms` ],
     [ "a step takes (median)", `${frame.median_ms.toFixed(3)} ms` ],
     [ "99 % of steps below", `${frame.p99_ms.toFixed(3)} ms` ],
@@ -189,12 +243,15 @@ socket.addEventListener("message", (event) => {
     ask();
   } else {
     seen.bytes = event.data.byteLength;
-    seen.latency_ms = performance.now() - seen.asked_at;
+    seen.answer_ms = performance.now() - seen.asked_at;
     frame = read_frame(event.data);
-    requestAnimationFrame(() => {
-      show_frame();
-      ask();
-    });
+    seen.drags_before ??= frame.drags;
+    if (performance.now() - seen.asked_at >= least_between_ms)
+      ask(); // the next one is made while this one is drawn
+    else
+      view.asks_later = true;
+    if (!view.is_due) requestAnimationFrame(draw_newest);
+    view.is_due = true;
   }
 });
 socket.addEventListener("close", () => {

@@ -70,6 +70,7 @@ void Simulation::send(const PageMessage& message) {
     is_frame_asked_for_ = true;
     return;
   }
+  if (std::holds_alternative<Drag>(message)) ++n_drags_;
   const bool replaces =
       !messages_.empty() && messages_.back().index() == message.index(); // the last one of a kind counts
   if (replaces)
@@ -139,6 +140,7 @@ void Simulation::run() {
       if (is_stopped_) return;
       messages.swap(messages_);
       messages_.clear();
+      n_drags_taken_ = n_drags_;
     }
     take(messages);
     messages.clear();
@@ -208,6 +210,7 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   static_cast<double>(body_.held().value_or(-1)),
                                                   body_.force().norm(),
                                                   static_cast<double>(body_.n_failures()),
+                                                  static_cast<double>(n_drags_taken_),
                                                   static_cast<double>(carrying_.size())};
   bytes->reserve(8 * frame_numbers + 12 * carrying_.size());
   for (const double number : numbers) append<double>(*bytes, number);

@@ -55,7 +55,7 @@ class Simulation {
   bool is_recording_full() const { return recording_.size() == most_recorded; }
   const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
 
-  static constexpr std::size_t frame_numbers = 10; ///< float64 at the beginning of a frame
+  static constexpr std::size_t frame_numbers = 11; ///< float64 at the beginning of a frame
   static constexpr std::size_t most_recorded = 2'000'000;
 
  private:
@@ -70,8 +70,10 @@ class Simulation {
   std::vector<PageMessage> messages_; ///< since the last step; at most one Drag in a row
   bool is_running_ = false, is_stopped_ = false;
   bool is_frame_asked_for_ = false;
+  long n_drags_ = 0; ///< that were sent, those that later ones replaced too
   std::thread thread_;
 
+  long n_drags_taken_ = 0;      ///< before the last step
   std::vector<double> step_ms_; ///< of the last steps, a ring
   SimulationSummary summary_;
   std::vector<RecordedPull> recording_;

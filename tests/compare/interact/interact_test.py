@@ -66,10 +66,10 @@ class Controller(WebSocket):
         self.say(type="frame")
         opcode, content = self.receive()
         assert opcode == 2, (opcode, content)
-        names = ("time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "nodes")
+        names = ("time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags", "nodes")
         numbers = dict(zip(names, struct.unpack_from("<10d", content)))
-        assert len(content) == 80 + 12 * self.n_nodes
-        numbers["displacement"] = struct.unpack_from(f"<{3 * self.n_nodes}f", content, 80)
+        assert len(content) == 88 + 12 * self.n_nodes
+        numbers["displacement"] = struct.unpack_from(f"<{3 * self.n_nodes}f", content, 88)
         assert all(map(math.isfinite, numbers["displacement"]))
         return numbers
 
@@ -177,7 +177,7 @@ def check_malformed(program, count):
             assert code in (POLICY, 1002, 1007, 1009), (message, code)
         else:
             assert opcode == 2, (message, opcode)
-            numbers = struct.unpack_from("<10d", content)
+            numbers = struct.unpack_from("<11d", content)
             assert all(map(math.isfinite, numbers)) and numbers[1] > steps, (message, numbers)
             steps = numbers[1]
         page.close()
@@ -233,8 +233,11 @@ def check_browser(springproof, case, folder):
         for where, kind in ((700, "mousePressed"), (760, "mouseMoved"), (760, "mouseReleased")):
             page.mouse(kind, where, 700, buttons=0 if kind == "mouseReleased" else 1)
         page.wait_until("Math.abs(view.camera.position.x - " + str(eye[0]) + ") > 1e-3")
-        numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
-        assert numbers["rows"] == 10, numbers
+        numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, answer: seen.answer_ms, resolution: seen.resolution, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
+        assert numbers["rows"] == 11, numbers
+        latency = sorted(numbers.pop("latency"))
+        assert latency and all(0 < value < 30000 for value in latency), latency
+        numbers["latency_median_ms"] = latency[len(latency) // 2]
         problems = [problem for problem in page.problems() if "favicon" not in str(problem)]
         assert problems == [], problems
         page.close()
