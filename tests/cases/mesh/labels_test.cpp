@@ -369,7 +369,8 @@ TEST_CASE("a piece of a labelled body is removed and the cut joined where its ri
   const TemporaryFolder folder;
   std::string header = nrrd("", "12 3 5"), voxels; // bone 1 mm high under 4 mm of fat
   header.replace(header.find("1 2 3"), 5, "1 1 1");
-  for (int v = 0; v < 12 * 3 * 5; ++v) voxels += {v < 12 * 3 ? 100 : 50, 0};
+  for (int v = 0; v < 12 * 3 * 5; ++v)
+    (voxels += v < 12 * 3 ? '\x64' : '\x32') += '\0'; // 100 and 50, of 16 bits
   Case definition;
   definition.body = bone_and_fat(1, folder.write("a.nrrd", header + voxels));
   Removed piece;
