@@ -76,7 +76,8 @@ class Surface {
       const [a, b, c] = [0, 1, 2].map((corner) => stands_for[this.triangles[t + corner]]);
       if (a !== b && b !== c && c !== a) left.push(a, b, c);
     }
-    if (left.length < this.drawn.length) this.drawn = Uint32Array.from(left);
+    // Few triangles cost little, and a surface thinner than a cube would vanish.
+    if (left.length < this.drawn.length && left.length >= 3 * 1000) this.drawn = Uint32Array.from(left);
   }
   place(vertex) { return new THREE.Vector3().fromArray(this.positions, 3 * vertex); }
 }

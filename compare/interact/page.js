@@ -17,6 +17,7 @@ const seen = {
   latency_ms: [], // from the pointer's move to the picture of a step that has it, of the last ones
   bytes: 0,
   resolution: 1,  // of the picture, as a part of the screen's
+  n_late: 0,      // frames that came before the last one was drawn, since the last count
   n_coarsened: 0  // how often it was made coarser
 };                // for the panel and for tests
 const least_between_ms = 10; // of questions, and of moves: the server cuts off who says more than 300 a second
@@ -187,10 +188,13 @@ function show_frame() {
   ++seen.frames;
   const now = performance.now();
   if (now - seen.since > 500) {
-    seen.rate = 1000 * (seen.frames - (seen.counted || 0)) / (now - seen.since);
+    const n_drawn = seen.frames - (seen.counted || 0);
+    seen.rate = 1000 * n_drawn / (now - seen.since);
     seen.counted = seen.frames;
     seen.since = now;
-    if (seen.rate < 30) view.draw_less();
+    // Slow steps bring few frames, and a page in the background draws none: neither is for want of a processor.
+    if (seen.rate < 30 && seen.n_late > 0.25 * n_drawn && !document.hidden) view.draw_less();
+    seen.n_late = 0;
     show_numbers();
   }
 }
@@ -250,7 +254,10 @@ socket.addEventListener("message", (event) => {
       ask(); // the next one is made while this one is drawn
     else
       view.asks_later = true;
-    if (!view.is_due) requestAnimationFrame(draw_newest);
+    if (view.is_due)
+      ++seen.n_late;
+    else
+      requestAnimationFrame(draw_newest);
     view.is_due = true;
   }
 });

@@ -17,6 +17,8 @@ namespace {
 
 #include "msm/grid/kernels_laws.hpp"
 
+#include "msm/grid/kernels_stiffness.hpp"
+
 #include "msm/grid/kernels_springs.hpp"
 
 #include "msm/grid/kernels_cells.hpp"

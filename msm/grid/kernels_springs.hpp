@@ -1,21 +1,6 @@
 // Part of kernels_source.hpp, in its namespace: the springs, a pack of nodes at a time.
 #pragma once
 
-/// A spring's stiffness along the nodes of plane k: `share` times `scale`.
-template<class Real>
-struct Share {
-  const Real* share;
-  Real scale;
-};
-
-template<class Real>
-SPRINGPROOF_INLINE Share<Real> spring_share(const Springs<Real>& s, int spring, int k) {
-  const std::ptrdiff_t plane = s.layout.plane;
-  if (s.by_node) return {s.by_node + (n_springs * k + spring) * plane, s.stiffness[spring]};
-  const auto& [dx, dy, dz] = spring_steps[spring];
-  return {s.share + (3 * (dy + 1) + dx + 1) * plane, s.stiffness[spring] * s.share_z[3 * k + dz + 1]};
-}
-
 /// From a node to its neighbours along x, y and z at rest: springs 12, 10 and 4.
 template<class Real>
 SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
@@ -96,9 +81,6 @@ template<class Action>
 constexpr std::ptrdiff_t sums_at = Action::needs_direction ? 18 : 9;
 constexpr std::ptrdiff_t direction_at = 9;
 
-// The stiffnesses of a row's springs: for every pack of nodes k of the 13 springs, 0 beyond the row's end.
-constexpr std::ptrdiff_t stiffness_packs = n_springs;
-
 /// Three packs one after the other.
 template<class Real>
 SPRINGPROOF_INLINE Vec<Pack<Real>> load_three(const Real* from) {
@@ -121,71 +103,6 @@ template<class Action, class Real>
 SPRINGPROOF_INLINE void clear_sums(Real* row, std::ptrdiff_t n) {
   for (std::ptrdiff_t p = 0; p < n; ++p)
     clear_packs(row + (p * node_packs<Action> + sums_at<Action>)*pack_size<Real>, 9);
-}
-
-/// The packs of a row that a sweep works on.
-struct Tile {
-  std::ptrdiff_t first, n; ///< packs
-  bool is_last;            ///< nothing of the row follows
-};
-
-template<class Real>
-void fill_stiffness(const Springs<Real>& s, const Tile& t, int k, int j, Real* to) {
-  using P = Pack<Real>;
-  constexpr std::ptrdiff_t lanes = pack_size<Real>;
-  for (std::ptrdiff_t p = 0; p < t.n; ++p) {
-    const std::ptrdiff_t i = (t.first + p) * lanes, n_left = s.layout.nodes[0] - i;
-    for (int spring = 0; spring < n_springs; ++spring) {
-      const Share<Real> share = spring_share(s, spring, k);
-      P stiffness = share.scale * load(share.share + j * s.layout.row + i);
-      if (n_left < lanes) stiffness = first_of(n_left, stiffness, P{});
-      store(to + (p * stiffness_packs + spring) * lanes, stiffness);
-    }
-  }
-}
-
-template<class Real>
-std::ptrdiff_t packs_of_row(const Layout& layout) {
-  return (layout.nodes[0] + pack_size<Real> - 1) / pack_size<Real>;
-}
-
-/// Where the stiffnesses of a row by node begin, in whole rows one after the other.
-template<class Real>
-SPRINGPROOF_INLINE std::ptrdiff_t packed_row(const Layout& layout, int k, int j) {
-  return (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout) * stiffness_packs *
-         pack_size<Real>;
-}
-
-/// What there is of a row's packs, of what there is of all packs row by row.
-template<class Real, class T>
-SPRINGPROOF_INLINE T* of_packs(const Layout& layout, T* all, int k, int j) {
-  return all + (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout);
-}
-
-template<class Real>
-void pack_stiffness(const Springs<Real>& s, Real* to, unsigned char* use) {
-  const Layout& layout = s.layout;
-  const std::ptrdiff_t n_packs = packs_of_row<Real>(layout),
-                       n_stiffnesses = stiffness_packs * pack_size<Real>;
-  for (std::ptrdiff_t p = 0; p < pack_use_size(layout); ++p) use[p] = 0;
-  const auto meets = [&](int k, int j, std::ptrdiff_t p) {
-    if (k < layout.nodes[2] && j >= 0 && j < layout.nodes[1])
-      of_packs<Real>(layout, use, k, j)[p] |= meets_springs;
-  };
-  for (int k = 0; k < layout.nodes[2]; ++k)
-    for (int j = 0; j < layout.nodes[1]; ++j) {
-      Real* const row = to + packed_row<Real>(layout, k, j);
-      fill_stiffness(s, {0, n_packs, true}, k, j, row);
-      for (std::ptrdiff_t p = 0; p < n_packs; ++p) {
-        bool any = false;
-        for (std::ptrdiff_t i = 0; i < n_stiffnesses; ++i) any = any || row[p * n_stiffnesses + i] != 0;
-        if (!any) continue;
-        of_packs<Real>(layout, use, k, j)[p] |= sends_springs;
-        meets(k, j, p);
-        meets(k, j + 1, p);
-        for (int side = -1; side <= 1; ++side) meets(k + 1, j + side, p);
-      }
-    }
 }
 
 /// One vector field along a row into the scratch; h is what lies between neighbours. Packs that meet no

@@ -1,30 +1,14 @@
 #include "msm/grid/rigidity.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/pieces.hpp"
 
 #include <Eigen/Geometry>
-#include <numeric>
-#include <unordered_map>
 
 namespace springproof::msm::grid {
 
 namespace {
 
 using cases::index;
-
-/// Sets of cells that are one piece (Tarjan 1975).
-class Pieces {
- public:
-  explicit Pieces(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t of(std::size_t cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Held points of a piece, as far as they are needed: three that are not on a line.
 struct Held {
@@ -56,23 +40,19 @@ bool has_all_springs(const Body& body) {
 
 bool is_rigid_by_faces(const Body& body) {
   if (body.part || !has_all_springs(body)) return false;
-  const auto number = [&](int i, int j, int k) {
-    return index(i + body.cells[0] * (j + std::ptrdiff_t{body.cells[1]} * k));
-  };
-  const auto has = [&](int i, int j, int k) { return !body.cell(i, j, k).is_empty(); };
-  Pieces pieces(index(body.cells[0]) * index(body.cells[1]) * index(body.cells[2]));
+  cases::Grid grid;
+  grid.cells = body.cells;
+  for_each_place(body.cells,
+                 [&](int i, int j, int k) { grid.present.push_back(!body.cell(i, j, k).is_empty()); });
+  const cases::Pieces pieces = cases::pieces_of(grid);
   std::vector<bool> is_constrained(index(3 * body.layout.size));
   for (const std::ptrdiff_t entry : body.constrained) is_constrained[index(entry)] = true;
+  std::vector<Held> held(pieces.sizes.size());
+  std::size_t cell = 0;
   for_each_place(body.cells, [&](int i, int j, int k) {
-    if (!has(i, j, k)) return;
-    if (has(i - 1, j, k)) pieces.join(number(i, j, k), number(i - 1, j, k));
-    if (has(i, j - 1, k)) pieces.join(number(i, j, k), number(i, j - 1, k));
-    if (has(i, j, k - 1)) pieces.join(number(i, j, k), number(i, j, k - 1));
-  });
-  std::unordered_map<std::size_t, Held> held; // of every piece
-  for_each_place(body.cells, [&](int i, int j, int k) {
-    if (!has(i, j, k)) return;
-    Held& of_piece = held[pieces.of(number(i, j, k))];
+    const int piece_of_cell = pieces.piece_of_cell[cell++];
+    if (piece_of_cell < 0) return;
+    Held& of_piece = held[index(piece_of_cell)];
     for (int v = 0; v < 8 && of_piece.n < 3; ++v) {
       const Eigen::Vector3i node(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2));
       bool is_held = true;
@@ -81,7 +61,7 @@ bool is_rigid_by_faces(const Body& body) {
       if (is_held) of_piece.add(node);
     }
   });
-  return std::all_of(held.begin(), held.end(), [](const auto& of_piece) { return of_piece.second.n == 3; });
+  return std::all_of(held.begin(), held.end(), [](const Held& of_piece) { return of_piece.n == 3; });
 }
 
 } // namespace springproof::msm::grid

@@ -163,11 +163,11 @@ msm::grid::Body body_of(const std::function<bool(const Place&)>& has_cell,
   return body;
 }
 
-/// Lowest eigenvalue of the tangent at rest over the largest one.
-double softest(const msm::grid::Body& body) {
+/// Lowest eigenvalue of the tangent over the largest one.
+double softest(const msm::grid::Body& body, const msm::grid::Field<double>& displacement) {
   const msm::grid::SpringField<double> springs(body, 1);
-  const msm::grid::Field<double> rest = msm::grid::Field<double>::Zero(3 * body.layout.size);
-  msm::grid::Field<double> direction = rest, image = rest;
+  msm::grid::Field<double> direction = msm::grid::Field<double>::Zero(3 * body.layout.size),
+                           image = direction;
   std::vector<std::ptrdiff_t> free;
   msm::grid::for_each_place(body.layout.nodes, [&](int i, int j, int k) {
     for (int c = 0; c < 3; ++c)
@@ -178,7 +178,7 @@ double softest(const msm::grid::Body& body) {
   Eigen::MatrixXd tangent(free.size(), free.size());
   for (std::size_t column = 0; column < free.size(); ++column) {
     direction[free[column]] = 1;
-    springs.product(msm::grid::Clamp::no, rest, direction, image);
+    springs.product(msm::grid::Clamp::no, displacement, direction, image);
     direction[free[column]] = 0;
     for (std::size_t row = 0; row < free.size(); ++row)
       tangent(Eigen::Index(row), Eigen::Index(column)) = image[free[row]];
@@ -210,7 +210,7 @@ TEST_CASE("what counting calls rigid is, and hinges, balls and too few supports 
        {body_of([](const Place& cell) { return (cell[0] + cell[1]) % 2 == 0 || cell[2] == 1; }, at_wall),
         true}}));
   CHECK(is_rigid_by_faces(body) == is_rigid);
-  CHECK((softest(body) > 1e-6) == is_rigid);
+  CHECK((softest(body, msm::grid::Field<double>::Zero(3 * body.layout.size)) > 1e-6) == is_rigid);
 }
 
 TEST_CASE("counting does not count on springs that are missing, negative or weak") {
@@ -220,4 +220,31 @@ TEST_CASE("counting does not count on springs that are missing, negative or weak
   const double k = GENERATE(0.0, -1.0, 1e-4);
   body.springs[7].internal_diagonal = k;
   CHECK_FALSE(is_rigid_by_faces(body));
+}
+
+TEST_CASE("conjugate gradients tell a stable tangent from an unstable one as its eigenvalues do") {
+  const bool has_gap = GENERATE(true, false);
+  msm::grid::GridProblem problem;
+  problem.body = body_of([&](const Place& cell) { return !has_gap || cell[1] != 1 || cell[0] == 0; },
+                         [](const Place& node) { return node[0] == 0; });
+  msm::grid::Field<double>& load = problem.load =
+      msm::grid::Field<double>::Zero(3 * problem.body.layout.size);
+  problem.n_unknowns = std::size_t(load.size()) - problem.body.constrained.size();
+  int n_stable = 0, n_unstable = 0;
+  for (int tenth = -3; tenth <= 6; ++tenth) { // stretched, pressed together
+    msm::grid::Field<double> displacement =
+        0.02 * msm::grid::random_field<double>(problem.body, 7, std::normal_distribution<double>());
+    for (const std::ptrdiff_t entry : problem.body.constrained) displacement[entry] = 0;
+    msm::grid::for_each_place(problem.body.layout.nodes, [&](int i, int j, int k) {
+      if (i > 0 && has_cell(problem.body, i, j, k))
+        displacement[problem.body.layout.at(i, j, k)] -= 0.1 * tenth * i;
+    });
+    const double lowest = softest(problem.body, displacement);
+    INFO("lowest eigenvalue " << lowest << " of the largest");
+    REQUIRE(std::abs(lowest) > 1e-6); // neither is near
+    ++(lowest > 0 ? n_stable : n_unstable);
+    CHECK(msm::grid::make_grid_system(problem, 1)->is_stable(displacement) == (lowest > 0));
+  }
+  CHECK(n_stable > 2);
+  CHECK(n_unstable > 2);
 }

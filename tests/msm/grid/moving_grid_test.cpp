@@ -58,9 +58,7 @@ TEST_CASE("motions on a grid are those of the direct path: every scheme, both da
 
 TEST_CASE("motions on a grid are those of the direct path: several materials", "[verification]") {
   cases::Scene scene = block(steps(cases::Scheme::newmark, 0.005, 0.05), {1000., 0, 0.001});
-  cases::RegionMaterial other;
-  other.dynamics = {3000., 8, 0};
-  scene.definition.region_materials.push_back(other);
+  scene.definition.region_materials.emplace_back().dynamics = {3000., 8, 0};
   std::vector<msm::CellStiffness> cells;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
     scene.material_of_cell.push_back(c % 3 == 0 ? 1 : 0);
