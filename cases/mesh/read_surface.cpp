@@ -45,4 +45,13 @@ TriangleMesh contour(const Picture& picture, const ContourSettings& settings) {
                                                   limits_to_read(per_value * picture.values.size()))));
 }
 
+TriangleMesh decimated(const TriangleMesh& surface, std::size_t n_triangles) {
+  constexpr std::uint64_t per_triangle = 50; // bytes of a file with as much work
+  Limits limits = limits_to_read(per_triangle * surface.triangles.size());
+  limits.seconds = 20;
+  const auto& functions = vtk(); // loaded before the child is confined
+  return with_triangles(surface_from(
+      run_confined([&] { return bytes_of(functions.decimated(surface, n_triangles)); }, limits)));
+}
+
 } // namespace springproof::cases

@@ -15,4 +15,8 @@ TriangleMesh read_surface(const std::string& path);
 /// @throws std::runtime_error if there is none; if the sizes of the picture are not as many as its values
 TriangleMesh contour(const Picture& picture, const ContourSettings& settings);
 
+/// A surface in about so many triangles, where it has more, by quadric decimation, in 20 s or not at all.
+/// @throws std::runtime_error with VTK's message; if it takes longer, or no triangle is left
+TriangleMesh decimated(const TriangleMesh& surface, std::size_t n_triangles);
+
 } // namespace springproof::cases

@@ -96,7 +96,8 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 } // namespace
 
 extern "C" const VtkFunctions springproof_vtk{
-    write_unstructured_grid, write_lines,   read_points,  read_cells,       read_triangles,
-    nearest_points,          read_volume,   read_polygons, contour_of,  nearest_in_cells};
+    write_unstructured_grid, write_lines, read_points,   read_cells, read_triangles,
+    nearest_points,          read_volume, read_polygons, contour_of, nearest_in_cells,
+    decimated_surface};
 
 } // namespace springproof::cases

@@ -67,6 +67,8 @@ struct VtkFunctions {
   /// Of each position.  @param mesh  with at least one cell
   std::vector<PlaceInCell> (*nearest_in_cells)(const HexMesh& mesh,
                                                const std::vector<Eigen::Vector3d>& positions);
+  /// cases::decimated()
+  Surface (*decimated)(const TriangleMesh&, std::size_t n_triangles);
 };
 
 /// The symbol by which vtk() finds them.

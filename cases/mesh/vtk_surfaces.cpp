@@ -12,6 +12,7 @@
 #include <vtkGenericCell.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataConnectivityFilter.h>
 #include <vtkQuadricDecimation.h>
@@ -71,6 +72,19 @@ vtkNew<vtkImageData> with_border(const Picture& picture, double level) {
   return image;
 }
 
+/// The surface in about so many triangles, where it has more.
+vtkSmartPointer<vtkPolyData> with_fewer_triangles(vtkPolyData& surface, std::size_t n_triangles) {
+  const auto has = static_cast<double>(surface.GetNumberOfPolys()), wanted = static_cast<double>(n_triangles);
+  if (!(wanted < has)) return &surface;
+  const vtkNew<vtkQuadricDecimation> decimation;
+  decimation->SetInputData(&surface);
+  decimation->SetTargetReduction(1 - wanted / has);
+  decimation->VolumePreservationOn();
+  decimation->SetAttributeErrorMetric(surface.GetPointData()->GetVectors() != nullptr);
+  run(*decimation);
+  return decimation->GetOutput();
+}
+
 double enclosed_volume(const Surface& surface) {
   double volume = 0;
   for (const auto& [a, b, c] : surface) volume += a.dot(b.cross(c)) / 6;
@@ -120,19 +134,34 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
     run(*smooth);
     surface = smooth->GetOutput();
   }
-  const auto n_triangles = static_cast<double>(surface->GetNumberOfPolys());
-  if (const auto wanted = static_cast<double>(settings.n_triangles); wanted > 0 && wanted < n_triangles) {
-    const vtkNew<vtkQuadricDecimation> decimation;
-    decimation->SetInputData(surface);
-    decimation->SetTargetReduction(1 - wanted / n_triangles);
-    decimation->VolumePreservationOn();
-    run(*decimation);
-    surface = decimation->GetOutput();
-  }
+  if (settings.n_triangles > 0) surface = with_fewer_triangles(*surface, settings.n_triangles);
   Surface triangles = triangles_of(*surface);
   if (enclosed_volume(triangles) < 0)
     for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
   return triangles;
+}
+
+Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) {
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  // Where a flat face bends it needs triangles too: a field of the vertices that bends everywhere, and that the
+  // triangles left must interpolate.
+  const vtkNew<vtkFloatArray> bent;
+  bent->SetNumberOfComponents(3);
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+  for (const Vector3d& vertex : surface.vertices) {
+    points->InsertNextPoint(vertex.data());
+    const Vector3d from_centre = vertex - box.center();
+    bent->InsertNextTuple(Vector3d(from_centre.cwiseAbs2() / box.diagonal().norm()).data());
+  }
+  const vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : surface.triangles) triangles->InsertNextCell({a, b, c});
+  const vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  data->GetPointData()->SetVectors(bent);
+  return triangles_of(*with_fewer_triangles(*data, n_triangles));
 }
 
 std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector<Vector3d>& positions) {

@@ -1,6 +1,6 @@
 "use strict";
 
-const canvas = document.getElementById("view"), state_line = document.getElementById("state");
+const stage = document.getElementById("view"), canvas = stage.firstChild, state_line = document.getElementById("state");
 const socket = new WebSocket(socket_address);
 socket.binaryType = "arraybuffer";
 const send = (message) => {
@@ -10,104 +10,16 @@ const send = (message) => {
 let description = null, surface = null, frame = null, view = null;
 const seen = {
   frames: 0,
+  pictures: 0, // of the frames, those that were drawn: one that looks like the last is not
   since: performance.now(),
-  rate: 0,
+  rate: 0, // pictures a second
   asked_at: 0,
   answer_ms: 0,   // from a question to its frame
   latency_ms: [], // from the pointer's move to the picture of a step that has it, of the last ones
-  bytes: 0,
-  resolution: 1,  // of the picture, as a part of the screen's
-  n_late: 0,      // frames that came before the last one was drawn, since the last count
-  n_coarsened: 0  // how often it was made coarser
+  on_page_ms: [], // the same to the page's next refresh, which shows the picture
+  bytes: 0
 };                // for the panel and for tests
 const least_between_ms = 10; // of questions, and of moves: the server cuts off who says more than 300 a second
-
-function is_drawn_by_processor() {
-  const gl = document.createElement("canvas").getContext("webgl");
-  const names = gl?.getExtension("WEBGL_debug_renderer_info");
-  return !names || /swiftshader|llvmpipe|software/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
-}
-
-class View {
-  constructor() {
-    const antialias = (window.devicePixelRatio || 1) < 2 && !is_drawn_by_processor();
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true});
-    this.renderer.setClearColor(0x000000, 0);
-    this.scene = new THREE.Scene();
-    this.geometry = new THREE.BufferGeometry();
-    this.positions = new THREE.BufferAttribute(surface.positions, 3);
-    this.positions.setUsage(THREE.DynamicDrawUsage);
-    this.geometry.setAttribute("position", this.positions);
-    this.geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
-    this.normals = new THREE.BufferAttribute(surface.normals, 3);
-    this.normals.setUsage(THREE.DynamicDrawUsage);
-    this.geometry.setAttribute("normal", this.normals);
-    this.mesh = new THREE.Mesh(
-        this.geometry,
-        new THREE.MeshPhongMaterial({color: 0xd89a8c, shininess: 25, side: THREE.DoubleSide}));
-    this.mesh.frustumCulled = false; // its vertices move under the sphere that would be asked
-    this.spring = new THREE.Line(new THREE.BufferGeometry().setAttribute(
-                                     "position", new THREE.BufferAttribute(new Float32Array(6), 3)),
-                                 new THREE.LineBasicMaterial({color: 0x00639c}));
-    this.spring.frustumCulled = this.spring.visible = false;
-    this.handle = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12),
-                                 new THREE.MeshBasicMaterial({color: 0x00639c}));
-    this.handle.visible = false;
-    this.camera = new THREE.PerspectiveCamera(35, 1, 1, 1000);
-    this.camera.up.set(0, 0, 1);
-    const light = new THREE.DirectionalLight(0xffffff, 0.75);
-    light.position.set(0.5, 1, 0.8);
-    this.camera.add(light);
-    this.scene.add(this.mesh, this.spring, this.handle, this.camera,
-                   new THREE.HemisphereLight(0xffffff, 0x777788, 0.55));
-    const ball =
-        new THREE.Box3().setFromBufferAttribute(this.positions).getBoundingSphere(new THREE.Sphere());
-    this.size = ball.radius || 1;
-    this.handle.scale.setScalar(0.015 * this.size);
-    this.camera.position.copy(ball.center)
-        .addScaledVector(new THREE.Vector3(0.5, -0.9, 0.45).normalize(), 4.2 * this.size);
-    Object.assign(this.camera, {near: 0.01 * this.size, far: 100 * this.size});
-    this.controls = new THREE.OrbitControls(this.camera, canvas);
-    this.controls.target.copy(ball.center);
-    this.controls.update();
-  }
-  moved() {
-    this.positions.needsUpdate = this.normals.needsUpdate = true;
-    this.geometry.boundingSphere = null;
-  }
-  draw_less() { // fewer pixels, light at the vertices alone, coarser triangles: where a processor draws
-    const cubes = [56, 40, 28][seen.n_coarsened];
-    if (cubes === undefined) return;
-    ++seen.n_coarsened;
-    seen.resolution *= 0.8;
-    this.mesh.material = new THREE.MeshLambertMaterial({color: 0xd89a8c, side: THREE.DoubleSide});
-    surface.coarsen(cubes);
-    this.geometry.setIndex(new THREE.BufferAttribute(surface.drawn, 1));
-  }
-  wait_for_picture() { // a pixel is read when all are drawn
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-  }
-  draw() {
-    const width = canvas.clientWidth, height = canvas.clientHeight;
-    const size = `${width} ${height} ${seen.resolution}`;
-    if (size !== this.drawn_size) { // it clears the picture
-      this.renderer.setPixelRatio((window.devicePixelRatio || 1) * seen.resolution);
-      this.renderer.setSize(width, height, false);
-      this.drawn_size = size;
-    }
-    this.camera.aspect = width / Math.max(1, height);
-    this.camera.updateProjectionMatrix();
-    this.renderer.render(this.scene, this.camera);
-  }
-  ray(event) {
-    const box = canvas.getBoundingClientRect(), caster = new THREE.Raycaster();
-    caster.setFromCamera(new THREE.Vector2(2 * (event.clientX - box.left) / box.width - 1,
-                                           1 - 2 * (event.clientY - box.top) / box.height),
-                         this.camera);
-    return caster;
-  }
-}
 
 // A pull goes in the plane of the screen through the place where it began.
 const pull = {
@@ -123,10 +35,10 @@ const pull = {
 
 function begin_pull(event) {
   if (!view || event.button !== 0) return;
-  const caster = view.ray(event), hit = caster.intersectObject(view.mesh)[0];
+  const caster = view.ray(event), hit = caster.intersectObject(view.drawn.mesh)[0];
   if (!hit) return; // the controls turn the body
   view.controls.enabled = false;
-  canvas.setPointerCapture(event.pointerId);
+  stage.setPointerCapture(event.pointerId);
   pull.plane = new THREE.Plane().setFromNormalAndCoplanarPoint(
       view.camera.getWorldDirection(new THREE.Vector3()), hit.point);
   pull.from = hit.point.clone();
@@ -158,10 +70,11 @@ function end_pull() {
   view.controls.enabled = true;
   send({type: "release"});
 }
-canvas.addEventListener("pointerdown", begin_pull, true); // before the controls
-canvas.addEventListener("pointermove", go_on);
-canvas.addEventListener("pointerup", end_pull);
-canvas.addEventListener("pointercancel", end_pull);
+stage.addEventListener("pointerdown", begin_pull, true); // before the controls
+// The raw moves do not wait for the next picture, where a browser has them.
+stage.addEventListener("onpointerrawupdate" in stage ? "pointerrawupdate" : "pointermove", go_on);
+stage.addEventListener("pointerup", end_pull);
+stage.addEventListener("pointercancel", end_pull);
 document.getElementById("restart").addEventListener("click", () => send({type: "restart"}));
 
 function ask() {
@@ -170,63 +83,50 @@ function ask() {
   send({type: "frame"});
 }
 
-function show_frame() {
-  surface.move(frame.displacement);
-  view.moved();
-  const is_held = frame.held >= 0 && pull.plane !== null;
-  view.spring.visible = view.handle.visible = is_held;
-  if (is_held) {
-    const place = surface.place(frame.held);
-    if (!pull.held_from) pull.held_from = place.clone();
-    const end = pull.held_from.clone().add(pull.by), ends = view.spring.geometry.attributes.position;
-    ends.setXYZ(0, place.x, place.y, place.z);
-    ends.setXYZ(1, end.x, end.y, end.z);
-    ends.needsUpdate = true;
-    view.handle.position.copy(end);
-  }
-  view.draw();
-  ++seen.frames;
-  const now = performance.now();
-  if (now - seen.since > 500) {
-    const n_drawn = seen.frames - (seen.counted || 0);
-    seen.rate = 1000 * n_drawn / (now - seen.since);
-    seen.counted = seen.frames;
-    seen.since = now;
-    // Slow steps bring few frames, and a page in the background draws none: neither is for want of a processor.
-    if (seen.rate < 30 && seen.n_late > 0.25 * n_drawn && !document.hidden) view.draw_less();
-    seen.n_late = 0;
-    show_numbers();
-  }
-}
-
 function draw_newest() {
   view.is_due = false;
   if (view.asks_later) ask();
   view.asks_later = false;
-  show_frame();
-  const n_shown = pull.moved_at.length - (pull.n_sent - (frame.drags - seen.drags_before));
-  if (n_shown > 0) view.wait_for_picture();
-  for (const moved_at of pull.moved_at.splice(0, Math.max(0, n_shown)))
-    seen.latency_ms.push(performance.now() - moved_at);
-  if (seen.latency_ms.length > 500) seen.latency_ms.splice(0, seen.latency_ms.length - 500);
+  if (view.show(frame)) ++seen.pictures;
+  ++seen.frames;
+  const n_shown = pull.moved_at.length - (pull.n_sent - (frame.drags - seen.drags_before)), now = performance.now();
+  const answered = pull.moved_at.splice(0, Math.max(0, n_shown));
+  const note = (times, at) => {
+    for (const moved_at of answered) times.push(at - moved_at);
+    if (times.length > 500) times.splice(0, times.length - 500);
+  };
+  note(seen.latency_ms, now);
+  if (answered.length > 0) requestAnimationFrame(() => note(seen.on_page_ms, performance.now()));
+  if (now - seen.since < 500) return;
+  seen.rate = 1000 * (seen.pictures - (seen.counted || 0)) / (now - seen.since);
+  seen.counted = seen.pictures;
+  seen.since = now;
+  show_numbers();
+}
+
+const numbers = new Map(); // of the panel: texts by their names
+function show_number(name, value) {
+  if (!numbers.has(name)) {
+    const term = document.createElement("dt"), text = document.createElement("dd");
+    term.textContent = name;
+    numbers.set(name, text.appendChild(document.createTextNode("")));
+    document.querySelector("dl").append(term, text);
+  }
+  if (numbers.get(name).data !== String(value)) numbers.get(name).data = value;
 }
 
 function show_numbers() {
   const rows = [
     [ "masses", description.masses ], [ "unknowns", description.unknowns ],
-    [ "triangles", description.triangles ], [ "drawn", surface.drawn.length / 3 ],
+    [ "triangles", description.triangles ], [ "drawn", view.drawn.surface.triangles.length / 3 ],
     [ "time step", `${+ (1000 * description.step_s).toPrecision(4)} ms` ],
     [ "a step takes (median)", `${frame.median_ms.toFixed(3)} ms` ],
     [ "99 % of steps below", `${frame.p99_ms.toFixed(3)} ms` ],
-    [ "steps a second", frame.steps_per_second.toFixed(1) ], [ "pictures a second", seen.rate.toFixed(1) ],
+    [ "steps a second", frame.steps_per_second.toFixed(1) ],
+    [ "pictures a second", seen.rate > 0 ? seen.rate.toFixed(1) : "nothing moves" ],
     [ "time", `${frame.time.toFixed(2)} s` ], [ "pull", `${frame.force.toPrecision(3)} N` ]
   ];
-  document.querySelector("dl").replaceChildren(...rows.flatMap(([ name, value ]) => {
-    const term = document.createElement("dt"), text = document.createElement("dd");
-    term.textContent = name;
-    text.textContent = value;
-    return [ term, text ];
-  }));
+  for (const [name, value] of rows) show_number(name, value);
   const problems = [];
   if (frame.inverted > 0) problems.push(`${frame.inverted} cells are inside out`);
   if (frame.failures > 0)
@@ -241,9 +141,8 @@ socket.addEventListener("message", (event) => {
     document.querySelector("h1").textContent = description.name;
     state_line.textContent = "in control";
   } else if (!surface) {
-    surface = new Surface(event.data);
-    view = new View();
-    view.draw();
+    surface = new Surface(event.data, 0);
+    view = new View(surface, surface.end < event.data.byteLength ? new Surface(event.data, surface.end) : null);
     ask();
   } else {
     seen.bytes = event.data.byteLength;
@@ -254,10 +153,9 @@ socket.addEventListener("message", (event) => {
       ask(); // the next one is made while this one is drawn
     else
       view.asks_later = true;
-    if (view.is_due)
-      ++seen.n_late;
-    else
-      requestAnimationFrame(draw_newest);
+    // Not at the next refresh: what is drawn by then is on the page with it, what begins then a refresh later. A page
+    // in the background draws nothing.
+    if (!view.is_due) document.hidden ? requestAnimationFrame(draw_newest) : setTimeout(draw_newest);
     view.is_due = true;
   }
 });

@@ -1,8 +1,10 @@
 #include "compare/interact/simulation.hpp"
 
+#include "compare/interact/drawn_surface.hpp"
+#include "compare/interact/page_bytes.hpp"
+
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace springproof::compare {
@@ -14,18 +16,6 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t most_messages = 1000; // between two steps
 constexpr std::size_t most_times = 100'000;
-
-template<class To, class From>
-void append(std::string& bytes, From value) {
-  const To number = static_cast<To>(value);
-  char raw[sizeof number];
-  std::memcpy(raw, &number, sizeof number); // the machines of the page and of the server are one
-  bytes.append(raw, sizeof number);
-}
-
-void append(std::string& bytes, const Vector3d& vector) {
-  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
-}
 
 /// The value that a part of the others does not exceed.
 double value_below(std::vector<double> values, double part) {
@@ -90,28 +80,9 @@ void Simulation::stop() {
 
 void Simulation::describe() {
   const mechanics::EmbeddedSurface& surface = body_.surface();
-  std::vector<int> place(scene_.mesh.nodes.size(), -1);
-  const auto place_of = [&](int node) {
-    int& here = place[cases::index(node)];
-    if (here < 0) {
-      here = static_cast<int>(carrying_.size());
-      carrying_.push_back(node);
-    }
-    return here;
-  };
-  for (const auto& vertex : surface.vertices)
-    for (const int node : vertex.nodes) place_of(node);
-  for (const std::size_t count : {surface.vertices.size(), surface.rest.triangles.size(), carrying_.size(),
-                                  body_.spheres().vertices.size()})
-    append<std::uint32_t>(geometry_, count);
-  for (const Vector3d& vertex : surface.rest.vertices) append(geometry_, vertex);
-  for (const auto& vertex : surface.vertices)
-    for (const double weight : vertex.weights) append<float>(geometry_, weight);
-  for (const auto& vertex : surface.vertices)
-    for (const int node : vertex.nodes) append<std::uint32_t>(geometry_, place_of(node));
-  for (const auto& triangle : surface.rest.triangles)
-    for (const int vertex : triangle) append<std::uint32_t>(geometry_, vertex);
-  for (const int vertex : body_.spheres().vertices) append<std::uint32_t>(geometry_, vertex);
+  DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
+  geometry_ = std::move(drawn.bytes);
+  carrying_ = std::move(drawn.nodes);
   description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
                                         {"description", scene_.definition.description},
                                         {"masses", scene_.mesh.nodes.size()},

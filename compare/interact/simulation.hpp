@@ -44,9 +44,7 @@ class Simulation {
   /// {"name", "masses", "springs", "unknowns", "step_s", "vertices", "triangles", "nodes", "spheres",
   /// "radius"}
   const std::string& description() const { return description_; }
-  /// What the page draws, little endian: 4 counts as uint32 (vertices, triangles, nodes that carry them,
-  /// spheres), then as float32 the vertices at rest (3 each) and their weights (8 each), as uint32 their
-  /// nodes' places in a frame (8 each), the triangles (3 each) and the spheres' vertices.
+  /// What the page draws: see DrawnSurface, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
 
   /// After stop(). A recording is of the motion since its last start.

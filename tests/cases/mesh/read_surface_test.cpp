@@ -68,6 +68,18 @@ TEST_CASE("a contour of fewer triangles is closed and keeps the volume") {
   CHECK(volume_of(fewer) == Approx(volume_of(all)).epsilon(0.01));
 }
 
+TEST_CASE("a surface of fewer triangles is closed, looks outwards and stays where it was") {
+  const TriangleMesh fine = contour(ball(false), {0, 0, 0}), coarse = decimated(fine, 300);
+  CHECK(coarse.triangles.size() <= 300);
+  CHECK(coarse.triangles.size() > 200);
+  CHECK(n_open_edges(corners_of(coarse)) == 0);
+  CHECK(volume_of(coarse) == Approx(volume_of(fine)).epsilon(0.05));
+  for (const Vector3d& vertex : coarse.vertices)
+    REQUIRE(std::abs((vertex - Vector3d(12, 11, 10)).norm() - 8) < 0.5); // edges of 2.5 mm or so
+  CHECK(decimated(coarse, 300).triangles.size() == coarse.triangles.size());
+  CHECK_THROWS_WITH(decimated({}, 300), "has no triangles");
+}
+
 TEST_CASE("a body that reaches the borders of its picture has a closed contour") {
   const TriangleMesh cut = contour(ball(true, 12), {0.5, 0, 0});
   CHECK(n_open_edges(corners_of(cut)) == 0);

@@ -28,7 +28,7 @@ class Browser:
 
         command = [find_chromium(), "--headless", "--no-sandbox", "--remote-debugging-pipe", "--user-data-dir=" + self.profile.name,
                    "--no-first-run", "--disable-extensions", "--disable-background-networking", "--disable-component-update",
-                   "--disable-sync", "--disable-quic", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars", *options,
+                   "--disable-sync", "--disable-quic", "--enable-unsafe-swiftshader", "--hide-scrollbars", *options,
                    "about:blank"]
         self.process = subprocess.Popen(command, preexec_fn=pass_pipes, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_browser)

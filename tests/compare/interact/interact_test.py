@@ -55,7 +55,7 @@ class Controller(WebSocket):
         opcode, geometry = self.receive()
         assert opcode == 2
         n_vertices, n_triangles, n_nodes, n_spheres = struct.unpack_from("<4I", geometry)
-        assert len(geometry) == 16 + 4 * (3 * n_vertices + 16 * n_vertices + 3 * n_triangles + n_spheres)
+        self.coarse = geometry[16 + 4 * (3 * n_vertices + 16 * n_vertices + 3 * n_triangles + n_spheres):]
         self.n_nodes = n_nodes
         self.rest = struct.unpack_from(f"<{3 * n_vertices}f", geometry, 16)
 
@@ -140,6 +140,90 @@ def check_pull(program):
     while largest(frame := page.frame()) > 0.5 * moved:
         assert time.monotonic() < end
     page.close()
+
+
+def fine_box(path, n):
+    """The surface of the case's block in 12 n² triangles, as STL."""
+    size, triangles = (40, 40, 60), []
+    for axis in range(3):
+        for side in (0, 1):
+            def corner(i, j):
+                at = [0, 0, 0]
+                at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3] = side * size[axis], i * size[(axis + 1) % 3] / n, j * size[(axis + 2) % 3] / n
+                return at
+            for i in range(n):
+                for j in range(n):
+                    a, b, c, d = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+                    triangles += [(a, b, c), (a, c, d)] if side else [(a, c, b), (a, d, c)]
+    path.write_bytes(b" " * 80 + struct.pack("<I", len(triangles)) + b"".join(struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0) for a, b, c in triangles))
+    return len(triangles)
+
+
+def check_coarse_bytes(page):
+    """The second surface of a large one: at most 5000 triangles, on the same nodes, whose weights make it move with the body."""
+    n_vertices, n_triangles, n_nodes, n_spheres = struct.unpack_from("<4I", page.coarse)
+    assert 2000 < n_triangles <= 5000 and n_nodes == page.n_nodes and n_spheres == 0, (n_triangles, n_nodes, n_spheres)
+    assert len(page.coarse) == 16 + 4 * (19 * n_vertices + 3 * n_triangles)
+    at = 16 + 12 * n_vertices
+    weights = struct.unpack_from(f"<{8 * n_vertices}f", page.coarse, at)
+    nodes = struct.unpack_from(f"<{8 * n_vertices}I", page.coarse, at + 32 * n_vertices)
+    triangles = struct.unpack_from(f"<{3 * n_triangles}I", page.coarse, at + 64 * n_vertices)
+    assert all(abs(sum(weights[8 * v:8 * v + 8]) - 1) < 1e-5 for v in range(n_vertices))
+    assert max(nodes) < n_nodes and max(triangles) < n_vertices
+
+
+PAINTED = """(() => {
+  view.draw(view.drawn);
+  const gl = view.renderer.getContext(), width = canvas.width, height = canvas.height, pixels = new Uint8Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  let n = 0, n_at_border = 0;
+  for (let i = 0; i < width * height; ++i) {
+    const x = i % width, y = Math.floor(i / width), is_painted = [0, 1, 2].some((c) => pixels[4 * i + c] !== pixels[c]);
+    n += is_painted;
+    n_at_border += is_painted && (x === 0 || y === 0 || x === width - 1 || y === height - 1);
+  }
+  const box = canvas.getBoundingClientRect(), all = stage.getBoundingClientRect();
+  return {part: n / (width * height), n_at_border, of_stage: box.width * box.height / (all.width * all.height)};
+})()"""
+
+
+def check_coarse_picture(springproof, case, folder):
+    """A page that draws slowly draws the coarse surface of what moves and the fine one of what rests, and no more of the window than the body."""
+    n_fine = fine_box(folder / "block.stl", 32)
+    text = Path(case).read_text().replace("[[load]]", f"[surface]\nfile = \"{folder}/block.stl\"\n\n[[load]]")
+    (folder / "fine.toml").write_text(text)
+    program = Program(springproof, folder / "fine.toml", "--stay")
+    page = Controller(program.address)
+    check_coarse_bytes(page)
+    page.close()
+    with Browser() as browser:
+        page = browser.open(program.address)
+        page.wait_until("typeof seen !== 'undefined' && seen.frames > 5")
+        assert page.value("[surface, view.coarse.surface].every((each) => each.is_closed())")
+        assert page.value("surface.triangles.length") == 3 * n_fine
+        page.wait_until("view.is_full")
+        n_pictures = page.value("seen.pictures")
+        page.wait_until(f"seen.frames > {page.value('seen.frames')} + 20")
+        assert page.value("seen.pictures") == n_pictures, "what looks the same is drawn again"
+        x, y = page.value("(() => { const at = new THREE.Vector3(20, 0, 45).project(view.camera), box = canvas.getBoundingClientRect();"
+                          "return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height]; })()")
+        page.value("view.fine_ms = 1000")
+        page.mouse("mousePressed", x, y)
+        for step in range(1, 11):
+            page.mouse("mouseMoved", x + 14 * step, y - 6 * step)
+        page.wait_until("frame.held >= 0 && view.drawn === view.coarse && Math.max(...view.coarse.surface.positions.map((at, i) => Math.abs(at - view.coarse.surface.rest[i]))) > 3")
+        pulled = page.value(PAINTED)
+        assert pulled["part"] > 0.1 and pulled["n_at_border"] == 0 and pulled["of_stage"] < 0.6, pulled
+        page.screenshot(folder / "coarse.png")
+        page.wait_until("view.is_full && view.drawn === view.fine && view.resolution === 1")  # held, and nothing moves
+        page.mouse("mouseReleased", x + 140, y - 60, buttons=0)
+        page.value("view.fine_ms = 1000")
+        page.wait_until("frame.held < 0 && view.is_full && Math.max(...surface.positions.map((at, i) => Math.abs(at - surface.rest[i]))) < 1")
+        problems = [problem for problem in page.problems() if "favicon" not in str(problem)]
+        assert problems == [], problems
+        page.close()
+    program.interrupt()
+    return pulled
 
 
 def mutated(number):
@@ -233,7 +317,7 @@ def check_browser(springproof, case, folder):
         for where, kind in ((700, "mousePressed"), (760, "mouseMoved"), (760, "mouseReleased")):
             page.mouse(kind, where, 700, buttons=0 if kind == "mouseReleased" else 1)
         page.wait_until("Math.abs(view.camera.position.x - " + str(eye[0]) + ") > 1e-3")
-        numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, answer: seen.answer_ms, resolution: seen.resolution, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
+        numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, answer: seen.answer_ms, resolution: view.resolution, pictures: seen.pictures, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
         assert numbers["rows"] == 11, numbers
         latency = sorted(numbers.pop("latency"))
         assert latency and all(0 < value < 30000 for value in latency), latency
@@ -269,6 +353,7 @@ def main():
         print("no Chromium here: the page itself was not opened")
         return
     print(f"in Chromium: {check_browser(springproof, case, folder)}")
+    print(f"of a large surface: {check_coarse_picture(springproof, case, folder)}")
 
 
 if __name__ == "__main__":

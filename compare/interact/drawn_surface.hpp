@@ -1,0 +1,26 @@
+#pragma once
+
+#include "mechanics/surface/embedded_surface.hpp"
+
+#include <string>
+
+namespace springproof::compare {
+
+/// What the page draws of a body.
+struct DrawnSurface {
+  /// A surface, and, where it has more than coarse_triangles, the same in about so many, for pages whose
+  /// pictures a processor draws. Each is 4 counts as uint32 (vertices, triangles, nodes that carry both
+  /// surfaces, spheres), then as float32 the vertices at rest (3 each) and their weights (8 each), as uint32
+  /// their nodes' places in `nodes` (8 each), the triangles (3 each) and the spheres' vertices; the coarse
+  /// one has no spheres. Little endian.
+  std::string bytes;
+  std::vector<int> nodes; ///< of the body, that carry vertices
+};
+
+constexpr std::size_t coarse_triangles = 5000;
+
+/// @param spheres  vertices of the surface, their centres    @param mesh  that the surface is bound to
+DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std::vector<int>& spheres,
+                           const cases::HexMesh& mesh);
+
+} // namespace springproof::compare
