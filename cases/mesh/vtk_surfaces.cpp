@@ -144,8 +144,8 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) {
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  // Where a flat face bends it needs triangles too: a field of the vertices that bends everywhere, and that the
-  // triangles left must interpolate.
+  // Where a flat face bends it needs triangles too: a field of the vertices that bends everywhere, and that
+  // the triangles left must interpolate.
   const vtkNew<vtkFloatArray> bent;
   bent->SetNumberOfComponents(3);
   Eigen::AlignedBox3d box;

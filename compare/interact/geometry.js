@@ -61,8 +61,10 @@ class Surface {
       normals[c + 2] += z;
     }
   }
-  // Whether every edge has two triangles, which go along it in opposite directions: then it hides its inner side.
+  // Whether every edge has two triangles, which go along it in opposite directions: then it hides its inner side. A set of
+  // a larger surface's edges would be too large.
   is_closed() {
+    if (this.triangles.length > 3e6) return false;
     const n = this.rest.length / 3, open = new Set();
     for (let i = 0; i < this.triangles.length; ++i) {
       const from = this.triangles[i], to = this.triangles[i % 3 === 2 ? i - 2 : i + 1];
