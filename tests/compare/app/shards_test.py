@@ -142,6 +142,18 @@ def rows(folder):
                 for row in csv.DictReader(file)]
 
 
+def assert_same_rows(found, expected, n):
+    """But for second solves of one side alone: they are left out where the first took longer than the budget."""
+    assert len(found) == len(expected) == n, (len(found), len(expected))
+    n_again = 0
+    for one, other in zip(found, expected):
+        have_again = one["again_newton"] and other["again_newton"]
+        n_again += bool(have_again)
+        for key, value in one.items():
+            assert value == other[key] or key.startswith("again_") and not have_again, (key, one, other)
+    assert n_again > n // 2, n_again
+
+
 def test_sweep(folder):
     """A sweep: the same rows, errors and counters, and every file; the mechanism is a failed row."""
     whole = springproof("sweep", "--quick", TINY, "--out", folder / "whole")
@@ -149,12 +161,12 @@ def test_sweep(folder):
     cut = [springproof("sweep", "--quick", "--budget", 1e-3, TINY, "--out", folder / "cut")]
     cut.append(springproof("merge", *shards(folder / "cut-parts", 2, "sweep", "--quick", "--budget", 1e-3, TINY), "--out", folder / "cut-merged"))
     assert [done.returncode for done in cut] == [0, 0] and all("budget of 0.001" in done.stdout for done in cut), cut
-    assert rows(folder / "cut") == rows(folder / "cut-merged") and len(rows(folder / "cut")) == 3  # the reference's meshes
+    assert_same_rows(rows(folder / "cut-merged"), rows(folder / "cut"), 3)  # the reference's meshes
     for n in (2, 3):
         parts = shards(folder, n, "sweep", "--quick", TINY)
         merged = springproof("merge", *parts, "--out", folder / f"merged{n}")
         assert merged.returncode == 1 and "no stiffness" in merged.stdout, merged
-        assert rows(folder / f"merged{n}") == rows(folder / "whole") and len(rows(folder / "whole")) == 54
+        assert_same_rows(rows(folder / f"merged{n}"), rows(folder / "whole"), 54)
         assert files(folder / f"merged{n}").keys() == files(folder / "whole").keys()
     record = parts[0] / "shard.json"
     record.write_text(re.sub(r'("processor": ").*"', r'\1another"', record.read_text()))
