@@ -93,7 +93,7 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
                   grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
                         : to_points(problem_, found.state),
                   sharing_);
-  if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}};
+  if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}, {}};
   return solution;
 }
 

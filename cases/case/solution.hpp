@@ -67,6 +67,7 @@ struct FromEquilibrium {
   std::optional<double> largest,
       root_mean_square; ///< mm, of all points' distances from where they are in equilibrium
   std::string reason;   ///< why these are not known
+  std::vector<Eigen::Vector3d> displacement{}; ///< of that equilibrium, mm, one per node; empty: not known
 };
 
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no

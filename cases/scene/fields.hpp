@@ -115,7 +115,8 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
-SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason)
+SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason,
+                   displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
                    unfinished_steps, largest_residual)

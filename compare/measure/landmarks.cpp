@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t n_triangles = 5; // of a landmark, as in the thesis
 
-/// The surface in both models.
+/// The surface at rest, and as it has been moved: mm, one place per vertex; empty: that answer is missing.
 struct Surfaces {
   mechanics::EmbeddedSurface embedded;
-  std::vector<Vector3d> fem, msm; ///< mm, one per vertex
+  std::vector<Vector3d> fem, msm, equilibrium;
 };
 
 /// Numbers of the triangles whose barycentres are nearest to a point at rest, the nearest first.
@@ -40,31 +40,40 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// From the springs' surface at these triangles to another one.
+RayLengths ray_lengths(const Surfaces& surfaces, const std::vector<std::size_t>& from,
+                       const std::vector<Vector3d>& to) {
+  const auto& triangles = surfaces.embedded.rest.triangles;
+  std::vector<double> lengths;
+  for (const std::size_t t : from) {
+    const mechanics::Ray ray{cases::barycentre(triangles[t], surfaces.msm),
+                             cases::doubled_area(triangles[t], surfaces.msm)};
+    if (const auto length = mechanics::distance_to_surface(ray, triangles, to)) lengths.push_back(*length);
+  }
+  RayLengths found{static_cast<int>(lengths.size()), {}, {}};
+  if (lengths.empty()) return found;
+  found.mean = mean_of(lengths);
+  if (lengths.size() < 2) return found;
+  double squares = 0;
+  for (const double length : lengths) squares += (length - *found.mean) * (length - *found.mean);
+  found.deviation = std::sqrt(squares / static_cast<double>(lengths.size() - 1));
+  return found;
+}
+
 void measure(const Surfaces& surfaces, const Vector3d& point, LandmarkDistance& landmark) {
   const cases::TriangleMesh& rest = surfaces.embedded.rest;
-  std::vector<double> lengths, moved;
   const std::vector<std::size_t> nearest = nearest_triangles(rest, point);
-  for (const std::size_t t : nearest) {
-    const auto& triangle = rest.triangles[t];
-    const Vector3d at_rest = cases::barycentre(triangle, rest.vertices);
-    if (t == nearest.front()) landmark.from_point = (at_rest - point).norm();
-    moved.push_back((cases::barycentre(triangle, surfaces.fem) - at_rest).norm());
-    const mechanics::Ray ray{cases::barycentre(triangle, surfaces.msm),
-                             cases::doubled_area(triangle, surfaces.msm)};
-    if (const auto length = mechanics::distance_to_surface(ray, rest.triangles, surfaces.fem))
-      lengths.push_back(*length);
-  }
+  const auto at_rest = [&](std::size_t t) { return cases::barycentre(rest.triangles[t], rest.vertices); };
+  landmark.from_point = (at_rest(nearest.front()) - point).norm();
+  if (!surfaces.equilibrium.empty())
+    landmark.to_equilibrium = ray_lengths(surfaces, nearest, surfaces.equilibrium);
+  if (surfaces.fem.empty()) return;
+  std::vector<double> moved;
+  for (const std::size_t t : nearest)
+    moved.push_back((cases::barycentre(rest.triangles[t], surfaces.fem) - at_rest(t)).norm());
   landmark.moved = mean_of(moved);
-  landmark.n_rays = static_cast<int>(lengths.size());
-  if (lengths.empty()) {
-    landmark.missing = "no ray from the springs' surface meets the finite elements'";
-    return;
-  }
-  landmark.mean = mean_of(lengths);
-  if (lengths.size() < 2) return;
-  double squares = 0;
-  for (const double length : lengths) squares += (length - *landmark.mean) * (length - *landmark.mean);
-  landmark.deviation = std::sqrt(squares / static_cast<double>(lengths.size() - 1));
+  landmark.to_fem = ray_lengths(surfaces, nearest, surfaces.fem);
+  if (!landmark.to_fem.mean) landmark.missing = "no ray from the springs' surface meets the finite elements'";
 }
 
 std::string why_not(const Answers& answers) {
@@ -72,6 +81,12 @@ std::string why_not(const Answers& answers) {
   if (answers.fem.solution.sharing || answers.msm.solution.sharing)
     return "is measured on one rank: several share the solutions";
   return "";
+}
+
+/// Of the springs in equilibrium, where that is another answer; empty otherwise.
+std::vector<Vector3d> equilibrium_of(const cases::Solution& springs) {
+  if (!springs.from_equilibrium || springs.sharing) return {};
+  return springs.from_equilibrium->displacement;
 }
 
 } // namespace
@@ -90,15 +105,18 @@ std::vector<LandmarkDistance> landmark_distances(const cases::Scene& scene, cons
   std::vector<LandmarkDistance> distances;
   if (scene.definition.landmarks.empty()) return distances;
   const std::string missing = why_not(answers);
+  const auto equilibrium = equilibrium_of(answers.msm.solution);
+  const bool is_measured = missing.empty() || !equilibrium.empty();
   Surfaces surfaces;
-  if (missing.empty()) {
+  if (is_measured) {
     surfaces.embedded = embedded_surface(scene);
-    mechanics::move(surfaces.embedded, answers.fem.solution.displacement, surfaces.fem);
     mechanics::move(surfaces.embedded, answers.msm.solution.displacement, surfaces.msm);
+    if (missing.empty()) mechanics::move(surfaces.embedded, answers.fem.solution.displacement, surfaces.fem);
+    if (!equilibrium.empty()) mechanics::move(surfaces.embedded, equilibrium, surfaces.equilibrium);
   }
   for (const cases::Landmark& landmark : scene.definition.landmarks) {
-    distances.push_back({landmark.name, {}, 0, {}, {}, {}, missing});
-    if (missing.empty()) measure(surfaces, landmark.point, distances.back());
+    distances.push_back({landmark.name, {}, {}, {}, {}, missing});
+    if (is_measured) measure(surfaces, landmark.point, distances.back());
   }
   return distances;
 }

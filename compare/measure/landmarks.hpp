@@ -6,19 +6,27 @@
 
 namespace springproof::compare {
 
-/// How far the springs' surface is from the finite elements' about a point of it.
+/// Of the rays that met the other surface.
+struct RayLengths {
+  int n_rays = 0;
+  std::optional<double> mean, deviation; ///< mm; nothing where no ray, or but one, met it
+};
+
+/// How far the springs' surface is from another one about a point of it.
 struct LandmarkDistance {
   std::string name;
-  double from_point; ///< mm: of the point from the nearest triangle's barycentre, in the body at rest
-  int n_rays = 0;    ///< that met the other surface
-  std::optional<double> mean, deviation; ///< mm, of their lengths; nothing where no ray, or but one, met it
-  std::optional<double> moved;           ///< mm: mean displacement of the barycentres in the finite elements
-  std::string missing{};                 ///< why there is nothing
+  std::optional<double>
+      from_point;    ///< mm: of the point from the nearest triangle's barycentre, in the body at rest
+  RayLengths to_fem; ///< to the finite elements' surface
+  std::optional<double> moved; ///< mm: mean displacement of the barycentres in the finite elements
+  /// Of springs after a number of iterations: to the surface of the same springs in equilibrium
+  std::optional<RayLengths> to_equilibrium;
+  std::string missing{}; ///< why there is nothing of the finite elements
 };
 
 /// Of every landmark of a case, in its order: from the barycentres of the five triangles that are nearest to
 /// it at rest, of the surface as the springs have moved it, along the triangles' normals to the nearest
-/// place, on either side, of the surface as the finite elements have moved it. The deviation is that of a
+/// place, on either side, of the surface as the other answer has moved it. The deviation is that of a
 /// sample (n - 1). The surface is the scene's, or the outer one of the body's cells. A dynamic case's are of
 /// its end. Source: thesis section 6.1.4.3 and table 6.1.
 std::vector<LandmarkDistance> landmark_distances(const cases::Scene& scene, const Answers& answers);

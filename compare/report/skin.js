@@ -146,9 +146,11 @@ function landmarks() {
   const found = one_case && one_case.landmarks;
   if (!found) return null;
   const length = (value) => cell(missing(value) ? "–" : general(value, 3));
+  const both = found.some((one) => one.to_equilibrium); // of springs after a number of iterations
+  const own = (one) => both ? [length(one.to_equilibrium?.mean), length(one.to_equilibrium?.deviation)] : [];
   return [table("landmark-table", "Springs' surface to the finite elements', mm", row([text_head("landmark"), head("mean"), head("deviation"),
-    head("rays"), head("moved by (finite elements)")]), body(found.map((one) => row([row_head([in_words(one.name), one.reason &&
-      make("small", { class: "reason" }, one.reason)]), length(one.mean), length(one.deviation), cell(String(one.n_rays)),
-    length(one.moved)])))),
+    head("rays"), head("moved by (finite elements)"), ...(both ? [head("to the springs' equilibrium"), head("deviation")] : [])]),
+  body(found.map((one) => row([row_head([in_words(one.name), one.reason && make("small", { class: "reason" }, one.reason)]),
+    length(one.mean), length(one.deviation), cell(String(one.n_rays)), length(one.moved), ...own(one)])))),
   make("p", { class: "quiet" }, "Along the normals of the five triangles nearest to each landmark, from their barycentres.")];
 }

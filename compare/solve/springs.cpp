@@ -274,7 +274,7 @@ void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, i
   cases::Scene in_equilibrium = scene;
   in_equilibrium.definition.msm.solver = cases::Solver::newton;
   in_equilibrium.definition.msm.relaxation.reset();
-  const Answer newton = solve_side(
+  Answer newton = solve_side(
       [&] {
         return make_model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
       },
@@ -291,6 +291,7 @@ void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, i
   }
   from.largest = std::sqrt(largest_squared);
   from.root_mean_square = std::sqrt(sum / static_cast<double>(solution.displacement.size()));
+  from.displacement = std::move(newton.solution.displacement);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace springproof::compare {
@@ -15,18 +16,32 @@ std::string millimetres(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
+/// Whether the springs' answer is one after a number of iterations: then their equilibrium is another one.
+bool has_equilibrium(const Comparison& comparison) {
+  const auto& all = comparison.landmarks;
+  return std::any_of(all.begin(), all.end(), [](const auto& one) { return one.to_equilibrium; });
+}
+
 } // namespace
 
 void write_landmarks_text(std::ostream& out, const Comparison& comparison) {
   if (comparison.landmarks.empty()) return;
-  print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}\n", "landmark, mm", "springs to fem", "deviation", "rays",
+  const bool both = has_equilibrium(comparison);
+  print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}", "landmark, mm", "springs to fem", "deviation", "rays",
         "fem moved");
-  for (const LandmarkDistance& landmark : comparison.landmarks)
-    if (landmark.missing.empty())
-      print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}\n", landmark.name, millimetres(landmark.mean),
-            millimetres(landmark.deviation), landmark.n_rays, millimetres(landmark.moved));
-    else
+  if (both) print(out, " {:>20} {:>14}", "to their equilibrium", "deviation");
+  print(out, "\n");
+  for (const LandmarkDistance& landmark : comparison.landmarks) {
+    if (!landmark.missing.empty() && !landmark.to_equilibrium) {
       print(out, "  {:<24} {}\n", landmark.name, landmark.missing);
+      continue;
+    }
+    print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}", landmark.name, millimetres(landmark.to_fem.mean),
+          millimetres(landmark.to_fem.deviation), landmark.to_fem.n_rays, millimetres(landmark.moved));
+    if (const auto& own = landmark.to_equilibrium)
+      print(out, " {:>20} {:>14}", millimetres(own->mean), millimetres(own->deviation));
+    print(out, "\n");
+  }
 }
 
 nlohmann::ordered_json landmarks_to_json(const Comparison& comparison) {
@@ -34,13 +49,17 @@ nlohmann::ordered_json landmarks_to_json(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.landmarks.size(); ++i) {
     const LandmarkDistance& landmark = comparison.landmarks[i];
     const Eigen::Vector3d& point = comparison.scene.definition.landmarks[i].point;
+    nlohmann::ordered_json to_equilibrium;
+    if (const auto& own = landmark.to_equilibrium)
+      to_equilibrium = {{"n_rays", own->n_rays}, {"mean", own->mean}, {"deviation", own->deviation}};
     list.push_back({{"name", landmark.name},
                     {"point", {point.x(), point.y(), point.z()}},
                     {"from_point", landmark.from_point},
-                    {"n_rays", landmark.n_rays},
-                    {"mean", landmark.mean},
-                    {"deviation", landmark.deviation},
+                    {"n_rays", landmark.to_fem.n_rays},
+                    {"mean", landmark.to_fem.mean},
+                    {"deviation", landmark.to_fem.deviation},
                     {"moved", landmark.moved},
+                    {"to_equilibrium", to_equilibrium},
                     {"reason", landmark.missing}});
   }
   return list;
@@ -48,12 +67,15 @@ nlohmann::ordered_json landmarks_to_json(const Comparison& comparison) {
 
 void write_landmarks_csv(std::ostream& out, const Comparison& comparison) {
   CsvWriter csv(out, 10);
-  csv.row("case", "landmark", "x", "y", "z", "from_point", "n_rays", "mean", "deviation", "moved");
+  csv.row("case", "landmark", "x", "y", "z", "from_point", "n_rays", "mean", "deviation", "moved",
+          "to_equilibrium_mean", "to_equilibrium_deviation");
   for (std::size_t i = 0; i < comparison.landmarks.size(); ++i) {
     const LandmarkDistance& landmark = comparison.landmarks[i];
     const Eigen::Vector3d& point = comparison.scene.definition.landmarks[i].point;
+    const RayLengths own = landmark.to_equilibrium.value_or(RayLengths{});
     csv.row(comparison.scene.definition.name, landmark.name, point.x(), point.y(), point.z(),
-            landmark.from_point, landmark.n_rays, landmark.mean, landmark.deviation, landmark.moved);
+            landmark.from_point, landmark.to_fem.n_rays, landmark.to_fem.mean, landmark.to_fem.deviation,
+            landmark.moved, own.mean, own.deviation);
   }
 }
 

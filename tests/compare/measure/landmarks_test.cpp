@@ -65,11 +65,11 @@ TEST_CASE("landmarks have the distance of two flat surfaces along their normal",
   const auto found = landmark_distances(scene, answers);
   REQUIRE(found.size() == 2);
   CHECK(found[0].name == "top");
-  CHECK(found[0].n_rays == 5);
-  CHECK(found[0].mean.value() == Approx(0.1).epsilon(1e-12));
-  CHECK(found[0].deviation.value() == Approx(0).margin(1e-13));
-  CHECK(found[0].from_point < 0.5); // triangles of half a square of 1 mm
-  CHECK(found[1].mean.value() == Approx(0.04).epsilon(1e-12));
+  CHECK(found[0].to_fem.n_rays == 5);
+  CHECK(found[0].to_fem.mean.value() == Approx(0.1).epsilon(1e-12));
+  CHECK(found[0].to_fem.deviation.value() == Approx(0).margin(1e-13));
+  CHECK(found[0].from_point.value() < 0.5); // triangles of half a square of 1 mm
+  CHECK(found[1].to_fem.mean.value() == Approx(0.04).epsilon(1e-12));
 }
 
 TEST_CASE("landmarks on a tilted surface have the mean and deviation of their rays", "[verification]") {
@@ -90,12 +90,47 @@ TEST_CASE("landmarks on a tilted surface have the mean and deviation of their ra
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < 5; ++i)
     sum += lengths[i].second, squares += lengths[i].second * lengths[i].second;
-  CHECK(top.mean.value() == Approx(sum / 5).epsilon(1e-12));
-  CHECK(top.deviation.value() == Approx(std::sqrt((squares - sum * sum / 5) / 4)).epsilon(1e-9));
+  CHECK(top.to_fem.mean.value() == Approx(sum / 5).epsilon(1e-12));
+  CHECK(top.to_fem.deviation.value() == Approx(std::sqrt((squares - sum * sum / 5) / 4)).epsilon(1e-9));
   CHECK(top.moved.value() == Approx(sum / 5).epsilon(1e-12));
 }
 
-TEST_CASE("landmarks of a case are in text, JSON and CSV, and without a solution they say why there is none") {
+TEST_CASE("landmarks of an answer out of equilibrium have the distance from their own equilibrium too") {
+  cases::Case definition = cases::read_case_text(block_text, "block.toml");
+  definition.msm.solver = cases::Solver::force_scaling;
+  definition.msm.relaxation = cases::RelaxationCounts{2, 3, 10};
+  Request springs_alone;
+  springs_alone.only = cases::Side::msm;
+  const Comparison found = compare_case(definition, springs_alone);
+  const cases::Solution& few = found.answers.msm.solution;
+  REQUIRE(few.from_equilibrium);
+  // The top keeps nearly level: the rays have the vertical distance of the masses' mean.
+  double lowest = 1e9, highest = 0;
+  for (std::size_t n = 0; n < few.displacement.size(); ++n)
+    if (found.scene.mesh.nodes[n].z() > 1.999) {
+      const double apart = std::abs(few.displacement[n].z() - few.from_equilibrium->displacement[n].z());
+      lowest = std::min(lowest, apart), highest = std::max(highest, apart);
+    }
+  const LandmarkDistance& top = found.landmarks[0];
+  REQUIRE(top.to_equilibrium);
+  CHECK(top.to_equilibrium->n_rays == 5);
+  CHECK(top.to_equilibrium->mean.value() >= 0.99 * lowest);
+  CHECK(top.to_equilibrium->mean.value() <= 1.01 * highest);
+  CHECK(lowest > 0);
+  CHECK_FALSE(top.to_fem.mean);
+  CHECK_THAT(top.missing, Catch::Contains("both models"));
+  std::ostringstream text, csv;
+  write_landmarks_text(text, found);
+  write_landmarks_csv(csv, found);
+  CHECK_THAT(text.str(), Catch::Contains("to their equilibrium"));
+  CHECK_THAT(csv.str(), Catch::Contains("to_equilibrium_mean,to_equilibrium_deviation"));
+  const auto json = landmarks_to_json(found);
+  CHECK(json[0]["to_equilibrium"]["mean"].get<double>() == top.to_equilibrium->mean.value());
+  CHECK(json[0]["mean"].is_null());
+}
+
+TEST_CASE(
+    "landmarks of a case are in text, JSON and CSV, and without a solution they say why there is none") {
   const Comparison solved = compare_case(cases::read_case_text(block_text, "block.toml"));
   std::ostringstream text, csv;
   write_landmarks_text(text, solved);
@@ -108,12 +143,13 @@ TEST_CASE("landmarks of a case are in text, JSON and CSV, and without a solution
   CHECK(json[0]["n_rays"] == 5);
   CHECK(json[0]["mean"].get<double>() > 0);
   CHECK(json[0]["mean"].get<double>() < json[0]["moved"].get<double>());
+  CHECK(json[0]["to_equilibrium"].is_null());
 
   Request springs_alone;
   springs_alone.only = cases::Side::msm;
   const Comparison half = compare_case(cases::read_case_text(block_text, "block.toml"), springs_alone);
   REQUIRE(half.landmarks.size() == 2);
-  CHECK_FALSE(half.landmarks[0].mean);
+  CHECK_FALSE(half.landmarks[0].to_fem.mean);
   CHECK_FALSE(half.landmarks[0].from_point);
   CHECK_THAT(half.landmarks[0].missing, Catch::Contains("both models"));
 }
