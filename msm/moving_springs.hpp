@@ -65,6 +65,8 @@ class MovingSprings : public mechanics::DynamicProblem {
     springs_.move_supports(displacement, time);
   }
   void set_step(const mechanics::StepTerms& terms) override;
+  /// Until the next set_step() a linear solver goes as far as it is asked to, whatever the step's limit.
+  void lift_limit() { terms_->enough_linear_iterations.reset(); }
   bool moves_supports() const override { return springs_.moves_supports(); }
 
   using NonlinearProblem::direction;

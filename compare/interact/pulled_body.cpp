@@ -151,6 +151,7 @@ Vector3d PulledBody::expected_place(int vertex) {
 /// (tested, not derived). mu + K is what the tangent of a step says, here where the body is now.
 double PulledBody::bearable_stiffness(const mechanics::EmbeddedPoint& place) {
   double compliance = 0; // mm/N, of the softest axis
+  body_->motion().lift_limit(); // a solve that is cut off finds less compliance than there is
   mechanics::Vector step;
   for (int axis = 0; axis < 3; ++axis) {
     const mechanics::Vector unit = body_->forces(on_nodes(place, Vector3d::Unit(axis)));

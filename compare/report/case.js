@@ -8,9 +8,11 @@ function verdict() {
   const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
     make("small", null, more));
   const side = (name, of, what) => {
-    if (of.status !== "converged") return tile(name, of.status, solver_words(of.message));
+    const is_cut_off = of.status === "not_in_equilibrium"; // after the iterations that were asked for: an answer
+    if (of.status !== "converged" && !is_cut_off) return tile(name, in_words(of.status), solver_words(of.message));
     const unknowns = missing(of.unknowns) ? "" : `; ${of.unknowns.toLocaleString("en")} unknowns`;
-    return tile(name, missing(seconds_of(of)) ? "given" : duration(seconds_of(of)), [what, unknowns]);
+    return tile(name, missing(seconds_of(of)) ? "given" : duration(seconds_of(of)),
+      [what, unknowns, is_cut_off ? `; ${solver_words(of.message)}` : ""]);
   };
   const met = one_case.expectations.filter((one) => one.met).length;
   return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replace("+-", "±"))),

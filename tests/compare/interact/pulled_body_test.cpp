@@ -115,6 +115,22 @@ TEST_CASE("a spring of any stiffness does not drive an undamped body on") {
   }
 }
 
+TEST_CASE("the spring of a pull is as stiff when the step's iterations are bounded") {
+  const auto force_at_first = [](std::optional<int> iterations) {
+    cases::Scene scene = block("[9, 8, 8]");
+    scene.definition.msm.iterations_per_step = iterations;
+    PulledBody body(scene, {50, 1e6, 1});
+    body.step();
+    REQUIRE(body.grab(from_right));
+    body.drag({0, 0, 1e-3});
+    body.step();
+    return body.force().norm();
+  };
+  const double converged = force_at_first({}); // N: of the stiffness that the place bears
+  CHECK(converged > 0);
+  CHECK(force_at_first(1) == Approx(converged).epsilon(1e-3)); // of the same state, solved alike
+}
+
 TEST_CASE("schemes that damp nothing are refused, for what pulls would drive their bodies on") {
   for (const std::string scheme :
        {"scheme = \"newmark\"", "scheme = \"generalized_alpha\"\nrho_infinity = 0.8"})
