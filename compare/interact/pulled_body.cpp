@@ -150,14 +150,15 @@ Vector3d PulledBody::expected_place(int vertex) {
 /// unit circle for k < (4 mu + K)/3: a quarter of mu + K leaves room for a body that softens, and for bdf2
 /// (tested, not derived). mu + K is what the tangent of a step says, here where the body is now.
 double PulledBody::bearable_stiffness(const mechanics::EmbeddedPoint& place) {
-  double compliance = 0; // mm/N, of the softest axis
-  body_->motion().lift_limit(); // a solve that is cut off finds less compliance than there is
+  constexpr double forcing = 0.1; // the compliance, an energy, is off by its square
+  double compliance = 0;          // mm/N, of the softest axis
+  body_->motion().lift_limit();   // a solve that is cut off finds less compliance than there is
   mechanics::Vector step;
   for (int axis = 0; axis < 3; ++axis) {
     const mechanics::Vector unit = body_->forces(on_nodes(place, Vector3d::Unit(axis)));
     if (unit.isZero(0)) continue; // a support
-    if (!body_->motion().direction(motion_->now().displacement, unit, 0, 1e-2, mechanics::Convexity::clamped,
-                                   step))
+    if (!body_->motion().direction(motion_->now().displacement, unit, 0, forcing,
+                                   mechanics::Convexity::clamped, step))
       continue;
     compliance = std::max(compliance, body_->motion().dot(unit, step));
   }
