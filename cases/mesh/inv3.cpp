@@ -14,7 +14,7 @@ namespace springproof::cases {
 
 namespace {
 
-constexpr std::uint64_t most_bytes_of_list = 1'000'000;
+constexpr std::uint64_t most_bytes_of_list = 1'000'000, most_bytes_of_project = 20'000'000'000;
 
 [[noreturn]] void refuse_archive(const std::string& reason) {
   throw std::runtime_error(reason);
@@ -80,7 +80,9 @@ std::array<double, 3> numbers_of(vtkXMLDataElement& dictionary, const std::strin
 
 } // namespace
 
-Volume read_inv3(const std::string& path, std::uint64_t most_bytes) {
+Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
+  // Masks and surfaces beside the voxels may take more than these.
+  if (bytes.deflated) check_deflated(*bytes.deflated, 0, most_bytes_of_project);
   const std::string list = unpacked(
       path, "main.plist", [](const std::string& name) { return name == "main.plist"; },
       [](std::uint64_t size) { return size <= most_bytes_of_list; });
@@ -98,7 +100,7 @@ Volume read_inv3(const std::string& path, std::uint64_t most_bytes) {
     volume.voxels[2 - a] = static_cast<int>(shape[a]);
   }
   volume.spacing = Eigen::Vector3d(spacing.data());
-  const std::size_t n = checked_voxels(volume.voxels, volume.spacing, sizeof(std::int16_t), most_bytes);
+  const std::size_t n = checked_voxels(volume.voxels, volume.spacing, sizeof(std::int16_t), bytes.of_voxels);
   const std::string file = text_of(value_of_key(matrix, "filename"), "filename");
   const std::string voxels = unpacked(
       path, "file of voxels", [&](const std::string& name) { return name == file; },

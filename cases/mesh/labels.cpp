@@ -220,7 +220,7 @@ LabelGrid read_label_grid(const Labels& labels) {
     const VolumeBytes bytes = bytes_of_volume(labels.path);
     const auto& functions = vtk(); // loaded before the child is confined
     const auto read = [&] {
-      return bytes_of(label_cells(functions.read_volume(labels.path, bytes.of_voxels), labels));
+      return bytes_of(label_cells(functions.read_volume(labels.path, bytes), labels));
     };
     LabelGrid grid =
         label_grid_from(run_confined(read, limits_to_read(bytes.in_files)), labels.classes.size());

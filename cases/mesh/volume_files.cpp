@@ -15,6 +15,7 @@ namespace {
 
 /// VTK reads as much to find a header's end.
 constexpr std::size_t longest_header = 0x400000;
+constexpr int first_of_gzip = 0x1f;
 
 std::string without_blanks_around(const std::string& text) {
   const char* const blanks = " \t\r\n\v\f";
@@ -154,19 +155,26 @@ VolumeBytes bytes_of_volume(const std::string& path) {
   const std::uint64_t bytes = size_of_regular_file(path), most_compressed = 1040;
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".nii") return {bytes, bytes};
-  if (ending == ".gz" || ending == ".inv3") return {bytes, most_compressed * bytes};
   std::ifstream stream(path, std::ios::binary);
+  if (ending == ".gz" || ending == ".inv3") {
+    const bool is_plain_tar = ending == ".inv3" && stream.peek() != first_of_gzip;
+    return {bytes, most_compressed * bytes,
+            is_plain_tar ? std::nullopt : std::optional(Deflated{path, 0, bytes})};
+  }
   std::string beginning(std::min<std::uint64_t>(bytes, longest_header), '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(stream.gcount()));
   if ((ending == ".nrrd" || ending == ".nhdr") && beginning.rfind("NRRD", 0) != 0)
     throw std::runtime_error("is no NRRD: does not begin with that word");
   const VolumeHeader header = header_of_volume(beginning);
-  std::uint64_t with_voxels = bytes - std::min(bytes, header.bytes);
+  const std::uint64_t of_header = std::min(bytes, header.bytes);
+  std::uint64_t with_voxels = bytes - of_header;
+  Deflated deflated{path, of_header + header.skipped, 0};
   if (!header.file.empty()) try {
       const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
       with_voxels = size_of_regular_file((folder / header.file).string());
       check_is_in(folder, folder / header.file);
+      deflated = {(folder / header.file).string(), header.skipped, 0};
     } catch (const std::runtime_error& error) {
       throw std::runtime_error("names '" + header.file.substr(0, 200) + "' for its voxels: " + error.what());
     }
@@ -175,7 +183,9 @@ VolumeBytes bytes_of_volume(const std::string& path) {
   if (header.compressed > with_voxels)
     throw std::runtime_error("is cut short: says that its voxels take " + std::to_string(header.compressed) +
                              " bytes, has " + std::to_string(with_voxels));
-  return {in_files, header.is_compressed ? most_compressed * with_voxels : with_voxels};
+  if (!header.is_compressed) return {in_files, with_voxels};
+  deflated.bytes = header.compressed > 0 ? header.compressed : with_voxels;
+  return {in_files, most_compressed * with_voxels, deflated};
 }
 
 } // namespace springproof::cases

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "cases/mesh/deflated.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace springproof::cases {
@@ -21,8 +24,9 @@ VolumeHeader header_of_volume(const std::string& beginning);
 
 /// The files of a picture.
 struct VolumeBytes {
-  std::uint64_t in_files;  ///< of the file and of the one beside it that it names
-  std::uint64_t of_voxels; ///< that they can hold: deflate makes of a byte 1032 at most
+  std::uint64_t in_files;                ///< of the file and of the one beside it that it names
+  std::uint64_t of_voxels;               ///< that they can hold: deflate makes of a byte 1032 at most
+  std::optional<Deflated> deflated = {}; ///< voxels, of .nii.gz and .inv3 the whole file
 };
 /// @throws std::runtime_error if a file is not there, or as header_of_volume()
 VolumeBytes bytes_of_volume(const std::string& path);

@@ -5,6 +5,7 @@
 #include "cases/mesh/point_cloud.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 #include "cases/mesh/volume.hpp"
+#include "cases/mesh/volume_files.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
@@ -58,8 +59,7 @@ struct VtkFunctions {
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& positions);
   /// Reads a file .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3.
-  /// @param most_bytes  of voxels that the file can hold
-  Volume (*read_volume)(const std::string& path, std::uint64_t most_bytes);
+  Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
   /// The triangles of a file .vtp's content.
   Surface (*read_polygons)(const std::string& content);
   /// cases::contour(), of as many values as points.

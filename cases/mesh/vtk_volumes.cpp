@@ -4,9 +4,12 @@
 #include "cases/mesh/vtk_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -17,6 +20,7 @@
 #include <vtkNew.h>
 #include <vtkNrrdReader.h>
 #include <vtkPointData.h>
+#include <zlib.h>
 
 namespace springproof::cases {
 
@@ -37,11 +41,27 @@ Scale scale_of(vtkNrrdReader&) {
   return {};
 }
 
-void check_header(vtkMetaImageReader&) {}
-void check_header(vtkNrrdReader&) {}
+void check_header(vtkMetaImageReader&, const std::string&) {}
+void check_header(vtkNrrdReader&, const std::string&) {}
+
+/// The first number of a header, in either order of bytes, says which it is; VTK does not look at it.
+void check_size_of_header(const std::string& path) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"),
+                                                        gzclose); // plain ones too
+  std::array<unsigned char, 4> bytes{};
+  const bool is_read = file && gzread(file.get(), bytes.data(), bytes.size()) == 4;
+  const auto number = [&](auto begin) {
+    return begin[0] + 256 * (begin[1] + 256 * (begin[2] + 256L * begin[3]));
+  };
+  for (const long size : {348L, 540L}) // of NIfTI-1 and NIfTI-2
+    if (is_read && (number(bytes.begin()) == size || number(bytes.rbegin()) == size)) return;
+  throw std::runtime_error(
+      "is no NIfTI file: its first number, the size of its header, is neither 348 nor 540");
+}
 
 /// VTK takes other magic words for its elders, and what is no length for 1 mm.
-void check_header(vtkNIFTIImageReader& reader) {
+void check_header(vtkNIFTIImageReader& reader, const std::string& path) {
+  check_size_of_header(path);
   vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
   const std::string magic = header.GetMagic() == nullptr ? "" : header.GetMagic();
   if (magic.rfind("n+1", 0) != 0 && magic.rfind("n+2", 0) != 0)
@@ -57,6 +77,25 @@ void check_header(vtkNIFTIImageReader& reader) {
   const Scale scale = scale_of(reader);
   if (!std::isfinite(scale.slope) || !std::isfinite(scale.intercept))
     throw std::runtime_error("has a scale of its intensities that is no number");
+}
+
+/// What compressed voxels may hold: as much as the header says, but of NIfTI with its header, and any number
+/// of pictures one after the other in time, the first of which is read.
+template<class Reader>
+void check_compressed(Reader& reader, const VolumeBytes& bytes, std::uint64_t of_voxels) {
+  if (!bytes.deflated) return;
+  std::uint64_t least = of_voxels;
+  double n_pictures = 1;
+  if constexpr (std::is_same_v<Reader, vtkNIFTIImageReader>) {
+    vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
+    least += static_cast<std::uint64_t>(std::clamp<std::int64_t>(header.GetVoxOffset(), 0, 1 << 30));
+    for (int a = 4; a <= std::min<std::int64_t>(7, header.GetDim(0)); ++a)
+      n_pictures *= std::clamp<double>(static_cast<double>(header.GetDim(a)), 1, 1e6);
+  }
+  constexpr double room = 1 << 20; // for what may follow
+  const double most =
+      std::min(room + n_pictures * static_cast<double>(least), static_cast<double>(bytes.of_voxels));
+  check_deflated(*bytes.deflated, least, static_cast<std::uint64_t>(most));
 }
 
 /// VTK's messages name the file, objects and addresses, in several lines.
@@ -78,7 +117,7 @@ void run_on(const std::string& path, const Action& action) {
 }
 
 template<class Reader>
-Volume read_with_vtk(const std::string& path, std::uint64_t most_bytes) {
+Volume read_with_vtk(const std::string& path, const VolumeBytes& bytes) {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   run_on(path, [&] { run_information(*reader); });
@@ -93,11 +132,12 @@ Volume read_with_vtk(const std::string& path, std::uint64_t most_bytes) {
     throw std::runtime_error(
         "has " + std::to_string(n) +
         " numbers a voxel, must have one (a first axis of up to 9 in NRRD is taken for that)");
-  check_header(*reader);
+  check_header(*reader, path);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
   if (bytes_a_voxel < 1) throw std::runtime_error("has voxels of no type of numbers");
   const std::size_t n =
-      checked_voxels(volume.voxels, volume.spacing, static_cast<std::size_t>(bytes_a_voxel), most_bytes);
+      checked_voxels(volume.voxels, volume.spacing, static_cast<std::size_t>(bytes_a_voxel), bytes.of_voxels);
+  check_compressed(*reader, bytes, n * static_cast<std::size_t>(bytes_a_voxel));
   run_on(path, [&] { run(*reader); });
   vtkDataArray* numbers = reader->GetOutput()->GetPointData()->GetScalars();
   if (numbers == nullptr || static_cast<std::size_t>(numbers->GetNumberOfValues()) != n)
@@ -119,13 +159,12 @@ bool ends_with(const std::string& text, const std::string& ending) {
 
 } // namespace
 
-Volume read_volume(const std::string& path, std::uint64_t most_bytes) {
-  if (ends_with(path, ".inv3")) return read_inv3(path, most_bytes);
-  if (ends_with(path, ".nrrd") || ends_with(path, ".nhdr"))
-    return read_with_vtk<vtkNrrdReader>(path, most_bytes);
+Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
+  if (ends_with(path, ".inv3")) return read_inv3(path, bytes);
+  if (ends_with(path, ".nrrd") || ends_with(path, ".nhdr")) return read_with_vtk<vtkNrrdReader>(path, bytes);
   if (ends_with(path, ".mha") || ends_with(path, ".mhd"))
-    return read_with_vtk<vtkMetaImageReader>(path, most_bytes);
-  return read_with_vtk<vtkNIFTIImageReader>(path, most_bytes);
+    return read_with_vtk<vtkMetaImageReader>(path, bytes);
+  return read_with_vtk<vtkNIFTIImageReader>(path, bytes);
 }
 
 } // namespace springproof::cases

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "cases/case/error.hpp"
+#include "cases/mesh/labels.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fmt/format.h>
+#include <string>
+
+/// A small picture in the formats that bodies are made of.
+namespace springproof::pictures {
+
+using namespace cases;
+
+/// 12 x 3 x 2 voxels of 1 x 2 x 3 mm: 100 below 6 mm of x, 50 from there to 9 mm, 0 beyond. (VTK takes a
+/// first axis of up to 9 in NRRD for components.)
+inline Volume picture() {
+  Volume volume{{12, 3, 2}, {1, 2, 3}, {}};
+  for (int v = 0; v < 72; ++v) volume.intensities.push_back(v % 12 < 6 ? 100 : v % 12 < 9 ? 50 : 0);
+  return volume;
+}
+
+inline Labels bone_and_fat(double edge, const std::string& path = "") {
+  Labels labels;
+  labels.path = path;
+  labels.edge = edge;
+  labels.classes = {{"bone", 80, 120, true}, {"fat", 40, 60, false}};
+  return labels;
+}
+
+template<class Number>
+std::string bytes_of_picture(bool swapped = false) {
+  std::string bytes;
+  for (const float intensity : picture().intensities) {
+    const Number number = static_cast<Number>(intensity);
+    std::string one(sizeof number, '\0');
+    std::memcpy(one.data(), &number, sizeof number);
+    bytes += swapped ? std::string(one.rbegin(), one.rend()) : one;
+  }
+  return bytes;
+}
+
+inline std::string nrrd(const std::string& more = "", const std::string& sizes = "12 3 2",
+                        const std::string& endian = "little") {
+  return "NRRD0004\ntype: short\ndimension: 3\nsizes: " + sizes +
+         "\nspacings: 1 2 3\nencoding: raw\nendian: " + endian + "\n" + more + "\n";
+}
+
+inline std::string meta(const std::string& file, const std::string& sizes = "12 3 2") {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = " +
+         sizes + "\nElementSpacing = 1 2 3\nElementType = MET_SHORT\nElementDataFile = " + file + "\n";
+}
+
+/// Of int16, 352 bytes.
+inline std::string nifti(std::array<std::int16_t, 3> sizes, float slope = 1, float intercept = 0) {
+  std::string header(352, '\0');
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(&header[at], &value, sizeof value); };
+  put(0, std::int32_t{348});
+  put(40, std::int16_t{3});
+  for (std::size_t a = 0; a < 3; ++a) {
+    put(42 + 2 * a, sizes[a]);
+    put(80 + 4 * a, static_cast<float>(a + 1));
+  }
+  for (std::size_t a = 3; a < 7; ++a) put(42 + 2 * a, std::int16_t{1});
+  put(70, std::int16_t{4}); // int16
+  put(72, std::int16_t{16});
+  put(108, 352.f);
+  put(112, slope);
+  put(116, intercept);
+  std::memcpy(&header[344], "n+1", 4);
+  return header;
+}
+
+/// A member of a tar.
+inline std::string member(const std::string& name, const std::string& content) {
+  std::string header(512, '\0');
+  const auto put = [&](std::size_t at, const std::string& text) { header.replace(at, text.size(), text); };
+  put(0, name);
+  put(100, "0000644");
+  put(124, fmt::format("{:011o}", content.size()));
+  put(136, "00000000000");
+  put(148, "        ");
+  put(156, "0");
+  put(257, std::string("ustar\0"
+                       "00",
+                       8));
+  unsigned sum = 0;
+  for (const char c : header) sum += static_cast<unsigned char>(c);
+  put(148, fmt::format("{:06o}", sum));
+  header[154] = '\0';
+  return header + content + std::string((512 - content.size() % 512) % 512, '\0');
+}
+
+inline std::string
+plist(const std::string& shape = "<integer>2</integer><integer>3</integer><integer>12</integer>") {
+  return "<?xml version=\"1.0\"?><plist><dict><key>matrix</key><dict><key>dtype</key><string>int16</string>"
+         "<key>filename</key><string>matrix.dat</string><key>shape</key><array>" +
+         shape +
+         "</array></dict><key>spacing</key><array><real>1</real><real>2</real><real>3</real></array></dict></"
+         "plist>";
+}
+
+inline std::string project(const std::string& list, const std::string& voxels) {
+  return member("a/matrix.dat", voxels) + member("a/main.plist", list) + std::string(1024, '\0');
+}
+
+inline void check_is_picture(const std::string& path) {
+  const HexMesh mesh = make_label_mesh(bone_and_fat(1, path));
+  REQUIRE(mesh.grid);
+  CHECK(mesh.grid->cells == std::array<int, 3>{12, 6, 6});
+  CHECK(mesh.cells.size() == 9 * 6 * 6);
+  CHECK(std::count(mesh.group_of_cell.begin(), mesh.group_of_cell.end(), "bone") == 6 * 6 * 6);
+  CHECK(centre_of(mesh, mesh.cells[0]) == Eigen::Vector3d(0.5, 0.5, 0.5));
+  CHECK(mesh.group_of_cell[6] == "fat"); // beyond the bone in x, as voxels are numbered
+}
+
+inline std::string refusal(const Labels& labels) {
+  try {
+    make_label_mesh(labels);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    CHECK(message.find('\n') == std::string::npos);
+    return message;
+  }
+  return "none";
+}
+
+} // namespace springproof::pictures
