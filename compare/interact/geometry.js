@@ -80,7 +80,7 @@ class Surface {
 
 const frame_numbers = [
   "time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags",
-  "nodes"
+  "residual", "nodes"
 ];
 
 function read_frame(buffer) {

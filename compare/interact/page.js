@@ -124,13 +124,16 @@ function show_numbers() {
     [ "99 % of steps below", `${frame.p99_ms.toFixed(3)} ms` ],
     [ "steps a second", frame.steps_per_second.toFixed(1) ],
     [ "pictures a second", seen.rate > 0 ? seen.rate.toFixed(1) : "nothing moves" ],
-    [ "time", `${frame.time.toFixed(2)} s` ], [ "pull", `${frame.force.toPrecision(3)} N` ]
+    [ "time", `${frame.time.toFixed(2)} s` ], [ "pull", `${frame.force.toPrecision(3)} N` ],
+    [ "step's forces left", `${(100 * frame.residual).toPrecision(2)} %` ]
   ];
   for (const [name, value] of rows) show_number(name, value);
   const problems = [];
   if (frame.inverted > 0) problems.push(`${frame.inverted} cells are inside out`);
   if (frame.failures > 0)
     problems.push(`${frame.failures} steps could not be solved; each began anew from rest`);
+  if (frame.residual > 1)
+    problems.push("the step's forces are further from balance than the loads: it needs more iterations (msm.iterations_per_step)");
   state_line.textContent = problems.join("; ") || "in control";
   state_line.classList.toggle("problem", problems.length > 0);
 }

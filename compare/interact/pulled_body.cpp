@@ -108,7 +108,10 @@ void PulledBody::step() {
     body_->motion().set_given_force(body_->forces(on_nodes(place, force_)));
   }
   try {
+    const int n_before = motion_->n_unfinished();
     motion_->advance(static_cast<double>(n_steps_ + 1) * scene_.definition.dynamics->step);
+    n_unfinished_ += motion_->n_unfinished() > n_before;
+    largest_residual_ = std::max(largest_residual_, motion_->largest_residual());
     ++n_steps_;
     is_displacement_of_now_ = false;
   } catch (const cases::SolveError& error) {

@@ -46,8 +46,13 @@ class PulledBody {
   long n_steps() const { return n_steps_; }               ///< since the last restart
   int n_failures() const { return n_failures_; }
   const std::string& failure() const { return failure_; } ///< of the last failed step
-  const msm::Points& displacement();                      ///< mm, of all nodes, now
-  int n_inverted();                                       ///< cells, now
+  /// What the last step was left with, relative to the forces of the motion; steps that were left with more
+  /// than their tolerance, because their iterations are bounded, and the most that one was.
+  double residual() const { return motion_->work().residual; }
+  long n_unfinished() const { return n_unfinished_; }
+  double largest_residual() const { return largest_residual_; }
+  const msm::Points& displacement(); ///< mm, of all nodes, now
+  int n_inverted();                  ///< cells, now
   std::size_t n_unknowns() { return body_->motion().n_unknowns(); }
 
  private:
@@ -62,6 +67,8 @@ class PulledBody {
   long n_steps_ = 0;
   int n_failures_ = 0;
   std::string failure_;
+  long n_unfinished_ = 0;
+  double largest_residual_ = 0;
   std::optional<int> held_;
   std::optional<double> stiffness_; ///< N/mm, of the spring that holds; none before its first step
   Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;

@@ -182,6 +182,7 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   body_.force().norm(),
                                                   static_cast<double>(body_.n_failures()),
                                                   static_cast<double>(n_drags_taken_),
+                                                  body_.residual(),
                                                   static_cast<double>(carrying_.size())};
   bytes->reserve(8 * frame_numbers + 12 * carrying_.size());
   for (const double number : numbers) append<double>(*bytes, number);
@@ -197,6 +198,8 @@ SimulationSummary Simulation::summary() const {
   summary.p99_ms = value_below(step_ms_, 0.99);
   summary.n_failures = body_.n_failures();
   summary.failure = body_.failure();
+  summary.n_unfinished = body_.n_unfinished();
+  summary.largest_residual = body_.largest_residual();
   return summary;
 }
 

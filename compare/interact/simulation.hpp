@@ -19,10 +19,12 @@ struct RecordedPull {
 };
 
 struct SimulationSummary {
-  long n_steps = 0, n_frames = 0, n_pulled = 0;     ///< steps in all, frames made, steps with a pull
-  int n_failures = 0;                               ///< steps that could not be solved, each a restart
-  std::string failure;                              ///< of the last one
-  long n_inverted_frames = 0;                       ///< frames that showed inverted cells
+  long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
+  int n_failures = 0;                           ///< steps that could not be solved, each a restart
+  std::string failure;                          ///< of the last one
+  long n_inverted_frames = 0;                   ///< frames that showed inverted cells
+  long n_unfinished = 0;                        ///< see PulledBody::n_unfinished()
+  double largest_residual = 0;
   double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< of a step, wall clock; of the last 100,000
 };
 
@@ -53,7 +55,7 @@ class Simulation {
   bool is_recording_full() const { return recording_.size() == most_recorded; }
   const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
 
-  static constexpr std::size_t frame_numbers = 11; ///< float64 at the beginning of a frame
+  static constexpr std::size_t frame_numbers = 12; ///< float64 at the beginning of a frame
   static constexpr std::size_t most_recorded = 2'000'000;
 
  private:

@@ -66,10 +66,10 @@ class Controller(WebSocket):
         self.say(type="frame")
         opcode, content = self.receive()
         assert opcode == 2, (opcode, content)
-        names = ("time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags", "nodes")
-        numbers = dict(zip(names, struct.unpack_from("<10d", content)))
-        assert len(content) == 88 + 12 * self.n_nodes
-        numbers["displacement"] = struct.unpack_from(f"<{3 * self.n_nodes}f", content, 88)
+        names = ("time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags", "residual", "nodes")
+        numbers = dict(zip(names, struct.unpack_from("<11d", content)))
+        assert len(content) == 96 + 12 * self.n_nodes
+        numbers["displacement"] = struct.unpack_from(f"<{3 * self.n_nodes}f", content, 96)
         assert all(map(math.isfinite, numbers["displacement"]))
         return numbers
 
@@ -129,7 +129,7 @@ def check_pull(program):
     end = time.monotonic() + 20
     while (frame := page.frame())["displacement"] and not (frame["held"] >= 0 and largest(frame) > 2):
         assert time.monotonic() < end, frame
-    assert frame["force"] > 0 and frame["inverted"] == 0 and frame["failures"] == 0
+    assert frame["force"] > 0 and frame["inverted"] == 0 and frame["failures"] == 0 and 0 < frame["residual"] <= 1e-6
     held = int(frame["held"])
     assert page.rest[3 * held] == 40, "the ray from x+ took hold of another side"
     page.say(type="grab", origin=[200, 20, 500], direction=[0, 0, 1])  # beside the body: releases
@@ -261,7 +261,7 @@ def check_malformed(program, count):
             assert code in (POLICY, 1002, 1007, 1009), (message, code)
         else:
             assert opcode == 2, (message, opcode)
-            numbers = struct.unpack_from("<11d", content)
+            numbers = struct.unpack_from("<12d", content)
             assert all(map(math.isfinite, numbers)) and numbers[1] > steps, (message, numbers)
             steps = numbers[1]
         page.close()
@@ -318,7 +318,7 @@ def check_browser(springproof, case, folder):
             page.mouse(kind, where, 700, buttons=0 if kind == "mouseReleased" else 1)
         page.wait_until("Math.abs(view.camera.position.x - " + str(eye[0]) + ") > 1e-3")
         numbers = page.value("({rate: seen.rate, latency: seen.latency_ms, answer: seen.answer_ms, resolution: view.resolution, pictures: seen.pictures, bytes: seen.bytes, median: frame.median_ms, rows: document.querySelectorAll('dt').length})")
-        assert numbers["rows"] == 11, numbers
+        assert numbers["rows"] == 12, numbers
         latency = sorted(numbers.pop("latency"))
         assert latency and all(0 < value < 30000 for value in latency), latency
         numbers["latency_median_ms"] = latency[len(latency) // 2]
@@ -346,7 +346,7 @@ def main():
     n_cut_off = check_malformed(program, count)
     assert n_cut_off > count / 2, n_cut_off
     summary = program.interrupt()
-    assert summary["failed_steps"] == 0 and summary["frames"]["with_inverted_cells"] == 0, summary
+    assert summary["failed_steps"] == summary["unfinished_steps"] == 0 and summary["frames"]["with_inverted_cells"] == 0, summary
     assert summary["refused_requests"] >= n_refused, summary
     print(f"{n_refused} kinds of requests refused, {n_cut_off} of {count} mutated messages cut off; {summary}")
     if not find_chromium():

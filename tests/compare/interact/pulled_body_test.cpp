@@ -137,6 +137,31 @@ TEST_CASE("a pull in real time is no stiffer than what a converged solution says
   }
 }
 
+TEST_CASE("steps of too few iterations are counted with what they are left with") {
+  const auto pulled = [](std::optional<int> iterations) {
+    cases::Scene scene = block("[9, 8, 8]");
+    scene.definition.msm.iterations_per_step = iterations;
+    PulledBody body(scene, {50, 1, 1});
+    body.step();
+    REQUIRE(body.grab(from_right));
+    body.drag({15, 0, 5});
+    double largest = 0;
+    for (int step = 0; step < 20; ++step) {
+      body.step();
+      largest = std::max(largest, body.residual());
+    }
+    CHECK(body.largest_residual() >= largest);
+    return std::pair(body.n_unfinished(), largest);
+  };
+  const auto [n, largest] = pulled(1);
+  CHECK(n > 0);
+  CHECK(n <= 21);
+  CHECK(largest > 1e-2);
+  const auto [none, small] = pulled({});
+  CHECK(none == 0);
+  CHECK(small <= 1e-6);
+}
+
 TEST_CASE("schemes that damp nothing are refused, for what pulls would drive their bodies on") {
   for (const std::string scheme :
        {"scheme = \"newmark\"", "scheme = \"generalized_alpha\"\nrho_infinity = 0.8"})
