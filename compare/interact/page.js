@@ -132,8 +132,6 @@ function show_numbers() {
   if (frame.inverted > 0) problems.push(`${frame.inverted} cells are inside out`);
   if (frame.failures > 0)
     problems.push(`${frame.failures} steps could not be solved; each began anew from rest`);
-  if (frame.residual > 1)
-    problems.push("the step's forces are further from balance than the loads: it needs more iterations (msm.iterations_per_step)");
   state_line.textContent = problems.join("; ") || "in control";
   state_line.classList.toggle("problem", problems.length > 0);
 }

@@ -90,6 +90,11 @@ bool TimeIntegrator::try_step(double to) {
   }
   terms.enough_linear_iterations = settings_.enough_linear_iterations;
   if (!solve(terms, c, to)) return false;
+  if (settings_.enough_linear_iterations &&
+      work_.residual > 1) { // no solution at all: bodies fly off with it
+    failure_ = "a step's linear iterations leave its forces further from balance than all loads";
+    return false;
+  }
   if (work_.residual > settings_.newton.tolerance) ++n_unfinished_;
   largest_residual_ = std::max(largest_residual_, work_.residual); // a NaN was refused
   finish_step(c, to);

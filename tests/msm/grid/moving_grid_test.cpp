@@ -131,6 +131,15 @@ TEST_CASE("steps in real time have no more iterations than allowed and say what 
   CHECK(end <= 0.01 * whole.displacement.back().norm());
 }
 
+TEST_CASE("a step in real time that its iterations leave further from balance than the loads is halved") {
+  // A hundredth of the stiffness: the load moves it far, and it flew off.
+  const cases::Scene scene = block(steps(cases::Scheme::implicit_euler, 0.1, 2), {1000., 0, 0});
+  const cases::Solution cut = msm::follow(scene, {msm::scaled(hybrid_springs, 0.01)},
+                                          {msm::Path::multigrid, 1, {}, {}}, mechanics::in_real_time(1));
+  CHECK(cut.trajectory->halved_steps > 0);
+  CHECK(cut.trajectory->largest_residual <= 1);
+}
+
 TEST_CASE("a step on a grid is the same bit for bit on one and two threads") {
   const auto end = [](int n_threads) {
     const cases::Scene scene =
