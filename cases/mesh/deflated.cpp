@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <zlib.h>
 

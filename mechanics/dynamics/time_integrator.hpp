@@ -29,8 +29,7 @@ struct IntegrationSettings {
 
 /// A step of a bounded length: it ends with a residual of 1 % of the loads, or after two iterations of
 /// Newton's method and so many of the linear solver, with what is left then; one that is left with more than
-/// the loads is halved. Simulators take one linear
-/// solution a step (Baraff and Witkin 1998).
+/// the loads is halved. Simulators take one linear solution a step (Baraff and Witkin 1998).
 IntegrationSettings in_real_time(int linear_iterations);
 
 /// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
