@@ -142,6 +142,28 @@ bool Grid::has(int i, int j, int k) const {
   return present.empty() || present[number_of(i, j, k, cells)];
 }
 
+Grid cropped(const Grid& grid) {
+  std::array<int, 3> first = grid.cells, end{0, 0, 0};
+  for_each_place(grid.cells, [&](int i, int j, int k) {
+    if (!grid.has(i, j, k)) return;
+    const std::array<int, 3> at{i, j, k};
+    for (std::size_t a = 0; a < 3; ++a) {
+      first[a] = std::min(first[a], at[a]);
+      end[a] = std::max(end[a], at[a] + 1);
+    }
+  });
+  if (end[0] == 0) return grid;
+  Grid part;
+  part.spacing = grid.spacing;
+  part.origin = grid.origin + grid.spacing.cwiseProduct(Vector3d(first[0], first[1], first[2]));
+  for (std::size_t a = 0; a < 3; ++a) part.cells[a] = end[a] - first[a];
+  if (grid.present.empty()) return part;
+  for_each_place(part.cells, [&](int i, int j, int k) {
+    part.present.push_back(grid.has(first[0] + i, first[1] + j, first[2] + k));
+  });
+  return part;
+}
+
 HexMesh make_grid_mesh(const Grid& grid) {
   assert(grid.present.empty() || grid.present.size() == grid.n_lattice_cells());
   HexMesh mesh;

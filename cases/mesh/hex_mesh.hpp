@@ -62,6 +62,9 @@ extern const std::array<std::array<int, 4>, 6> cell_faces; ///< x-, x+, y-, y+, 
 /// A cell's vertices as gmsh, VTK and CalculiX number them: around its bottom, then around its top.
 constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 
+/// The same cells without the empty layers around them: fields on a grid have numbers for what is empty too.
+Grid cropped(const Grid& grid);
+
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
 /// Where every cell is present, neither nodes nor cells are stored.
 HexMesh make_grid_mesh(const Grid& grid);

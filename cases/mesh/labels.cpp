@@ -181,7 +181,7 @@ void keep_piece(LabelGrid& grid, const Labels& labels) {
 }
 
 HexMesh mesh_of(const LabelGrid& labelled, const Labels& labels) {
-  HexMesh mesh = make_grid_mesh(grid_of(labelled, labels.edge));
+  HexMesh mesh = make_grid_mesh(cropped(grid_of(labelled, labels.edge)));
   std::vector<std::size_t> n_cells(labels.classes.size(), 0);
   mesh.group_of_cell.reserve(mesh.cells.size());
   for (const std::uint8_t c : labelled.class_of_cell) {

@@ -36,6 +36,26 @@ Grid l_shape() {
 
 } // namespace
 
+TEST_CASE("a cropped grid has the same mesh without the empty layers around it") {
+  Grid grid;
+  grid.cells = {5, 4, 6};
+  grid.spacing = {1, 2, 0.5};
+  grid.origin = {-1, 3, 7};
+  for (int k = 0; k < 6; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 5; ++i)
+        grid.present.push_back(i >= 1 && i < 4 && j < 3 && k >= 2 && (i + j + k) % 5 != 0);
+  const Grid part = cropped(grid);
+  CHECK(part.cells == std::array<int, 3>{3, 3, 4});
+  const HexMesh whole = make_grid_mesh(grid), mesh = make_grid_mesh(part);
+  REQUIRE(mesh.cells.size() == whole.cells.size());
+  REQUIRE(mesh.nodes.size() == whole.nodes.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) CHECK(mesh.cells[c] == whole.cells[c]);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK((mesh.nodes[n] - whole.nodes[n]).norm() <= 1e-14);
+  grid.present.assign(grid.present.size(), false);
+  CHECK(cropped(grid).cells == grid.cells);
+}
+
 TEST_CASE("a box has its nodes with x running fastest, and its far faces exactly at its size") {
   const HexMesh mesh = make_box_mesh({0.3, 0.7, 1.1}, {3, 7, 11});
   REQUIRE(mesh.nodes.size() == 4 * 8 * 12);
