@@ -4,6 +4,7 @@
 #include "msm/direct/moving_lattice.hpp"
 #include "msm/grid/moving_grid.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace springproof::msm {
@@ -24,28 +25,58 @@ MovingBody::MovingBody(const cases::Scene& scene, const std::vector<CellStiffnes
   statics_ = grid::make_grid_system(*grid_, options.n_threads);
   motion_ = grid::make_moving_grid(problem_, *grid_, *statics_, make_inertia(scene, {}),
                                    damping_stiffness(scene, stiffness), options.n_threads);
+  find_entries();
 }
 
 void MovingBody::factorise(const cases::Scene& scene, Lattice lattice, Lattice damping) {
   problem_.lattice = std::move(lattice);
   statics_ = make_direct_system(problem_);
   motion_ = make_moving_lattice(problem_, *statics_, make_inertia(scene, std::move(damping)));
+  find_entries();
+}
+
+/// What the places of a vector become as points says where they are.
+void MovingBody::find_entries() {
+  Vector places = statics_->load();
+  for (Eigen::Index place = 0; place < places.size(); ++place) places[place] = static_cast<double>(place + 1);
+  const Points at = grid_ ? grid::to_points(problem_, grid_->body, places) : msm::to_points(problem_, places);
+  for (const Eigen::Vector3d& of_point : at) {
+    entries_.emplace_back();
+    for (int c = 0; c < 3; ++c) entries_.back()[cases::index(c)] = std::lround(of_point[c]) - 1;
+  }
 }
 
 Vector MovingBody::to_vector(const Points& points) const {
-  return grid_ ? grid::to_field(problem_, grid_->body, points) : msm::to_vector(problem_, points);
+  Vector vector = Vector::Zero(statics_->load().size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (int c = 0; c < 3; ++c)
+      if (const Eigen::Index entry = entries_[p][cases::index(c)]; entry >= 0) vector[entry] = points[p][c];
+  return vector;
+}
+
+Eigen::Vector3d MovingBody::at_node(const Vector& vector, int node) const {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (const Eigen::Index entry = entries_[cases::index(node)][cases::index(c)]; entry >= 0)
+      value[c] = vector[entry];
+  return value;
 }
 
 Points MovingBody::to_points(const Vector& vector) const {
-  return grid_ ? grid::to_points(problem_, grid_->body, vector) : msm::to_points(problem_, vector);
+  Points points;
+  points.reserve(entries_.size());
+  for (std::size_t node = 0; node < entries_.size(); ++node)
+    points.push_back(at_node(vector, static_cast<int>(node)));
+  return points;
 }
 
 Vector MovingBody::forces(const std::vector<cases::NodeVector>& of_nodes) const {
-  Points force = problem_.on_all_points(of_nodes);
-  for (std::size_t p = 0; p < force.size(); ++p)
+  Vector forces = Vector::Zero(statics_->load().size());
+  for (const auto& [node, force] : of_nodes)
     for (std::size_t c = 0; c < 3; ++c)
-      if (problem_.is_constrained[3 * p + c]) force[p][static_cast<Eigen::Index>(c)] = 0;
-  return to_vector(force);
+      if (!problem_.is_constrained[3 * cases::index(node) + c])
+        forces[entries_[cases::index(node)][c]] += force[static_cast<Eigen::Index>(c)];
+  return forces;
 }
 
 } // namespace springproof::msm

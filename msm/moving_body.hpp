@@ -27,6 +27,8 @@ class MovingBody {
   /// Between the motion's vectors and one vector (mm, mm/s or N) per node of the scene's mesh.
   Vector to_vector(const Points& points) const;
   Points to_points(const Vector& vector) const;
+  /// The same of one node.
+  Eigen::Vector3d at_node(const Vector& vector, int node) const;
   /// Forces (N) as a vector of the motion, 0 on constrained degrees of freedom.
   Vector forces(const std::vector<cases::NodeVector>& of_nodes) const;
 
@@ -35,7 +37,9 @@ class MovingBody {
   std::optional<grid::GridProblem> grid_;
   std::unique_ptr<SpringSystem> statics_;
   std::unique_ptr<MovingSprings> motion_;
+  std::vector<std::array<Eigen::Index, 3>> entries_; ///< of each node in a vector of the motion; -1: none
 
+  void find_entries();
   void factorise(const cases::Scene& scene, Lattice lattice, Lattice damping);
 };
 

@@ -142,9 +142,13 @@ std::vector<cases::NodeVector> PulledBody::on_nodes(const mechanics::EmbeddedPoi
 /// was would lag behind the body, and so drive it on.
 Vector3d PulledBody::expected_place(int vertex) {
   const std::size_t v = cases::index(vertex);
-  const msm::Points velocity = body_->to_points(motion_->now().velocity);
-  return surface_.rest.vertices[v] + mechanics::displacement_at(surface_.vertices[v], displacement()) +
-         scene_.definition.dynamics->step * mechanics::displacement_at(surface_.vertices[v], velocity);
+  const mechanics::EmbeddedPoint& place = surface_.vertices[v];
+  const auto& [time, displacement, velocity, acceleration] = motion_->now();
+  Vector3d at = surface_.rest.vertices[v];
+  for (std::size_t n = 0; n < 8; ++n)
+    at += place.weights[n] * (body_->at_node(displacement, place.nodes[n]) +
+                              scene_.definition.dynamics->step * body_->at_node(velocity, place.nodes[n]));
+  return at;
 }
 
 /// A spring whose force is known before the step makes the body swing, further each time, if it is stiffer

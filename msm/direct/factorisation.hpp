@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <vector>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -58,6 +59,26 @@ class Factorisation : Eigen::CholmodSupernodalLLT<Tangent::Matrix, Eigen::Lower>
     Vector solution = CholmodSupernodalLLT::solve(right_side);
     check();
     return solution;
+  }
+
+  /// Calls action(first column, columns as a matrix, their rows' numbers) for the blocks of columns of the
+  /// factor that have the same rows below them; the first rows are those of the columns themselves.
+  template<class Action>
+  void for_each_block(const Action& action) const {
+    const cholmod_factor& factor = *m_cholmodFactor;
+    const auto *super = static_cast<const int*>(factor.super), *pi = static_cast<const int*>(factor.pi),
+               *px = static_cast<const int*>(factor.px), *rows = static_cast<const int*>(factor.s);
+    const auto* values = static_cast<const double*>(factor.x);
+    for (std::size_t s = 0; s < factor.nsuper; ++s) {
+      const Eigen::Map<const Eigen::MatrixXd> columns(values + px[s], pi[s + 1] - pi[s],
+                                                      super[s + 1] - super[s]);
+      action(super[s], columns, rows + pi[s]);
+    }
+  }
+  /// The unknown that is at a place of the factor.
+  std::vector<int> permutation() const {
+    const auto* first = static_cast<const int*>(m_cholmodFactor->Perm);
+    return {first, first + m_cholmodFactor->n};
   }
 
   /// The smallest of pivot over diagonal entry: how much of a diagonal entry elimination leaves. Rounding

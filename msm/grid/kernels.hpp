@@ -128,10 +128,35 @@ struct Kernels {
   int pack; ///< numbers computed at once
 };
 
+/// Columns of a factor that have the same rows below them, in single precision.
+struct FactorBlock {
+  int first;       ///< of its unknowns, which follow each other
+  int n_columns;   ///< its unknowns
+  int n_below;     ///< unknowns after them that they are coupled with ...
+  const int* rows; ///< ... and which
+  /// The inverse of the diagonal block and then the rows below, by columns of padded(n_columns) and
+  /// padded(n_below) numbers.
+  const float* values;
+};
+
+/// A factor L of a symmetric matrix L L^T, by blocks.
+struct BlockFactor {
+  const FactorBlock* blocks;
+  int n_blocks;
+};
+
+/// So that no pack has to be cut off.
+constexpr int padded(int n) {
+  return (n + 15) / 16 * 16;
+}
+
 struct InstructionSet {
   const char* name;
   Kernels<double> in_double;
   Kernels<float> in_float;
+  /// x = (L L^T)^-1 x.
+  /// @param scratch  as many numbers as padded(n_columns) + padded(n_below) of any block
+  void (*substitute)(const BlockFactor&, float* x, float* scratch);
 };
 extern const InstructionSet baseline, avx2, avx512;
 

@@ -23,6 +23,8 @@ namespace {
 
 #include "msm/grid/kernels_cells.hpp"
 
+#include "msm/grid/kernels_substitution.hpp"
+
 // ---- the four kernels ------------------------------------------------------------------------------------
 
 template<class Real>

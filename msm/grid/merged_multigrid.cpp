@@ -13,8 +13,8 @@ namespace {
 
 using cases::index;
 
-constexpr int n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
-constexpr int n_dense_nodes = 600;    ///< where cells can be merged no further; of more, the smoother must do
+constexpr int n_nodes_factorised = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
+constexpr int n_dense_nodes = 600; ///< where cells can be merged no further; of more, the smoother must do
 
 constexpr int n_pairs = 6;
 constexpr int first_of_pair[n_pairs] = {0, 1, 2, 1, 0, 0}, second_of_pair[n_pairs] = {0, 1, 2, 2, 2, 1};
@@ -89,17 +89,19 @@ MergedMultigrid::MergedMultigrid(const Body& finest, const mechanics::grid::Cheb
       if (node < 0) {
         node = cells_.n_nodes++;
         entry_.push_back(entries[index(v)]);
+        n_cells_.push_back(0);
         is_held_.emplace_back();
         for (int c = 0; c < 3; ++c)
           is_held_.back()[index(c)] = is_constrained[index(entry_.back() + c * layout.size)];
       }
       cells_.nodes.back()[index(v)] = node;
+      ++n_cells_[index(node)];
     }
   });
   std::array<int, 3> n_cells = finest.cells;
   Eigen::Vector3d spacing = finest.spacing;
   const Cells* finer = &cells_;
-  while (finer->n_nodes > n_coarsest_nodes || levels_.empty()) {
+  while (finer->n_nodes > n_nodes_factorised || levels_.empty()) {
     const auto factor = coarsening_factor(n_cells, spacing);
     if (!factor) break;
     Level& level = levels_.emplace_back();
@@ -196,9 +198,19 @@ MergedMultigrid::CellMatrix MergedMultigrid::stiffness_of(std::size_t cell,
   return sum;
 }
 
+/// A node's share of what is added to the diagonal.
+void MergedMultigrid::add_diagonal(std::size_t cell, const Field<float>& added, CellMatrix& to) const {
+  for (int v = 0; v < 8; ++v) {
+    const std::size_t node = index(cells_.nodes[cell][index(v)]);
+    for (int c = 0; c < 3; ++c)
+      to[index(c)](v, v) +=
+          added[entry_[node] + c * finest_.layout.size] / static_cast<float>(n_cells_[node]);
+  }
+}
+
 /// Of a level's cells, from those of the finer level: its cells' stiffness between the coarse corners.
-void MergedMultigrid::gather_stiffness(Level& level, const std::function<CellMatrix(std::size_t)>& of_finer,
-                                       bool is_finest) {
+template<class OfFiner>
+void MergedMultigrid::gather_stiffness(Level& level, const OfFiner& of_finer, bool is_finest) {
   for (CellMatrix& matrix : level.stiffness)
     for (Corners& pair : matrix) pair.setZero();
   std::array<Corners, 8> weights; // by where a finer cell begins: finer corners by coarse ones
@@ -290,7 +302,8 @@ bool MergedMultigrid::ends_exactly() const {
 void MergedMultigrid::factorise_coarsest() {
   const Level& level = levels_.back();
   coarsest_unknowns_.clear();
-  std::vector<Eigen::Index> number(index(3 * level.merged.cells.n_nodes), -1);
+  std::vector<Eigen::Index>& number = coarsest_number_;
+  number.assign(index(3 * level.merged.cells.n_nodes), -1);
   for (int node = 0; node < level.merged.cells.n_nodes; ++node)
     for (int c = 0; c < 3; ++c)
       if (level.inverse_diagonal[index(node)][index(c)][c] > 0) {
@@ -299,7 +312,8 @@ void MergedMultigrid::factorise_coarsest() {
       }
   const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
   if (n == 0) return;
-  Eigen::MatrixXf matrix = Eigen::MatrixXf::Zero(n, n);
+  Eigen::MatrixXf& matrix = coarsest_matrix_;
+  matrix.setZero(n, n);
   for (int node = 0; node < level.merged.cells.n_nodes; ++node)
     for (int b = level.row[index(node)]; b < level.row[index(node) + 1]; ++b)
       for (int c = 0; c < 3; ++c)
@@ -319,12 +333,18 @@ void MergedMultigrid::factorise_coarsest() {
   }
 }
 
-void MergedMultigrid::linearise(const Field<float>& displacement) {
+void MergedMultigrid::linearise(const Field<float>& displacement, const Field<float>& added) {
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
     if (l == 0)
       gather_stiffness(
-          level, [&](std::size_t cell) { return stiffness_of(cell, displacement); }, true);
+          level,
+          [&](std::size_t cell) {
+            CellMatrix matrix = stiffness_of(cell, displacement);
+            if (added.size() > 0) add_diagonal(cell, added, matrix);
+            return matrix;
+          },
+          true);
     else
       gather_stiffness(
           level, [&](std::size_t cell) { return levels_[l - 1].stiffness[cell]; }, false);
@@ -376,7 +396,8 @@ void MergedMultigrid::cycle(std::size_t l) {
     if (!ends_exactly()) return smooth(level, false);
     const auto n = static_cast<Eigen::Index>(coarsest_unknowns_.size());
     if (n == 0) return;
-    Eigen::VectorXf answer(n);
+    Eigen::VectorXf& answer = coarsest_answer_;
+    answer.resize(n);
     for (Eigen::Index u = 0; u < n; ++u) answer[u] = level.residual.data()[coarsest_unknowns_[index(u)]];
     coarsest_.solveInPlace(answer);
     for (Eigen::Index u = 0; u < n; ++u) level.solution.data()[coarsest_unknowns_[index(u)]] = answer[u];

@@ -6,7 +6,6 @@
 
 #include <Eigen/Cholesky>
 #include <deque>
-#include <functional>
 
 namespace springproof::msm::grid {
 
@@ -21,7 +20,8 @@ class MergedMultigrid {
   MergedMultigrid(const Body& finest, const mechanics::grid::Chebyshev& smoother, int n_threads);
 
   /// At a displacement of the finest body, mm.
-  void linearise(const Field<float>& displacement);
+  /// @param added  to the tangent's diagonal; of no size: nothing
+  void linearise(const Field<float>& displacement, const Field<float>& added = {});
 
   /// correction = P cycle(P^T residual), both of the finest body; 0 on constrained entries.
   void correct(const Field<float>& residual, Field<float>& correction);
@@ -51,14 +51,20 @@ class MergedMultigrid {
   Cells cells_;                              ///< of the finest body, without those that are held as a whole
   std::vector<std::ptrdiff_t> entry_;        ///< of every node, along x
   std::vector<std::array<bool, 3>> is_held_; ///< every node's components
+  std::vector<int> n_cells_;                 ///< of every node
   std::deque<Level> levels_;
   std::vector<Eigen::Index> coarsest_unknowns_;
   Eigen::LLT<Eigen::MatrixXf> coarsest_;
+  Eigen::MatrixXf coarsest_matrix_;
+  Eigen::VectorXf coarsest_answer_;
+  std::vector<Eigen::Index> coarsest_number_; ///< of every component of every node; -1: it does not move
 
   bool ends_exactly() const;
   void prepare(Level& level) const;
   CellMatrix stiffness_of(std::size_t cell, const Field<float>& displacement) const;
-  void gather_stiffness(Level& level, const std::function<CellMatrix(std::size_t)>& of_finer, bool is_finest);
+  void add_diagonal(std::size_t cell, const Field<float>& added, CellMatrix& to) const;
+  template<class OfFiner>
+  void gather_stiffness(Level& level, const OfFiner& of_finer, bool is_finest);
   void assemble(Level& level) const;
   void invert_diagonal(Level& level) const;
   void estimate_largest_eigenvalue(Level& level) const;

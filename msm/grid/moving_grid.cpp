@@ -1,9 +1,11 @@
 #include "msm/grid/moving_grid.hpp"
 
 #include "mechanics/grid/conjugate_gradients.hpp"
+#include "msm/grid/held_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace springproof::msm::grid {
@@ -59,6 +61,15 @@ Body stiffened(const Body& a, double factor, const Body& b) {
   return all;
 }
 
+/// Of mass and damping in the equation of a step. A preconditioner does not mind the rounding of its length.
+struct Factors {
+  double mass = 0, damping = 0;
+  bool are_of(const mechanics::StepTerms& terms) const {
+    const auto is_near = [](double a, double b) { return std::abs(a - b) <= 1e-3 * std::abs(b); };
+    return is_near(mass, terms.mass) && is_near(damping, terms.damping);
+  }
+};
+
 class MovingGrid : public MovingSprings {
  public:
   MovingGrid(const Problem& problem, const GridProblem& grid, SpringSystem& springs, const Inertia& inertia,
@@ -67,40 +78,39 @@ class MovingGrid : public MovingSprings {
         damping_body_(std::move(damping)), n_threads_(n_threads), springs_(body_, n_threads),
         rest_(Field<double>::Zero(3 * body_.layout.size)), damped_(rest_) {
     if (damping_body_) damping_.emplace(*damping_body_, n_threads);
+    if (grid.n_unknowns <= most_held && !body_.part) factor_.emplace(body_);
   }
 
   void set_step(const mechanics::StepTerms& terms) override {
     MovingSprings::set_step(terms);
     linear_iterations_ = 0;
     is_prepared_ = false;
+    n_alike_ = last_.are_of(terms) ? n_alike_ + 1 : 1;
+    last_ = {terms.mass, terms.damping};
+    if (of_factor_ && of_factor_->are_of(terms)) ++n_with_factor_;
+    n_to_pass_ = std::max(0, n_to_pass_ - 1);
   }
 
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double forcing,
                  mechanics::Convexity convexity, Vector& step) override {
     const Clamp clamp = convexity == mechanics::Convexity::clamped ? Clamp::yes : Clamp::no;
-    const double asked_for = -std::log(forcing); // of conjugate gradients
-    if (!is_of_these_factors()) make_multigrid();
-    if (terms().enough_linear_iterations)
-      return cut_direction(at, residual, forcing, clamp, *terms().enough_linear_iterations, step);
-    for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
-      if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
-      if (attempt > 0) multigrid_->linearise(at);
-      solve(at, residual, forcing, clamp, max_iterations);
-      const double slowness = found_.iterations / asked_for;
-      if (attempt > 0) usual_slowness_ = slowness;
-      is_slow_ = slowness > 2 * usual_slowness_ + 1;
-      if (found_.converged || found_.met_negative_curvature) break;
-    }
-    if (!found_.converged) is_slow_ = true;
-    has_failed_ = has_failed_ || !(found_.converged || found_.met_negative_curvature);
+    const auto enough = terms().enough_linear_iterations;
+    const bool is_done = (has_factor(at) && goes_by_factor(at, residual, forcing, clamp)) ||
+                         (enough ? goes_by_cut_cycles(at, residual, forcing, clamp)
+                                 : goes_by_cycles(at, residual, forcing, clamp));
     step = found_.solution;
-    return found_.converged;
+    // Conjugate gradients that are cut off, by a limit or by negative curvature, have come down the energy
+    // all the same (Steihaug 1983).
+    return enough ? found_.iterations > (found_.met_negative_curvature ? 1 : 0) : is_done;
   }
 
   bool has_failed() const override { return has_failed_; }
 
  private:
   static constexpr int max_iterations = 300;
+  /// Unknowns up to which a factor takes less time than a cycle, and not too long to make.
+  static constexpr std::size_t most_held = 10'000;
+  static constexpr int most_with_factor = 20; ///< iterations; healthy motions take less than 10
   const Body& body_;
   std::optional<Body> damping_body_; ///< springs of beta times k
   int n_threads_;
@@ -109,15 +119,22 @@ class MovingGrid : public MovingSprings {
   Field<double> rest_, damped_;
   mechanics::grid::KeptFields kept_;
   mechanics::grid::LinearSolution found_;
+  int linear_iterations_ = 0; ///< in this step
+
+  std::optional<HeldFactor> factor_; ///< none of large bodies
+  std::optional<Factors> of_factor_; ///< that it was made with; none: it was not
+  Factors last_;                     ///< of this step
+  int n_alike_ = 0;                  ///< steps on end with these
+  int n_with_factor_ = 0;            ///< steps of its length since it was made
+  int n_to_pass_ = 0;                ///< steps before the factor is tried again
 
   std::deque<Body> bodies_;            ///< of the cycle
   std::optional<Multigrid> multigrid_; ///< of bodies_, and of these:
-  double mass_factor_ = 0, damping_factor_ = 0;
+  Factors of_multigrid_;
   double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
   bool is_slow_ = true;       ///< it is to be prepared
   bool has_failed_ = false;
-  int linear_iterations_ = 0; ///< in this step
-  bool is_prepared_ = false;  ///< in this step
+  bool is_prepared_ = false; ///< in this step
 
   bool has_stiffness_damping() const override { return damping_.has_value(); }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
@@ -126,53 +143,99 @@ class MovingGrid : public MovingSprings {
     add(product, 1.0, damped_, n_threads_);
   }
 
-  /// A preconditioner does not mind the rounding of a step's length.
-  bool is_of_these_factors() const {
-    const auto is_near = [](double a, double b) { return std::abs(a - b) <= 1e-3 * std::abs(b); };
-    return multigrid_ && is_near(mass_factor_, terms().mass) && is_near(damping_factor_, terms().damping);
+  /// product = (tangent + mass + damping of the step) direction
+  void multiply(const Vector& at, Clamp clamp, const Vector& direction, Vector& product) {
+    springs_.product(clamp, at, direction, product);
+    add_product(product, diagonal(), direction, n_threads_);
+    if (!damping_) return;
+    damping_->product(Clamp::no, rest_, direction, damped_);
+    add(product, terms().damping, damped_, n_threads_);
+  }
+
+  void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations,
+             const std::function<void(const Vector&, Vector&)>& precondition) {
+    mechanics::grid::conjugate_gradients(
+        [&](const Vector& v, Vector& product) { multiply(at, clamp, v, product); }, precondition, right_side,
+        forcing * norm(body_, right_side, n_threads_), most_iterations,
+        [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
+    work_.linear_iterations += found_.iterations;
+    linear_iterations_ += found_.iterations;
+  }
+
+  /// What is left of the step's limit, or as many as there may be.
+  int most_iterations(int without_limit) const {
+    const auto enough = terms().enough_linear_iterations;
+    return enough ? std::max(1, *enough - linear_iterations_) : without_limit;
+  }
+
+  /// Whether there is a factor for this step. Steps that are halved leave it alone; it is made anew when the
+  /// first step was of another scheme, as with bdf2, and when a motion goes on in steps of another length.
+  bool has_factor(const Vector& at) {
+    const int enough_alike = !of_factor_ ? 1 : n_with_factor_ <= 2 ? 2 : 50;
+    if (factor_ && !(of_factor_ && of_factor_->are_of(terms())) && n_alike_ == enough_alike) {
+      of_factor_ = last_;
+      n_with_factor_ = n_to_pass_ = 0;
+      if (!factor_->factorise(
+              [&](const Vector& v, Vector& product) { multiply(at, Clamp::yes, v, product); }))
+        factor_.reset(); // lost in rounding
+    }
+    return factor_ && of_factor_ && of_factor_->are_of(terms()) && n_to_pass_ == 0;
+  }
+
+  bool goes_by_factor(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
+    solve(at, residual, forcing, clamp, most_iterations(most_with_factor),
+          [&](const Vector& v, Vector& out) { factor_->apply(v, out); });
+    const bool is_done =
+        found_.converged || found_.met_negative_curvature || terms().enough_linear_iterations.has_value();
+    if (!is_done) n_to_pass_ = 16; // far from where it was made, cycles that are prepared here do better
+    return is_done;
   }
 
   /// Damping by stiffness is of the body at rest, here of the body where it is.
   void make_multigrid() {
-    mass_factor_ = terms().mass;
-    damping_factor_ = terms().damping;
+    of_multigrid_ = last_;
     multigrid_.reset(); // it refers to the bodies
-    const Body all = damping_body_ ? stiffened(body_, damping_factor_, *damping_body_) : body_;
+    const Body all = damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_;
     bodies_ = coarsenings(all);
-    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion, Coarsening::rediscretised);
+    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
     multigrid_->set_diagonal(scale_of(all) * diagonal());
     is_slow_ = true;
   }
 
-  /// As far as the step's iterations go. Conjugate gradients that are cut off, by a limit or by negative
-  /// curvature, have come down the energy all the same (Steihaug 1983).
-  bool cut_direction(const Vector& at, const Vector& residual, double forcing, Clamp clamp, int enough,
-                     Vector& step) {
+  void solve_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
+    solve(at, residual, forcing, clamp, most_iterations(max_iterations),
+          [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); });
+  }
+
+  /// As far as the step's iterations go.
+  bool goes_by_cut_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
+    if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
     const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
     if (is_anew) multigrid_->linearise(at);
     is_prepared_ = is_prepared_ || is_anew;
-    solve(at, residual, forcing, clamp, std::max(1, enough - linear_iterations_));
-    linear_iterations_ += found_.iterations;
+    solve_by_cycles(at, residual, forcing, clamp);
     const double slowness = found_.iterations / -std::log(forcing);
     if (is_anew) usual_slowness_ = slowness;
     is_slow_ = slowness > 2 * usual_slowness_ + 1;
-    step = found_.solution;
-    return found_.iterations > (found_.met_negative_curvature ? 1 : 0);
+    return found_.converged;
   }
 
-  void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations) {
-    const auto apply = [&](const Vector& v, Vector& out) {
-      springs_.product(clamp, at, v, out);
-      add_product(out, diagonal(), v, n_threads_);
-      if (!damping_) return;
-      damping_->product(Clamp::no, rest_, v, damped_);
-      add(out, terms().damping, damped_, n_threads_);
-    };
-    mechanics::grid::conjugate_gradients(
-        apply, [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); }, right_side,
-        forcing * norm(body_, right_side, n_threads_), most_iterations,
-        [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
-    work_.linear_iterations += found_.iterations;
+  /// To the end, with a cycle that is prepared anew where it has become slow.
+  bool goes_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
+    if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
+    const double asked_for = -std::log(forcing); // of conjugate gradients
+    for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
+      if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
+      if (attempt > 0) multigrid_->linearise(at);
+      solve_by_cycles(at, residual, forcing, clamp);
+      const double slowness = found_.iterations / asked_for;
+      if (attempt > 0) usual_slowness_ = slowness;
+      is_slow_ = slowness > 2 * usual_slowness_ + 1;
+      if (found_.converged || found_.met_negative_curvature) break;
+    }
+    if (!found_.converged) is_slow_ = true;
+    has_failed_ = has_failed_ || !(found_.converged || found_.met_negative_curvature);
+    return found_.converged;
   }
 };
 

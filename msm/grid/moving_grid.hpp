@@ -6,8 +6,9 @@
 namespace springproof::msm::grid {
 
 /// The motion of a lattice on a grid of cells without a matrix: conjugate gradients on the tangent, mass and
-/// damping together, with a multigrid cycle that is prepared anew where it has become slow. After the first
-/// steps it allocates nothing; the motion does not depend on the number of threads.
+/// damping together. Small bodies have the factor of their first step as preconditioner; large ones, and
+/// those that moved too far from it, a multigrid cycle that is prepared anew where it has become slow. After
+/// the first steps it allocates nothing; the motion does not depend on the number of threads.
 /// @param springs    static equations of `grid`; both must outlive what is returned
 /// @param inertia    whose damping is not looked at
 /// @param damping    damping_stiffness() of the scene's cells

@@ -9,7 +9,7 @@ namespace {
 
 using mechanics::grid::apply_blocks;
 
-constexpr double nearby = 1e-3; ///< of the shortest edge of a cell
+constexpr double nearby = 1e-3;                  ///< of the shortest edge of a cell
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
 /// Calls action(stiffness) for all stiffnesses of a body.
@@ -62,13 +62,13 @@ Multigrid::Level::Level(const Body& of, int n_threads)
 }
 
 Multigrid::Multigrid(const std::deque<Body>& bodies, int n_threads,
-                     const mechanics::grid::Chebyshev& smoother, Coarsening coarsening)
+                     const mechanics::grid::Chebyshev& smoother)
     : smoother_(smoother), n_threads_(n_threads) {
   for (const Body& body : bodies) levels_.emplace_back(body, n_threads);
   for (std::size_t l = 0; l + 1 < bodies.size(); ++l)
     transfers_.emplace_back(bodies[l], bodies[l + 1], n_threads);
   const Body& finest = bodies.front();
-  if (coarsening == Coarsening::merged && !finest.is_uniform() && !finest.part && bodies.size() > 1) {
+  if (!finest.is_uniform() && !finest.part && bodies.size() > 1) {
     merged_.emplace(finest, smoother, n_threads);
     while (levels_.size() > 1) levels_.pop_back();
     transfers_.clear();
@@ -114,7 +114,7 @@ void Multigrid::linearise(const Field<double>& displacement) {
     if (last_ + 1 == levels_.size() && !merged_) return factorise_coarsest();
     level.springs.inverse_diagonal(Clamp::yes, level.displacement, level.inverse_diagonal, level.diagonal);
     estimate_largest_eigenvalue(level);
-    if (merged_) return merged_->linearise(level.displacement);
+    if (merged_) return merged_->linearise(level.displacement, level.diagonal);
     if (needs_no_coarser(level)) return;
   }
 }

@@ -22,23 +22,17 @@ constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
 /// And in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
 constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
 
-/// What coarse levels of bodies with holes or of several stiffnesses are.
-enum class Coarsening {
-  rediscretised, ///< lattices of their own (coarsen()): prepared fast
-  merged         ///< MergedMultigrid: fewer iterations
-};
-
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: one
-/// V-cycle in single precision. Coarse lattices are rediscretised at the sampled displacement; the smoother
-/// is Chebyshev's iteration on the block Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before
-/// and after, so that the cycle is symmetric. Coarse diagonals are the fine one restricted, as masses are;
-/// below a level where the diagonal holds all eigenvalues in the smoother's range the cycle does not go.
+/// V-cycle in single precision. Coarse lattices are rediscretised at the sampled displacement, or of bodies
+/// with holes or of several stiffnesses a MergedMultigrid; the smoother is Chebyshev's iteration on the block
+/// Jacobi method (Adams, Brezina, Hu, Tuminaro 2003), the same before and after, so that the cycle is
+/// symmetric. Coarse diagonals are the fine one restricted, as masses are; below a level where the diagonal
+/// holds all eigenvalues in the smoother's range the cycle does not go.
 class Multigrid {
  public:
   /// @param bodies  must outlive it; on parts of a body every function is collective
   Multigrid(const std::deque<Body>& bodies, int n_threads,
-            const mechanics::grid::Chebyshev& smoother = smoother_at_rest,
-            Coarsening coarsening = Coarsening::merged);
+            const mechanics::grid::Chebyshev& smoother = smoother_at_rest);
 
   /// From the next linearise() on.
   /// @param diagonal  of the finest body, N/mm times scale_of() it; 0 on constrained entries
