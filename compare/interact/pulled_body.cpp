@@ -143,11 +143,12 @@ std::vector<cases::NodeVector> PulledBody::on_nodes(const mechanics::EmbeddedPoi
 Vector3d PulledBody::expected_place(int vertex) {
   const std::size_t v = cases::index(vertex);
   const mechanics::EmbeddedPoint& place = surface_.vertices[v];
-  const auto& [time, displacement, velocity, acceleration] = motion_->now();
+  const mechanics::Motion& now = motion_->now();
   Vector3d at = surface_.rest.vertices[v];
   for (std::size_t n = 0; n < 8; ++n)
-    at += place.weights[n] * (body_->at_node(displacement, place.nodes[n]) +
-                              scene_.definition.dynamics->step * body_->at_node(velocity, place.nodes[n]));
+    at +=
+        place.weights[n] * (body_->at_node(now.displacement, place.nodes[n]) +
+                            scene_.definition.dynamics->step * body_->at_node(now.velocity, place.nodes[n]));
   return at;
 }
 
