@@ -23,6 +23,7 @@ namespace {
 using Cells = std::array<int, 3>;
 
 constexpr std::array<double, 3> step_factors{2, 1, 0.5};
+constexpr std::array<double, 3> marks_of_steps{5, 7, 9}; ///< square, disc, triangle, of gnuplot
 /// Finite elements take no larger bodies through all steps: half an hour a motion.
 constexpr double most_nodes = 70000;
 
@@ -247,11 +248,13 @@ nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep) {
 
 void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep) {
   std::vector<std::string> lines; // a block for each method and step
+  std::vector<double> linetypes;  // as in all figures; a step's mark is the same for both models
+  std::vector<double> markers;
   write_file(folder + "/motion_sweep_points.csv", [&](std::ostream& out) {
     CsvWriter csv(out, 8);
     for (const Family family : {Family::springs, Family::finite_elements})
-      for (const double factor : step_factors) {
-        const double step = factor * sweep.definition.dynamics->step;
+      for (std::size_t s = 0; s < step_factors.size(); ++s) {
+        const double step = step_factors[s] * sweep.definition.dynamics->step;
         std::string name;
         for (const MotionRow& row : sweep.rows) {
           if (row.family != family || std::abs(row.step - step) > 1e-9 * step || !row.error_percent) continue;
@@ -261,6 +264,8 @@ void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep) {
         if (name.empty()) continue;
         csv.end_block();
         lines.push_back(name);
+        linetypes.push_back(family == Family::finite_elements ? 1 : 2);
+        markers.push_back(marks_of_steps[s]);
       }
   });
   if (lines.empty()) return;
@@ -268,6 +273,8 @@ void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep) {
        {{"points", "motion_sweep_points.csv"},
         {"headline", sweep.definition.name + ": motions, one thread"},
         {"lines", lines},
+        {"linetypes", linetypes},
+        {"markers", markers},
         {"uncertainty", sweep.uncertainty_percent},
         {"width", 1000.},
         {"height", 600.}});

@@ -8,5 +8,5 @@ set format x '%g'
 set format y '%g'
 set arrow from first 1, graph 0 to first 1, graph 1 nohead lc rgb '#777777' dt 2
 set label 'real time' at first 1, graph 0.02 rotate by 90 left offset -0.5,0 tc rgb '#777777'
-plot for [i=1:|lines|] points index i-1 using 1:2 with linespoints lt i pt 6 + i title lines[i], \
+plot for [i=1:|lines|] points index i-1 using 1:2 with linespoints lt linetypes[i] pt markers[i] title lines[i], \
   uncertainty with lines lc rgb '#777777' dt 3 title 'uncertainty of the reference'
