@@ -22,9 +22,11 @@ MovingBody::MovingBody(const cases::Scene& scene, const std::vector<CellStiffnes
     return;
   }
   grid_ = grid::make_grid_problem(problem_, stiffness);
-  statics_ = grid::make_grid_system(*grid_, options.n_threads);
-  motion_ = grid::make_moving_grid(problem_, *grid_, *statics_, make_inertia(scene, {}),
+  vectors_.emplace(grid_->body);
+  auto statics = grid::make_grid_system(*grid_, options.n_threads);
+  motion_ = grid::make_moving_grid(problem_, *grid_, *vectors_, *statics, make_inertia(scene, {}),
                                    damping_stiffness(scene, stiffness), options.n_threads);
+  statics_ = std::move(statics);
   find_entries();
 }
 
@@ -37,9 +39,10 @@ void MovingBody::factorise(const cases::Scene& scene, Lattice lattice, Lattice d
 
 /// What the places of a vector become as points says where they are.
 void MovingBody::find_entries() {
-  Vector places = statics_->load();
-  for (Eigen::Index place = 0; place < places.size(); ++place) places[place] = static_cast<double>(place + 1);
-  const Points at = grid_ ? grid::to_points(problem_, grid_->body, places) : msm::to_points(problem_, places);
+  const Vector places = Vector::LinSpaced(size(), 1, static_cast<double>(size()));
+  Vector room;
+  const Points at = grid_ ? grid::to_points(problem_, grid_->body, vectors_->to_field(places, room))
+                          : msm::to_points(problem_, places);
   for (const Eigen::Vector3d& of_point : at) {
     entries_.emplace_back();
     for (int c = 0; c < 3; ++c) entries_.back()[cases::index(c)] = std::lround(of_point[c]) - 1;
@@ -47,7 +50,7 @@ void MovingBody::find_entries() {
 }
 
 Vector MovingBody::to_vector(const Points& points) const {
-  Vector vector = Vector::Zero(statics_->load().size());
+  Vector vector = Vector::Zero(size());
   for (std::size_t p = 0; p < points.size(); ++p)
     for (int c = 0; c < 3; ++c)
       if (const Eigen::Index entry = entries_[p][cases::index(c)]; entry >= 0) vector[entry] = points[p][c];
@@ -71,7 +74,7 @@ Points MovingBody::to_points(const Vector& vector) const {
 }
 
 Vector MovingBody::forces(const std::vector<cases::NodeVector>& of_nodes) const {
-  Vector forces = Vector::Zero(statics_->load().size());
+  Vector forces = Vector::Zero(size());
   for (const auto& [node, force] : of_nodes)
     for (std::size_t c = 0; c < 3; ++c)
       if (!problem_.is_constrained[3 * cases::index(node) + c])

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "msm/grid/grid_system.hpp"
+#include "msm/grid/node_vectors.hpp"
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
 
@@ -35,10 +36,12 @@ class MovingBody {
  private:
   Problem problem_;
   std::optional<grid::GridProblem> grid_;
+  std::optional<grid::NodeVectors> vectors_; ///< on the grid
   std::unique_ptr<SpringSystem> statics_;
   std::unique_ptr<MovingSprings> motion_;
   std::vector<std::array<Eigen::Index, 3>> entries_; ///< of each node in a vector of the motion; -1: none
 
+  Eigen::Index size() const { return vectors_ ? vectors_->size() : statics_->load().size(); }
   void find_entries();
   void factorise(const cases::Scene& scene, Lattice lattice, Lattice damping);
 };

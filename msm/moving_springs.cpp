@@ -97,8 +97,14 @@ void MovingSprings::set_step(const mechanics::StepTerms& terms) {
 
 void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect,
                              Vector& residual) {
-  springs_.residual(at, 0, expect, residual);
-  residual += terms_->force - added_force(at);
+  spring_residual(at, expect, residual);
+  // (mass M + damping C) (at - origin)
+  residual += terms_->force - diagonal_.cwiseProduct(at - terms_->origin);
+  if (!has_stiffness_damping() || terms_->damping == 0) return;
+  moved_ = at - terms_->origin;
+  product_.setZero(at.size());
+  add_stiffness_damping(moved_, product_);
+  residual -= terms_->damping * product_;
 }
 
 /// Damping by stiffness joins free degrees of freedom and supports that move: half of the form in the former,
@@ -113,18 +119,7 @@ double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
     add_stiffness_damping(added_, product_);
     added += terms_->damping * dot(moved_, product_);
   }
-  return springs_.energy(at, 0) + added - dot(terms_->force, at);
-}
-
-/// (mass M + damping C) (at - origin)
-const Vector& MovingSprings::added_force(const Vector& at) {
-  moved_ = at - terms_->origin;
-  added_ = diagonal_.cwiseProduct(moved_);
-  if (!has_stiffness_damping() || terms_->damping == 0) return added_;
-  product_.setZero(at.size());
-  add_stiffness_damping(moved_, product_);
-  added_ += terms_->damping * product_;
-  return added_;
+  return spring_energy(at) + added - dot(terms_->force, at);
 }
 
 } // namespace springproof::msm

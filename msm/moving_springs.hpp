@@ -37,11 +37,11 @@ Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms);
 /// @param springs  that belong to no cells, in a scene of one material
 Lattice damping_lattice(const cases::Scene& scene, Lattice springs);
 
-/// The motion of a lattice, on the vectors and with the forces of its static equations. Masses are on the
-/// diagonal.
+/// The motion of a lattice with the forces of its static equations, on their vectors unless forces, energy,
+/// supports and inverted cells are overridden. Masses are on the diagonal.
 class MovingSprings : public mechanics::DynamicProblem {
  public:
-  /// Inertia in the order of the static equations' vectors, 0 on constrained degrees of freedom.
+  /// Inertia in the order of the vectors, 0 on constrained degrees of freedom.
   struct Entries {
     Vector mass, mass_damping;
     std::vector<std::pair<cases::History, Vector>> loads;
@@ -99,6 +99,12 @@ class MovingSprings : public mechanics::DynamicProblem {
   /// Of mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }
 
+  /// Of the springs alone: minus their forces, and their energy.
+  virtual void spring_residual(const Vector& at, mechanics::Expect expect, Vector& residual) {
+    springs_.residual(at, 0, expect, residual);
+  }
+  virtual double spring_energy(const Vector& at) { return springs_.energy(at, 0); }
+
   /// product += damping tangent at rest * motion, on free degrees of freedom.
   virtual bool has_stiffness_damping() const = 0;
   virtual void add_stiffness_damping(const Vector& motion, Vector& product) = 0;
@@ -110,8 +116,6 @@ class MovingSprings : public mechanics::DynamicProblem {
   Vector diagonal_;
   Vector given_force_;             ///< N; of no size: none
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
-
-  const Vector& added_force(const Vector& at);
 };
 
 } // namespace springproof::msm

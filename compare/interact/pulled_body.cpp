@@ -158,7 +158,7 @@ Vector3d PulledBody::expected_place(int vertex) {
 /// unit circle for k < (4 mu + K)/3: a quarter of mu + K leaves room for a body that softens, and for bdf2
 /// (tested, not derived). mu + K is what the tangent of a step says, here where the body is now.
 double PulledBody::bearable_stiffness(const mechanics::EmbeddedPoint& place) {
-  constexpr double forcing = 0.1; // the compliance, an energy, is off by its square
+  constexpr double forcing = 0.3; // the compliance, an energy, is off by its square
   double compliance = 0;          // mm/N, of the softest axis
   body_->motion().lift_limit();   // a solve that is cut off finds less compliance than there is
   mechanics::Vector step;

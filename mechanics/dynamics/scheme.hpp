@@ -10,6 +10,9 @@ namespace springproof::mechanics {
 /// u_before - u0 and the velocity v_before of the step before (bdf2).
 struct KnownMotion {
   double velocity = 0, acceleration = 0, displacement_before = 0, velocity_before = 0;
+  bool is_none() const {
+    return velocity == 0 && acceleration == 0 && displacement_before == 0 && velocity_before == 0;
+  }
 };
 
 /// A step of any scheme as one equation for a displacement w:

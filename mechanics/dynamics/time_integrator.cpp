@@ -106,6 +106,7 @@ void TimeIntegrator::add_known_forces(const StepCoefficients& c) {
   combine(c.known_acceleration);
   problem_.mass_product(known_, product_);
   force_ += product_;
+  if (c.known_velocity.is_none()) return;
   combine(c.known_velocity);
   problem_.damping_product(known_, product_);
   force_ += product_;
@@ -150,6 +151,12 @@ void TimeIntegrator::predict(const StepCoefficients& c, double to, Guess guess) 
     const double way = guess == Guess::velocity_stays ? c.place * (to - now_.time) : 0;
     guess_ = now_.displacement + way * now_.velocity;
   }
+  if (c.place == 1) {
+    place_ = guess_;
+    problem_.supports_at(to, place_);
+    supports_ = place_;
+    return;
+  }
   place_ = now_.displacement + (guess_ - now_.displacement) / c.place;
   problem_.supports_at(to, place_);
   supports_ = now_.displacement + c.place * (place_ - now_.displacement);
@@ -175,8 +182,12 @@ void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
   next_.time = to;
   next_.displacement = now_.displacement + place_ / c.place;
   problem_.supports_at(to, next_.displacement);
-  combine(c.known_velocity);
-  next_.velocity = now_.velocity + (c.damping * place_ - known_ - now_.velocity) / c.place;
+  if (c.known_velocity.is_none() && c.place == 1) {
+    next_.velocity = c.damping * place_;
+  } else {
+    combine(c.known_velocity);
+    next_.velocity = now_.velocity + (c.damping * place_ - known_ - now_.velocity) / c.place;
+  }
   combine(c.known_acceleration);
   next_.acceleration =
       now_.acceleration + (c.mass * place_ - known_ - now_.acceleration) / c.place_acceleration;

@@ -117,12 +117,26 @@ bool Newton::take_step(Vector& at, double forcing, double load_factor, Convexity
   const Expect expect = result_.residual <= 1e-5 ? Expect::residual : Expect::direction;
   const auto take = [&](Convexity convexity) {
     return problem_.direction(at, residual_, load_factor, forcing, convexity, step_) &&
-           line_search(problem_, at, residual_, step_, load_factor, trial_, expect);
+           (take_full_step(at, load_factor, expect) ||
+            line_search(problem_, at, residual_, step_, load_factor, trial_, expect));
   };
   if (take(Convexity::exact)) return true;
   if (fallback == Convexity::exact) return false;
   ++result_.convexified_steps;
   return take(fallback);
+}
+
+/// Where time is short, a full step that halves the residual at least needs no energies to be seen as a gain.
+bool Newton::take_full_step(Vector& at, double load_factor, Expect expect) {
+  if (!settings_.enough_newton_per_step) return false;
+  trial_.at = at + step_;
+  problem_.residual(trial_.at, load_factor, expect, trial_.residual);
+  if (!(4 * problem_.dot(trial_.residual, trial_.residual) <= problem_.dot(residual_, residual_)))
+    return false;
+  at.swap(trial_.at);
+  residual_.swap(trial_.residual);
+  trial_.energy.reset();
+  return true;
 }
 
 /// Whether a residual is no larger than what the last digits of the state decide: no state in double

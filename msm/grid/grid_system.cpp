@@ -62,12 +62,13 @@ Field<double> to_field(const Problem& problem, const Body& body, const std::vect
   return field;
 }
 
-class GridSystem : public SpringSystem {
+class MatrixFreeSystem : public GridSystem {
  public:
-  GridSystem(const GridProblem& problem, int n_threads)
+  MatrixFreeSystem(const GridProblem& problem, int n_threads)
       : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
         bodies_(coarsenings(problem.body)) {}
 
+  const SpringField<double>& springs() const override { return springs_; }
   const Vector& load() const override { return problem_.load; }
 
   void residual(const Vector& displacement, double load_factor, mechanics::Expect, Vector& force) override {
@@ -337,8 +338,8 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
   return result;
 }
 
-std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n_threads) {
-  return std::make_unique<GridSystem>(problem, n_threads);
+std::unique_ptr<GridSystem> make_grid_system(const GridProblem& problem, int n_threads) {
+  return std::make_unique<MatrixFreeSystem>(problem, n_threads);
 }
 
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {

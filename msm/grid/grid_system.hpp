@@ -27,8 +27,13 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
 
 /// The lattice's equations without a matrix: conjugate gradients with the multigrid cycle.
 /// Vectors are fields of the layout. On a part of a body everything is collective.
+class GridSystem : public SpringSystem {
+ public:
+  virtual const SpringField<double>& springs() const = 0;
+};
+
 /// @param problem  must outlive the system
-std::unique_ptr<SpringSystem> make_grid_system(const GridProblem& problem, int n_threads);
+std::unique_ptr<GridSystem> make_grid_system(const GridProblem& problem, int n_threads);
 
 /// Displacement at full load of the same body in coarser cells, interpolated: what Newton's method may start
 /// from. Nothing when the coarse body does not carry the load, or there is none.

@@ -2,6 +2,7 @@
 
 #include "msm/grid/body.hpp"
 #include "msm/grid/kernels.hpp"
+#include "msm/grid/node_vectors.hpp"
 #include "msm/tangent.hpp"
 
 #include <functional>
@@ -10,13 +11,15 @@
 namespace springproof::msm::grid {
 
 /// A symmetric operator of a small body (a tangent, with mass and damping), factorised in double precision
-/// and kept in single precision: a preconditioner for what the body becomes when it moves.
+/// and kept in 16 bits: a preconditioner for what the body becomes when it moves. On the vectors of
+/// its nodes.
 class HeldFactor {
  public:
   using Operator = std::function<void(const Field<double>& direction, Field<double>& product)>;
 
-  /// @param body  the whole of it; must outlive this
-  explicit HeldFactor(const Body& body);
+  /// @param body     the whole of it; must outlive this
+  /// @param vectors  of the body
+  HeldFactor(const Body& body, const NodeVectors& vectors);
 
   /// Takes 81 products, a factorisation, and memory.
   /// @param apply  couples nodes of the same cells, and nothing with constrained entries
@@ -28,13 +31,17 @@ class HeldFactor {
 
  private:
   const Body& body_;
-  std::vector<int> number_;             ///< of an entry's unknown; -1: it is constrained
-  std::vector<std::ptrdiff_t> entries_; ///< of unknowns, as the factor orders them
+  Eigen::Index size_;                         ///< of a vector
+  std::vector<int> number_;                   ///< of the unknown of a field's entry; -1: it is constrained
+  std::vector<Eigen::Index> entries_;         ///< of unknowns, in a vector
+  std::vector<Eigen::Index> ordered_entries_; ///< the same as the factor orders them
   std::vector<FactorBlock> blocks_;
   std::vector<int> rows_;
-  std::vector<float> values_, solution_, scratch_;
+  std::vector<std::int16_t> values_;
+  std::vector<float> steps_, solution_, scratch_;
 
   Tangent::Matrix matrix_of(const Operator& apply) const;
+  void append(const Eigen::MatrixXd& kept);
 };
 
 } // namespace springproof::msm::grid

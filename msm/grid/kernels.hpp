@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 /// Force, energy, tangent product and tangent diagonal of a lattice on a grid, straight from displacements.
 /// The kernels see plain arrays only, so that one source can be compiled for several instruction sets; which
@@ -128,15 +129,33 @@ struct Kernels {
   int pack; ///< numbers computed at once
 };
 
-/// Columns of a factor that have the same rows below them, in single precision.
+/// Rows of a factor's block that lie together, column after column; the last may be 16.
+constexpr int panel_rows = 32;
+
+/// So that no pack has to be cut off.
+constexpr int padded(int n) {
+  return (n + 15) / 16 * 16;
+}
+
+/// Columns of a factor that have the same rows below them: D their diagonal block, B the rows below. Kept are
+/// the inverse of D and, below it, B times that inverse, each column in steps of its own: 16 bits take half
+/// the time to read that single precision does, and reading is what a substitution takes its time for.
 struct FactorBlock {
   int first;       ///< of its unknowns, which follow each other
   int n_columns;   ///< its unknowns
   int n_below;     ///< unknowns after them that they are coupled with ...
   const int* rows; ///< ... and which
-  /// The inverse of the diagonal block and then the rows below, by columns of padded(n_columns) and
-  /// padded(n_below) numbers.
-  const float* values;
+  /// Panels of padded(n_columns + n_below) rows in all. Rows below are divided by `below`, which brings them
+  /// to the size of the inverse.
+  const std::int16_t* values;
+  const float* steps; ///< of the columns; 15 numbers more are read
+  float below;
+  /// Numbers from one block to the next: whole lines of the cache.
+  std::ptrdiff_t n_values() const {
+    return (std::ptrdiff_t{n_columns} * padded(n_columns + n_below) + panel_rows - 1) / panel_rows *
+           panel_rows;
+  }
+  int n_scratch() const { return padded(n_columns + n_below) + 16 * n_columns + 16; }
 };
 
 /// A factor L of a symmetric matrix L L^T, by blocks.
@@ -145,17 +164,13 @@ struct BlockFactor {
   int n_blocks;
 };
 
-/// So that no pack has to be cut off.
-constexpr int padded(int n) {
-  return (n + 15) / 16 * 16;
-}
-
 struct InstructionSet {
   const char* name;
   Kernels<double> in_double;
   Kernels<float> in_float;
   /// x = (L L^T)^-1 x.
-  /// @param scratch  as many numbers as padded(n_columns) + padded(n_below) of any block
+  /// @param x        15 numbers more than unknowns, which are read
+  /// @param scratch  the most n_scratch() of any block
   void (*substitute)(const BlockFactor&, float* x, float* scratch);
 };
 extern const InstructionSet baseline, avx2, avx512;

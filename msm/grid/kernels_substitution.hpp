@@ -3,67 +3,83 @@
 // ---- substitutions in a factor
 // ------------------------------------------------------------------------------
 
-/// to = the sum over columns of matrix[:, j] * from[j].
-SPRINGPROOF_INLINE void times(const float* __restrict matrix, int n_rows, int n_columns,
-                              const float* __restrict from, float* __restrict to) {
-  for (int r = 0; r < n_rows; ++r) to[r] = 0;
-  int j = 0;
-  for (; j + 4 <= n_columns; j += 4) {
-    const float *a = matrix + std::ptrdiff_t{j} * n_rows, *b = a + n_rows, *c = b + n_rows, *d = c + n_rows;
-    const float x = from[j], y = from[j + 1], z = from[j + 2], w = from[j + 3];
-    for (int r = 0; r < n_rows; ++r) to[r] += a[r] * x + b[r] * y + c[r] * z + d[r] * w;
-  }
-  for (; j < n_columns; ++j) {
-    const float* a = matrix + std::ptrdiff_t{j} * n_rows;
-    for (int r = 0; r < n_rows; ++r) to[r] += a[r] * from[j];
-  }
+/// A pack of 16-bit numbers.
+SPRINGPROOF_INLINE PackF load(const std::int16_t* from) {
+#if defined(__AVX512F__)
+  return _mm512_cvtepi32_ps(
+      _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+#elif defined(__AVX2__)
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+#else // into the upper halves, and down with their signs
+  const __m128i bits = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(bits, bits), 16));
+#endif
 }
 
-/// to[j] = the sum over rows of matrix[:, j] * from.
-SPRINGPROOF_INLINE void times_transposed(const float* __restrict matrix, int n_rows, int n_columns,
-                                         const float* __restrict from, float* __restrict to) {
-  int j = 0;
-  for (; j + 4 <= n_columns; j += 4) {
-    const float *a = matrix + std::ptrdiff_t{j} * n_rows, *b = a + n_rows, *c = b + n_rows, *d = c + n_rows;
-    float x = 0, y = 0, z = 0, w = 0;
-    for (int r = 0; r < n_rows; ++r) {
-      const float f = from[r];
-      x += a[r] * f, y += b[r] * f, z += c[r] * f, w += d[r] * f;
-    }
-    to[j] = x, to[j + 1] = y, to[j + 2] = z, to[j + 3] = w;
+/// to = a panel times from, one number per column.
+template<int rows>
+SPRINGPROOF_INLINE const std::int16_t* times(const std::int16_t* panel, int n_columns, const float* from,
+                                             float* to) {
+  constexpr std::ptrdiff_t lanes = pack_size<float>, n = rows / lanes;
+  constexpr std::ptrdiff_t ahead = 32 * panel_rows; // after a pause a factor comes from memory
+  PackF sum[n] = {};
+  for (int j = 0; j < n_columns; ++j, panel += rows) {
+    __builtin_prefetch(panel + ahead);
+    const PackF x = PackF{} + from[j];
+    for (std::ptrdiff_t p = 0; p < n; ++p) sum[p] += load(panel + p * lanes) * x;
   }
-  for (; j < n_columns; ++j) {
-    const float* a = matrix + std::ptrdiff_t{j} * n_rows;
-    float x = 0;
-    for (int r = 0; r < n_rows; ++r) x += a[r] * from[r];
-    to[j] = x;
+  for (std::ptrdiff_t p = 0; p < n; ++p) store(to + p * lanes, sum[p]);
+  return panel;
+}
+
+/// to += the transposed of a panel times from, one pack per column, whose numbers are to be added up.
+template<int rows>
+SPRINGPROOF_INLINE const std::int16_t* times_transposed(const std::int16_t* panel, int n_columns,
+                                                        const float* from, float* to) {
+  constexpr std::ptrdiff_t lanes = pack_size<float>, n = rows / lanes;
+  PackF x[n];
+  for (std::ptrdiff_t p = 0; p < n; ++p) x[p] = load(from + p * lanes);
+  for (int j = 0; j < n_columns; ++j, panel += rows, to += lanes) {
+    PackF sum = load(to);
+    for (std::ptrdiff_t p = 0; p < n; ++p) sum += load(panel + p * lanes) * x[p];
+    store(to, sum);
   }
+  return panel;
 }
 
 /// x = (L L^T)^-1 x, one block after the other and back.
 void substitute(const BlockFactor& factor, float* x, float* scratch) {
+  constexpr std::ptrdiff_t lanes = pack_size<float>;
   for (int b = 0; b < factor.n_blocks; ++b) {
     const FactorBlock& columns = factor.blocks[b];
-    const int m = columns.n_columns, below = columns.n_below, n_own = padded(m), n_below = padded(below);
-    float* own = x + columns.first;
-    const float *inverse = columns.values, *rest = inverse + std::ptrdiff_t{n_own} * m;
-    times(inverse, n_own, m, own, scratch);
-    for (int j = 0; j < m; ++j) own[j] = scratch[j];
-    times(rest, n_below, m, own, scratch);
-    for (int r = 0; r < below; ++r) x[columns.rows[r]] -= scratch[r];
+    const int m = columns.n_columns, n = padded(m + columns.n_below);
+    float *own = x + columns.first, *found = scratch, *in_steps = scratch + n;
+    for (std::ptrdiff_t j = 0; j < m; j += lanes)
+      store(in_steps + j, load(columns.steps + j) * load(own + j));
+    const std::int16_t* panel = columns.values;
+    for (int r = 0; r < n; r += panel_rows)
+      panel = r + panel_rows <= n ? times<panel_rows>(panel, m, in_steps, found + r)
+                                  : times<16>(panel, m, in_steps, found + r);
+    __builtin_memcpy(own, found, static_cast<std::size_t>(m) * sizeof(float));
+    const float* below = found + m;
+    for (int r = 0; r < columns.n_below; ++r) x[columns.rows[r]] -= columns.below * below[r];
   }
   for (int b = factor.n_blocks - 1; b >= 0; --b) {
     const FactorBlock& columns = factor.blocks[b];
-    const int m = columns.n_columns, below = columns.n_below, n_own = padded(m), n_below = padded(below);
-    float* own = x + columns.first;
-    const float *inverse = columns.values, *rest = inverse + std::ptrdiff_t{n_own} * m;
-    float *gathered = scratch, *found = scratch + n_below;
-    for (int r = 0; r < below; ++r) gathered[r] = x[columns.rows[r]];
-    for (int r = below; r < n_below; ++r) gathered[r] = 0;
-    times_transposed(rest, n_below, m, gathered, found);
-    for (int j = 0; j < m; ++j) own[j] -= found[j];
-    for (int j = 0; j < m; ++j) scratch[j] = own[j];
-    for (int j = m; j < n_own; ++j) scratch[j] = 0;
-    times_transposed(inverse, n_own, m, scratch, own);
+    const int m = columns.n_columns, n = padded(m + columns.n_below);
+    float *own = x + columns.first, *gathered = scratch, *sums = scratch + n;
+    for (std::ptrdiff_t j = 0; j < m; j += lanes) store(gathered + j, load(own + j));
+    for (int r = 0; r < columns.n_below; ++r) gathered[m + r] = -columns.below * x[columns.rows[r]];
+    for (int r = m + columns.n_below; r < n; ++r) gathered[r] = 0;
+    for (std::ptrdiff_t j = 0; j < m; ++j) store(sums + j * lanes, PackF{});
+    const std::int16_t* panel = columns.values;
+    for (int r = 0; r < n; r += panel_rows)
+      panel = r + panel_rows <= n ? times_transposed<panel_rows>(panel, m, gathered + r, sums)
+                                  : times_transposed<16>(panel, m, gathered + r, sums);
+    for (int j = 0; j < m; ++j) {
+      float sum = 0;
+      for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) sum += sums[j * lanes + lane];
+      own[j] = columns.steps[j] * sum;
+    }
   }
 }

@@ -100,15 +100,17 @@ MergedCells merge(const Cells& finer, const std::array<int, 3>& factor) {
     }
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
-  result.coarse_cell.resize(n);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
   for (const std::size_t cell : order) {
     if (result.cells.nodes.empty() || result.cells.nodes.back() != nodes[cell]) {
       result.cells.nodes.push_back(nodes[cell]);
       result.cells.places.push_back(places[cell]);
+      result.first_finer.push_back(static_cast<int>(result.finer_cells.size()));
     }
-    result.coarse_cell[cell] = static_cast<int>(result.cells.nodes.size()) - 1;
+    result.finer_cells.push_back(static_cast<int>(cell));
   }
+  result.first_finer.push_back(static_cast<int>(n));
   std::vector<std::array<int, 2>> met_by(index(finer.n_nodes), {-1, -1}); // a cell, and which of its nodes
   for (std::size_t cell = 0; cell < n; ++cell)
     for (int v = 0; v < 8; ++v) met_by[index(finer.nodes[cell][index(v)])] = {static_cast<int>(cell), v};

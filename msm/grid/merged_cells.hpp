@@ -30,7 +30,8 @@ Weights transposed(const Weights& weights, int n_columns);
 /// ones do.)
 struct MergedCells {
   Cells cells;
-  std::vector<int> coarse_cell;              ///< of every finer cell
+  /// Finer cells by coarse ones: cell c has those from first_finer[c] to first_finer[c + 1] - 1.
+  std::vector<int> first_finer, finer_cells;
   std::vector<std::array<int, 3>> begins_at; ///< of every finer cell: its place in the coarse one, 0 or 1
   std::array<int, 3> factor;                 ///< finer cells along each axis of a coarse one, 1 or 2
   Weights interpolation;                     ///< a row for every finer node, a column for every coarse one

@@ -19,16 +19,21 @@ constexpr int n_dense_nodes = 600; ///< where cells can be merged no further; of
 constexpr int n_pairs = 6;
 constexpr int first_of_pair[n_pairs] = {0, 1, 2, 1, 0, 0}, second_of_pair[n_pairs] = {0, 1, 2, 2, 2, 1};
 
-constexpr std::ptrdiff_t nodes_at_once = 4096; ///< pieces that threads share
+constexpr std::ptrdiff_t nodes_at_once = 512, cells_at_once = 32; ///< pieces that threads share
 
+/// Calls action for the numbers below n.
 template<class Action>
-void for_each_node(std::ptrdiff_t n, int n_threads, const Action& action) {
-  if (n_threads == 1 || n <= nodes_at_once) {
-    for (std::ptrdiff_t node = 0; node < n; ++node) action(node);
+void for_each(std::ptrdiff_t n, std::ptrdiff_t at_once, int n_threads, const Action& action) {
+  if (n_threads == 1 || n <= at_once) { // a parallel region of one thread allocates
+    for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
     return;
   }
-#pragma omp parallel for num_threads(n_threads) schedule(static, nodes_at_once)
-  for (std::ptrdiff_t node = 0; node < n; ++node) action(node);
+#pragma omp parallel for num_threads(n_threads) schedule(static, at_once)
+  for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
+}
+template<class Action>
+void for_each_node(std::ptrdiff_t n, int n_threads, const Action& action) {
+  for_each(n, nodes_at_once, n_threads, action);
 }
 
 /// The springs between vertices v and w of a cell.
@@ -211,29 +216,33 @@ void MergedMultigrid::add_diagonal(std::size_t cell, const Field<float>& added, 
 /// Of a level's cells, from those of the finer level: its cells' stiffness between the coarse corners.
 template<class OfFiner>
 void MergedMultigrid::gather_stiffness(Level& level, const OfFiner& of_finer, bool is_finest) {
-  for (CellMatrix& matrix : level.stiffness)
-    for (Corners& pair : matrix) pair.setZero();
   std::array<Corners, 8> weights; // by where a finer cell begins: finer corners by coarse ones
   for (int begin = 0; begin < 8; ++begin)
     for (int v = 0; v < 8; ++v)
       for (int corner = 0; corner < 8; ++corner)
         weights[index(begin)](v, corner) = static_cast<float>(
             weight_at({begin & 1, (begin >> 1) & 1, begin >> 2}, level.merged.factor, v, corner));
-  for (std::size_t cell = 0; cell < level.merged.coarse_cell.size(); ++cell) {
-    const auto& [x, y, z] = level.merged.begins_at[cell];
-    const Corners& all = weights[index(x + 2 * y + 4 * z)];
+  const auto add = [&](std::size_t cell, CellMatrix& coarse) {
+    const std::array<int, 3>& begin = level.merged.begins_at[cell];
+    const Corners& all = weights[index(begin[0] + 2 * begin[1] + 4 * begin[2])];
     std::array<Corners, 3> moved{all, all, all}; // what the corners' components are moved by
     if (is_finest)
       for (int v = 0; v < 8; ++v)
         for (std::size_t c = 0; c < 3; ++c)
           if (is_held_[index(cells_.nodes[cell][index(v)])][c]) moved[c].row(v).setZero();
     const CellMatrix finer = of_finer(cell);
-    CellMatrix& coarse = level.stiffness[index(level.merged.coarse_cell[cell])];
     for (std::size_t p = 0; p < n_pairs; ++p) {
       const Corners half = finer[p].lazyProduct(moved[index(second_of_pair[p])]);
       coarse[p] += moved[index(first_of_pair[p])].transpose().lazyProduct(half);
     }
-  }
+  };
+  const auto n_coarse = static_cast<std::ptrdiff_t>(level.stiffness.size());
+  for_each(n_coarse, cells_at_once, n_threads_, [&](std::ptrdiff_t at) {
+    CellMatrix& coarse = level.stiffness[index(at)];
+    for (Corners& pair : coarse) pair.setZero();
+    for (int f = level.merged.first_finer[index(at)]; f < level.merged.first_finer[index(at) + 1]; ++f)
+      add(index(level.merged.finer_cells[index(f)]), coarse);
+  });
 }
 
 void MergedMultigrid::assemble(Level& level) const {

@@ -12,25 +12,24 @@ namespace springproof::msm::grid {
 
 namespace {
 
-/// One number per point of the mesh on the entries of a field that are free.
-Field<double> on_free_entries(const Problem& problem, const Body& body, const std::vector<double>& of_point) {
-  Points points;
-  for (const double value : of_point) points.push_back(Eigen::Vector3d::Constant(value));
-  Field<double> field = to_field(problem, body, points);
-  clear_constrained(body, field);
-  return field;
-}
-
-MovingSprings::Entries entries_of(const Problem& problem, const Body& body, const Inertia& inertia) {
-  MovingSprings::Entries entries{on_free_entries(problem, body, inertia.mass),
-                                 on_free_entries(problem, body, inertia.mass_damping),
-                                 {},
-                                 on_free_entries(problem, body, std::vector<double>(inertia.mass.size(), 1))};
-  for (const auto& [history, force] : inertia.loads) {
-    Field<double> field = to_field(problem, body, problem.on_all_points(force));
+MovingSprings::Entries entries_of(const Problem& problem, const Body& body, const NodeVectors& vectors,
+                                  const Inertia& inertia) {
+  const auto on_free_entries = [&](const Points& points) {
+    Field<double> field = to_field(problem, body, points);
     clear_constrained(body, field);
-    entries.loads.emplace_back(history, std::move(field));
-  }
+    return vectors.from_field(field);
+  };
+  const auto of_points = [&](const std::vector<double>& values) {
+    Points points;
+    for (const double value : values) points.push_back(Eigen::Vector3d::Constant(value));
+    return on_free_entries(points);
+  };
+  MovingSprings::Entries entries{of_points(inertia.mass),
+                                 of_points(inertia.mass_damping),
+                                 {},
+                                 of_points(std::vector<double>(inertia.mass.size(), 1))};
+  for (const auto& [history, force] : inertia.loads)
+    entries.loads.emplace_back(history, on_free_entries(problem.on_all_points(force)));
   return entries;
 }
 
@@ -72,14 +71,28 @@ struct Factors {
 
 class MovingGrid : public MovingSprings {
  public:
-  MovingGrid(const Problem& problem, const GridProblem& grid, SpringSystem& springs, const Inertia& inertia,
-             std::optional<Body> damping, int n_threads)
-      : MovingSprings(springs, entries_of(problem, grid.body, inertia)), body_(grid.body),
-        damping_body_(std::move(damping)), n_threads_(n_threads), springs_(body_, n_threads),
-        rest_(Field<double>::Zero(3 * body_.layout.size)), damped_(rest_) {
-    if (damping_body_) damping_.emplace(*damping_body_, n_threads);
-    if (grid.n_unknowns <= most_held && !body_.part) factor_.emplace(body_);
+  MovingGrid(const Problem& problem, const GridProblem& grid, const NodeVectors& vectors, GridSystem& statics,
+             const Inertia& inertia, std::optional<Body> damping, int n_threads)
+      : MovingSprings(statics, entries_of(problem, grid.body, vectors, inertia)), grid_(grid),
+        body_(grid.body), vectors_(vectors), statics_(statics), damping_body_(std::move(damping)),
+        n_threads_(n_threads) {
+    if (damping_body_) {
+      damping_.emplace(*damping_body_, n_threads);
+      rest_.setZero(3 * body_.layout.size);
+      damped_.setZero(vectors.size());
+    }
+    if (grid.n_unknowns <= most_held && !body_.part) factor_.emplace(body_, vectors);
+    for (const std::ptrdiff_t entry : body_.constrained)
+      if (const Eigen::Index in_vector = vectors.entry(entry); in_vector >= 0)
+        constrained_.emplace_back(in_vector, entry);
   }
+
+  void supports_at(double time, Vector& displacement) const override {
+    if (!grid_.supports) return;
+    const Field<double>& there = grid_.supports(time);
+    for (const auto& [in_vector, in_field] : constrained_) displacement[in_vector] = there[in_field];
+  }
+  int n_inverted(const Vector& at) override { return statics_.n_inverted(vectors_.to_field(at, at_)); }
 
   void set_step(const mechanics::StepTerms& terms) override {
     MovingSprings::set_step(terms);
@@ -111,12 +124,17 @@ class MovingGrid : public MovingSprings {
   /// Unknowns up to which a factor takes less time than a cycle, and not too long to make.
   static constexpr std::size_t most_held = 10'000;
   static constexpr int most_with_factor = 20; ///< iterations; healthy motions take less than 10
+  const GridProblem& grid_;
   const Body& body_;
-  std::optional<Body> damping_body_; ///< springs of beta times k
+  const NodeVectors& vectors_;
+  GridSystem& statics_;
+  std::vector<std::pair<Eigen::Index, std::ptrdiff_t>> constrained_; ///< entries, in a vector and in a field
+  std::optional<Body> damping_body_;                                 ///< springs of beta times k
   int n_threads_;
-  SpringField<double> springs_;
   std::optional<SpringField<double>> damping_;
-  Field<double> rest_, damped_;
+  Field<double> rest_;
+  Vector damped_;
+  Field<double> at_, in_, out_; ///< room for vectors as fields
   mechanics::grid::KeptFields kept_;
   mechanics::grid::LinearSolution found_;
   int linear_iterations_ = 0; ///< in this step
@@ -136,27 +154,41 @@ class MovingGrid : public MovingSprings {
   bool has_failed_ = false;
   bool is_prepared_ = false; ///< in this step
 
+  void spring_residual(const Vector& at, mechanics::Expect expect, Vector& residual) override {
+    const Field<double>& place = vectors_.to_field(at, at_);
+    vectors_.from_field([&](Field<double>& force) { statics_.residual(place, 0, expect, force); }, out_,
+                        residual);
+  }
+  double spring_energy(const Vector& at) override { return statics_.energy(vectors_.to_field(at, at_), 0); }
+
   bool has_stiffness_damping() const override { return damping_.has_value(); }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
+    add_damping(1, vectors_.to_field(motion, in_), product);
+  }
+  /// product += factor * damping's tangent at rest * direction
+  void add_damping(double factor, const Field<double>& direction, Vector& product) {
     if (!damping_) return;
-    damping_->product(Clamp::no, rest_, motion, damped_);
-    add(product, 1.0, damped_, n_threads_);
+    vectors_.from_field([&](Field<double>& force) { damping_->product(Clamp::no, rest_, direction, force); },
+                        out_, damped_);
+    add(product, factor, damped_, n_threads_);
   }
 
   /// product = (tangent + mass + damping of the step) direction
-  void multiply(const Vector& at, Clamp clamp, const Vector& direction, Vector& product) {
-    springs_.product(clamp, at, direction, product);
+  /// @param at  as a field
+  void multiply(const Field<double>& at, Clamp clamp, const Vector& direction, Vector& product) {
+    const Field<double>& v = vectors_.to_field(direction, in_);
+    vectors_.from_field([&](Field<double>& force) { statics_.springs().product(clamp, at, v, force); }, out_,
+                        product);
     add_product(product, diagonal(), direction, n_threads_);
-    if (!damping_) return;
-    damping_->product(Clamp::no, rest_, direction, damped_);
-    add(product, terms().damping, damped_, n_threads_);
+    add_damping(terms().damping, v, product);
   }
 
   void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations,
              const std::function<void(const Vector&, Vector&)>& precondition) {
+    const Field<double>& place = vectors_.to_field(at, at_);
     mechanics::grid::conjugate_gradients(
-        [&](const Vector& v, Vector& product) { multiply(at, clamp, v, product); }, precondition, right_side,
-        forcing * norm(body_, right_side, n_threads_), most_iterations,
+        [&](const Vector& v, Vector& product) { multiply(place, clamp, v, product); }, precondition,
+        right_side, forcing * norm(body_, right_side, n_threads_), most_iterations,
         [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
     work_.linear_iterations += found_.iterations;
     linear_iterations_ += found_.iterations;
@@ -175,8 +207,9 @@ class MovingGrid : public MovingSprings {
     if (factor_ && !(of_factor_ && of_factor_->are_of(terms())) && n_alike_ == enough_alike) {
       of_factor_ = last_;
       n_with_factor_ = n_to_pass_ = 0;
+      const Field<double>& place = vectors_.to_field(at, at_);
       if (!factor_->factorise(
-              [&](const Vector& v, Vector& product) { multiply(at, Clamp::yes, v, product); }))
+              [&](const Vector& v, Vector& product) { multiply(place, Clamp::yes, v, product); }))
         factor_.reset(); // lost in rounding
     }
     return factor_ && of_factor_ && of_factor_->are_of(terms()) && n_to_pass_ == 0;
@@ -198,20 +231,22 @@ class MovingGrid : public MovingSprings {
     const Body all = damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_;
     bodies_ = coarsenings(all);
     multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
-    multigrid_->set_diagonal(scale_of(all) * diagonal());
+    multigrid_->set_diagonal(scale_of(all) * vectors_.to_field(diagonal(), in_));
     is_slow_ = true;
   }
 
   void solve_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
-    solve(at, residual, forcing, clamp, most_iterations(max_iterations),
-          [&](const Vector& v, Vector& out) { multigrid_->apply(v, out); });
+    solve(at, residual, forcing, clamp, most_iterations(max_iterations), [&](const Vector& v, Vector& out) {
+      const Field<double>& right_side = vectors_.to_field(v, in_);
+      vectors_.from_field([&](Field<double>& field) { multigrid_->apply(right_side, field); }, out_, out);
+    });
   }
 
   /// As far as the step's iterations go.
   bool goes_by_cut_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
     const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
-    if (is_anew) multigrid_->linearise(at);
+    if (is_anew) multigrid_->linearise(vectors_.to_field(at, at_));
     is_prepared_ = is_prepared_ || is_anew;
     solve_by_cycles(at, residual, forcing, clamp);
     const double slowness = found_.iterations / -std::log(forcing);
@@ -226,7 +261,7 @@ class MovingGrid : public MovingSprings {
     const double asked_for = -std::log(forcing); // of conjugate gradients
     for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
       if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
-      if (attempt > 0) multigrid_->linearise(at);
+      if (attempt > 0) multigrid_->linearise(vectors_.to_field(at, at_));
       solve_by_cycles(at, residual, forcing, clamp);
       const double slowness = found_.iterations / asked_for;
       if (attempt > 0) usual_slowness_ = slowness;
@@ -242,7 +277,8 @@ class MovingGrid : public MovingSprings {
 } // namespace
 
 std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const GridProblem& grid,
-                                                SpringSystem& springs, const Inertia& inertia,
+                                                const NodeVectors& vectors, GridSystem& statics,
+                                                const Inertia& inertia,
                                                 const std::vector<CellStiffness>& damping, int n_threads) {
   std::optional<Body> damped;
   if (!damping.empty()) {
@@ -250,7 +286,7 @@ std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const Gr
     damped->exponents.reset(); // at rest all springs are Hooke's
     damped->constrained = grid.body.constrained;
   }
-  return std::make_unique<MovingGrid>(problem, grid, springs, inertia, std::move(damped), n_threads);
+  return std::make_unique<MovingGrid>(problem, grid, vectors, statics, inertia, std::move(damped), n_threads);
 }
 
 } // namespace springproof::msm::grid

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "msm/grid/grid_system.hpp"
+#include "msm/grid/node_vectors.hpp"
 #include "msm/moving_springs.hpp"
 
 namespace springproof::msm::grid {
@@ -9,11 +10,13 @@ namespace springproof::msm::grid {
 /// damping together. Small bodies have the factor of their first step as preconditioner; large ones, and
 /// those that moved too far from it, a multigrid cycle that is prepared anew where it has become slow. After
 /// the first steps it allocates nothing; the motion does not depend on the number of threads.
-/// @param springs    static equations of `grid`; both must outlive what is returned
+/// @param vectors    of the motion, of grid.body; must outlive what is returned, as must grid and statics
+/// @param statics    equations of `grid`
 /// @param inertia    whose damping is not looked at
 /// @param damping    damping_stiffness() of the scene's cells
 std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const GridProblem& grid,
-                                                SpringSystem& springs, const Inertia& inertia,
+                                                const NodeVectors& vectors, GridSystem& statics,
+                                                const Inertia& inertia,
                                                 const std::vector<CellStiffness>& damping, int n_threads);
 
 } // namespace springproof::msm::grid

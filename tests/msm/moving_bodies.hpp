@@ -93,20 +93,30 @@ inline cases::Scene turned_block(const cases::Dynamics& dynamics, const cases::M
 struct Moving {
   msm::Problem problem;
   msm::grid::GridProblem grid;
-  std::unique_ptr<msm::SpringSystem> statics;
+  msm::grid::NodeVectors vectors;
+  std::unique_ptr<msm::grid::GridSystem> statics;
   std::unique_ptr<msm::MovingSprings> motion;
 
   Moving(const cases::Scene& scene, const std::vector<msm::CellStiffness>& cells, int n_threads = 1)
       : problem(msm::make_moving_problem(scene)), grid(msm::grid::make_grid_problem(problem, cells)),
-        statics(msm::grid::make_grid_system(grid, n_threads)),
-        motion(msm::grid::make_moving_grid(problem, grid, *statics, msm::make_inertia(scene, {}),
+        vectors(grid.body), statics(msm::grid::make_grid_system(grid, n_threads)),
+        motion(msm::grid::make_moving_grid(problem, grid, vectors, *statics, msm::make_inertia(scene, {}),
                                            msm::damping_stiffness(scene, cells), n_threads)) {}
   Moving(const cases::Scene& scene, const msm::CellStiffness& cell) : Moving(scene, std::vector{cell}) {}
   Moving(const Moving&) = delete; // the others refer to its problem
 
-  Vector rest() const { return Vector::Zero(grid.load.size()); }
-  Vector field(const msm::Points& points) const { return msm::grid::to_field(problem, grid.body, points); }
-  msm::Points points(const Vector& field) const { return msm::grid::to_points(problem, grid.body, field); }
+  Vector rest() const { return Vector::Zero(vectors.size()); }
+  Vector vector(const msm::Points& points) const {
+    return vectors.from_field(msm::grid::to_field(problem, grid.body, points));
+  }
+  /// As statics has it.
+  Vector field(const Vector& vector) const {
+    Vector room;
+    return vectors.to_field(vector, room);
+  }
+  msm::Points points(const Vector& vector) const {
+    return msm::grid::to_points(problem, grid.body, field(vector));
+  }
 
   /// Of free entries, up to a size.
   Vector random_motion(double size, unsigned seed) const {
@@ -117,9 +127,9 @@ struct Moving {
       const double x = value(generator), y = value(generator), z = value(generator);
       all.emplace_back(x, y, z);
     }
-    Vector result = field(all);
-    msm::grid::clear_constrained(grid.body, result);
-    return result;
+    Vector field = msm::grid::to_field(problem, grid.body, all);
+    msm::grid::clear_constrained(grid.body, field);
+    return vectors.from_field(field);
   }
 };
 

@@ -47,7 +47,7 @@ struct Flight {
     msm::Points all;
     for (const Vector3d& x : body.problem.mesh.nodes)
       all.push_back(Vector3d(300, -200, 100) + Vector3d(5, 20, -10).cross(x));
-    velocity = body.field(all);
+    velocity = body.vector(all);
   }
 
   Vector3d momentum(const mechanics::Motion& now) const {
@@ -124,7 +124,8 @@ TEST_CASE("10,000 steps of nonlinear springs that spin drift neither in momentum
   mechanics::TimeIntegrator motion(*flight.body.motion, {cases::Scheme::generalized_alpha, 0.25, 0.5, 1.0},
                                    {0, flight.body.rest(), flight.velocity, {}}, settings);
   const auto energy = [&] {
-    return motion.kinetic_energy() + flight.body.statics->energy(motion.now().displacement, 0);
+    return motion.kinetic_energy() +
+           flight.body.statics->energy(flight.body.field(motion.now().displacement), 0);
   };
   const Vector3d momentum = flight.momentum(motion.now()), spin = flight.angular_momentum(motion.now());
   const double before = energy();
@@ -181,7 +182,8 @@ TEST_CASE("a step on a grid that fails is halved, and the motion goes on", "[ver
   CHECK(halved.trajectory->time == whole.trajectory->time);
   scene.definition.dynamics->step /= 10;
   const cases::Solution fine = follow_on_grid(scene, {power_log});
-  CHECK(difference(halved.displacement, fine.displacement) < difference(whole.displacement, fine.displacement));
+  CHECK(difference(halved.displacement, fine.displacement) <
+        difference(whole.displacement, fine.displacement));
 }
 
 TEST_CASE("an arch that is pushed beyond its limit snaps through, and comes to rest", "[verification]") {
@@ -196,7 +198,7 @@ TEST_CASE("an arch that is pushed beyond its limit snaps through, and comes to r
   CHECK(snapped.displacement[cases::index(top)].z() < -50); // mm: from 40 above its ends to below them
   // Where it ends is an equilibrium of statics.
   const Moving at_end(scene, hybrid_springs);
-  const Vector end = at_end.field(snapped.displacement);
+  const Vector end = at_end.field(at_end.vector(snapped.displacement));
   const msm::Problem loaded = msm::make_problem(still);
   Vector load = msm::grid::to_field(loaded, at_end.grid.body, loaded.on_all_points(loaded.force));
   msm::grid::clear_constrained(at_end.grid.body, load);

@@ -38,7 +38,8 @@ TEST_CASE("a held factor undoes the operator that it was made of") {
   const Body body = body_with_gap();
   const msm::grid::SpringField<double> springs(body, 1);
   const Field<double> at = 0.1 * any(body, 1), mass = 0.01 * any(body, 2).cwiseAbs();
-  msm::grid::HeldFactor factor(body);
+  const auto vectors = msm::grid::NodeVectors::fields(body);
+  msm::grid::HeldFactor factor(body, vectors);
   const auto operate = [&](double sign) {
     return [&, sign](const Field<double>& v, Field<double>& product) {
       if (product.size() != v.size()) product.setZero(v.size());
@@ -47,13 +48,14 @@ TEST_CASE("a held factor undoes the operator that it was made of") {
     };
   };
   CHECK_FALSE(factor.factorise(operate(-1)));
-  REQUIRE(factor.factorise(operate(1)));
+  REQUIRE(factor.factorise([&](const Field<double>& v, Field<double>& product) { product = v; }));
+  REQUIRE(factor.factorise(operate(1))); // anew
   const Field<double> motion = any(body, 3);
   Field<double> force, found;
-  for (const double size : {1e-30, 1.0, 1e30}) { // single precision inside
+  for (const double size : {1e-30, 1.0, 1e30}) { // 16 bits of a column's largest inside
     operate(1)(size * motion, force);
     factor.apply(force, found);
-    CHECK((found - size * motion).norm() <= 1e-4 * size * motion.norm());
+    CHECK((found - size * motion).norm() <= 1e-3 * size * motion.norm());
   }
   factor.apply(Field<double>::Zero(motion.size()), found);
   CHECK(found.isZero(0));

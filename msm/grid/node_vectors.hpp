@@ -1,0 +1,50 @@
+#pragma once
+
+#include "msm/grid/body.hpp"
+
+namespace springproof::msm::grid {
+
+/// Vectors that have the entries of a body's nodes alone: all x, then all y, then all z. A field has places
+/// for the whole of the body's box and ghosts too, several times as many where a body fills little of it.
+/// Where there is little to gain, and on a part of a body, a vector is a field.
+class NodeVectors {
+ public:
+  /// Of vectors that are the body's fields.
+  static NodeVectors fields(const Body& body) { return NodeVectors(body, true); }
+  explicit NodeVectors(const Body& body) : NodeVectors(body, false) {}
+
+  bool are_fields() const { return runs_.empty(); }
+  Eigen::Index size() const { return 3 * n_; } ///< of a vector
+
+  /// A vector as a field.
+  /// @param room  where it is unless the vector is a field itself; ghosts and places without a cell are 0
+  const Field<double>& to_field(const Field<double>& vector, Field<double>& room) const;
+  /// Calls write(field) and takes what it wrote as a vector.
+  /// @param room  as of to_field(), of another field than those that write() reads
+  template<class Write>
+  void from_field(const Write& write, Field<double>& room, Field<double>& vector) const {
+    if (are_fields()) {
+      write(vector);
+      return;
+    }
+    if (room.size() != size_of_field_) room.setZero(size_of_field_);
+    write(room);
+    gather(room, vector);
+  }
+  Field<double> from_field(const Field<double>& field) const;
+  /// Of an entry of a field in a vector; -1: it has none.
+  Eigen::Index entry(std::ptrdiff_t of_field) const;
+
+ private:
+  /// Nodes that follow each other in a row.
+  struct Run {
+    std::ptrdiff_t in_field, in_vector, length;
+  };
+  std::vector<Run> runs_; ///< none: vectors are fields
+  std::ptrdiff_t size_of_array_, size_of_field_, n_;
+
+  NodeVectors(const Body& body, bool are_fields);
+  void gather(const Field<double>& field, Field<double>& vector) const;
+};
+
+} // namespace springproof::msm::grid
