@@ -51,6 +51,7 @@ Constraints::Constraints(const cases::Scene& scene, const Nodes& nodes, const Pr
     for (const int node : nodes_on(fixed.selection, scene, nodes))
       for (std::size_t c = 0; c < 3; ++c)
         if (fixed.components[c]) is_constrained[3 * index(node) + c] = 1;
+  are_moved = !scene.moved.empty();
   for (const auto& [selection, motion] : scene.moved)
     for (const int node : nodes_on(selection, scene, nodes))
       moved_.push_back({node, nodes.point[index(node)], motion});

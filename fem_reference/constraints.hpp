@@ -22,6 +22,7 @@ class Constraints {
 
   std::vector<char> is_constrained; ///< per local degree of freedom
   long n_unknowns = 0;              ///< unconstrained degrees of freedom of all ranks
+  bool are_moved = false;           ///< some of the constrained ones, of any rank
 
   /// Displacements prescribed at a load factor, mm per local degree of freedom; 0 where unconstrained.
   void prescribe(double load_factor, std::vector<double>& displacement) const;

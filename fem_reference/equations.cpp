@@ -185,10 +185,11 @@ void EquilibriumEquations::measure(std::optional<double> volume_mismatch, double
   }
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
-  // a body moved by prescribed displacements alone is measured against its reactions
-  const double scale = step_            ? step_->scale
-                       : load_norm_ > 0 ? load_norm_
-                                        : std::sqrt(total(reaction, MPI_SUM, communicator_));
+  // A body moved by prescribed displacements alone is measured against its reactions; one in motion that is
+  // moved by them, against these if they are the larger.
+  double scale = step_ ? step_->scale : load_norm_;
+  if (step_ ? d.constraints.are_moved : !(load_norm_ > 0))
+    scale = std::max(scale, std::sqrt(total(reaction, MPI_SUM, communicator_)));
   size_.relative = imbalance == 0 ? 0 : imbalance / scale;
   size_.constraints_hold =
       total(volume_mismatch.value_or(0), MPI_MAX, communicator_) <= volume_tolerance && largest_gap_ <= 1e-12;

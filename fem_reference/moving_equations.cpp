@@ -18,14 +18,14 @@ MovingEquations::MovingEquations(const cases::Scene& scene, const Discretisation
     State force = equations.rest();
     for (std::size_t i = 0; i < load.size(); ++i)
       if (!is_constrained[i]) force[static_cast<Eigen::Index>(i)] = load[i];
-    loads_.push_back({applied.load.history, std::move(force)});
+    loads_.emplace_back(applied.load.history, force);
   }
   added_ = 0. * inertia_.mass + 0. * inertia_.damping; // the pattern of every step
 }
 
 void MovingEquations::external_force(double time, State& force) {
   force = equations_.rest();
-  for (const auto& [history, load] : loads_) force += history.at(time) * load;
+  for (const mechanics::LoadInTime& load : loads_) load.add(time, force);
 }
 
 void MovingEquations::supports_at(double time, State& displacement) const {

@@ -3,6 +3,7 @@
 #include "fem_reference/equations.hpp"
 #include "fem_reference/inertia.hpp"
 #include "mechanics/dynamics/dynamic_problem.hpp"
+#include "mechanics/dynamics/load_in_time.hpp"
 
 namespace springproof::fem_reference {
 
@@ -45,14 +46,10 @@ class MovingEquations : public mechanics::DynamicProblem {
   std::size_t n_unknowns() const override { return equations_.n_unknowns(); }
 
  private:
-  struct LoadInTime {
-    cases::History history;
-    State force; ///< N, at a factor of 1; 0 on constrained degrees of freedom, and for pressures
-  };
   const Discretisation& discretisation_;
   EquilibriumEquations& equations_;
   Inertia inertia_;
-  std::vector<LoadInTime> loads_;
+  std::vector<mechanics::LoadInTime> loads_;
   Vector motion_, product_; ///< with ghosts
   LocalMatrix added_;       ///< mass M + damping C of the step
   double mass_ = 0, damping_ = 0;

@@ -73,13 +73,13 @@ Points MovingBody::to_points(const Vector& vector) const {
   return points;
 }
 
-Vector MovingBody::forces(const std::vector<cases::NodeVector>& of_nodes) const {
-  Vector forces = Vector::Zero(size());
-  for (const auto& [node, force] : of_nodes)
+Pull& MovingBody::hold(const std::vector<mechanics::NodeWeight>& place, double stiffness) {
+  Pull::Entries entries;
+  for (const auto& [node, weight] : place)
     for (std::size_t c = 0; c < 3; ++c)
-      if (!problem_.is_constrained[3 * cases::index(node) + c])
-        forces[entries_[cases::index(node)][c]] += force[static_cast<Eigen::Index>(c)];
-  return forces;
+      if (const Eigen::Index at = entries_[cases::index(node)][c]; at >= 0)
+        entries[c].push_back({at, weight, !problem_.is_constrained[3 * cases::index(node) + c]});
+  return motion_->hold({std::move(entries), stiffness});
 }
 
 } // namespace springproof::msm

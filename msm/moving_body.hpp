@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/surface/patch.hpp"
 #include "msm/grid/grid_system.hpp"
 #include "msm/grid/node_vectors.hpp"
 #include "msm/model.hpp"
@@ -30,8 +31,9 @@ class MovingBody {
   Points to_points(const Vector& vector) const;
   /// The same of one node.
   Eigen::Vector3d at_node(const Vector& vector, int node) const;
-  /// Forces (N) as a vector of the motion, 0 on constrained degrees of freedom.
-  Vector forces(const std::vector<cases::NodeVector>& of_nodes) const;
+  /// Takes hold of the weighted mean of some nodes, see MovingSprings::hold().
+  /// @param stiffness  N/mm
+  Pull& hold(const std::vector<mechanics::NodeWeight>& place, double stiffness);
 
  private:
   Problem problem_;

@@ -85,9 +85,7 @@ Lattice damping_lattice(const cases::Scene& scene, Lattice springs) {
 
 void MovingSprings::external_force(double time, Vector& force) {
   force.setZero(entries_.mass.size());
-  for (const auto& [history, load] : entries_.loads)
-    if (const double factor = history.at(time); factor != 0) force += factor * load; // a replay has hundreds
-  if (given_force_.size() > 0) force += given_force_;
+  for (const mechanics::LoadInTime& load : entries_.loads) load.add(time, force);
 }
 
 void MovingSprings::set_step(const mechanics::StepTerms& terms) {
@@ -100,6 +98,7 @@ void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics
   spring_residual(at, expect, residual);
   // (mass M + damping C) (at - origin)
   residual += terms_->force - diagonal_.cwiseProduct(at - terms_->origin);
+  if (pull_) pull_->add_force(at, residual);
   if (!has_stiffness_damping() || terms_->damping == 0) return;
   moved_ = at - terms_->origin;
   product_.setZero(at.size());
@@ -119,6 +118,7 @@ double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
     add_stiffness_damping(added_, product_);
     added += terms_->damping * dot(moved_, product_);
   }
+  if (pull_) added += pull_->energy(at);
   return spring_energy(at) + added - dot(terms_->force, at);
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
+#include "mechanics/dynamics/load_in_time.hpp"
 #include "msm/cell_terms.hpp"
 #include "msm/problem.hpp"
+#include "msm/pull.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -44,7 +47,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   /// Inertia in the order of the vectors, 0 on constrained degrees of freedom.
   struct Entries {
     Vector mass, mass_damping;
-    std::vector<std::pair<cases::History, Vector>> loads;
+    std::vector<mechanics::LoadInTime> loads;
     Vector free; ///< 1 on free degrees of freedom
   };
   /// @param springs  of a problem of make_moving_problem(); must outlive this
@@ -58,22 +61,36 @@ class MovingSprings : public mechanics::DynamicProblem {
     add_stiffness_damping(motion, product);
   }
   void external_force(double time, Vector& force) override;
-  /// A force (N) beside the loads, until the next call.
-  /// @param force  0 on constrained degrees of freedom; of no size: none
-  void set_given_force(const Vector& force) { given_force_ = force; }
+  /// Takes hold of the body, until let_go().
+  Pull& hold(Pull pull) {
+    has_pull_changed(); // what is known of the one before
+    return pull_.emplace(std::move(pull));
+  }
+  void let_go() {
+    if (pull_) has_pull_changed();
+    pull_.reset();
+  }
+  /// Residuals are relative to what has pulled in any step, too: of that a step tells where it has ended,
+  /// none forgets all. (Before its end a stiff spring has forces that mean nothing.)
+  void remember_pull(const Vector& at) {
+    if (pull_) largest_pull_ = std::max(largest_pull_, pull_->size(at));
+  }
+  void forget_pulls() { largest_pull_ = 0; }
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);
   }
   void set_step(const mechanics::StepTerms& terms) override;
-  /// Until the next set_step() a linear solver goes as far as it is asked to, whatever the step's limit.
-  void lift_limit() { terms_->enough_linear_iterations.reset(); }
   bool moves_supports() const override { return springs_.moves_supports(); }
 
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
   void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override;
-  Size size(const Vector& residual, const Vector& /*at*/) override {
-    return {relative(std::sqrt(dot(residual, residual)), terms_->scale)};
+  /// Against the forces of the motion, what pulls now and has pulled, and reactions where supports move.
+  Size size(const Vector& residual, const Vector& at) override {
+    double scale = std::max(terms_->scale, largest_pull_);
+    if (pull_) scale = std::max(scale, pull_->size(at));
+    if (moves_supports()) scale = std::max(scale, reaction(at));
+    return {relative(std::sqrt(dot(residual, residual)), scale)};
   }
   mechanics::Merit merit() const override { return mechanics::Merit::energy; }
   double energy(const Vector& at, double load_factor) override;
@@ -96,6 +113,8 @@ class MovingSprings : public mechanics::DynamicProblem {
 
   const Entries& entries() const { return entries_; }
   const mechanics::StepTerms& terms() const { return *terms_; }
+  const std::optional<Pull>& pull() const { return pull_; }
+  virtual void has_pull_changed() {}
   /// Of mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }
 
@@ -104,6 +123,7 @@ class MovingSprings : public mechanics::DynamicProblem {
     springs_.residual(at, 0, expect, residual);
   }
   virtual double spring_energy(const Vector& at) { return springs_.energy(at, 0); }
+  virtual double reaction(const Vector& at) { return springs_.reaction(at); } ///< N
 
   /// product += damping tangent at rest * motion, on free degrees of freedom.
   virtual bool has_stiffness_damping() const = 0;
@@ -114,7 +134,8 @@ class MovingSprings : public mechanics::DynamicProblem {
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
   Vector diagonal_;
-  Vector given_force_;             ///< N; of no size: none
+  std::optional<Pull> pull_;
+  double largest_pull_ = 0;        ///< N
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
 };
 

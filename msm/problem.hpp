@@ -67,12 +67,13 @@ class SpringSystem : public mechanics::NonlinearProblem {
   }
   Work work() const override { return work_; }
 
- protected:
-  Work work_;
-
   /// Norm of the forces that springs exert on supports, N: what a body that is only moved is measured
   /// against.
   virtual double reaction(const Vector& displacement) = 0;
+
+ protected:
+  Work work_;
+
   /// Solves (tangent + shift) * step = residual, as direction() asks for.  @param shift  N/mm
   virtual bool solve(const Vector& displacement, const Vector& residual, double forcing, TransverseTerm term,
                      double shift, Vector& step) = 0;

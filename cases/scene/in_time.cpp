@@ -6,7 +6,8 @@ namespace springproof::cases {
 
 Scene scene_before_start(const Scene& scene) {
   Scene still = scene;
-  for (auto& [selection, load] : still.loads) {
+  for (Scene::AppliedLoad& applied : still.loads) {
+    Load& load = applied.load;
     const double factor = load.history.just_before(0);
     load.value *= factor;
     load.moment *= factor;

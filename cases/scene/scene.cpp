@@ -92,7 +92,8 @@ class Forces {
  public:
   explicit Forces(const std::vector<Scene::AppliedLoad>& loads) {
     std::vector<int> nodes;
-    for (const auto& [selection, load] : loads) {
+    for (const Scene::AppliedLoad& applied : loads) {
+      const Selection& selection = applied.selection;
       nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
       for (const auto& face : selection.faces) nodes.insert(nodes.end(), face.begin(), face.end());
     }
@@ -108,12 +109,14 @@ class Forces {
 
 void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads, Forces& forces) {
   const auto share = modelled_share(scene);
-  for (const auto& [selection, load] : loads) {
+  for (const auto& [selection, load, part] : loads) {
     if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
     double divisor = load.kind == LoadKind::total_force ? 0 : 1;
     if (divisor == 0)
       for (int node : selection.nodes) divisor += share(node);
-    for (int node : selection.nodes) forces.add(node, load.value * (share(node) / divisor));
+    for (std::size_t n = 0; n < selection.nodes.size(); ++n)
+      forces.add(selection.nodes[n],
+                 load.value * (share(selection.nodes[n]) * (part.empty() ? 1 : part[n]) / divisor));
   }
 }
 
@@ -375,7 +378,8 @@ Scene refine(const Scene& scene, int n) {
     const LoadKind kind = applied.load.kind;
     const bool stays =
         kind == LoadKind::nodal_force || kind == LoadKind::gravity || (region.near && !region.radius);
-    fine.loads.push_back({stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load});
+    fine.loads.push_back(
+        {stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load, applied.part});
   }
   for (const auto& [selection, added] : scene.masses) {
     const bool is_a_node = added.region.near && !added.region.radius;

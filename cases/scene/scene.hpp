@@ -21,6 +21,7 @@ struct Scene {
   struct AppliedLoad {
     Selection selection;
     Load load;
+    std::vector<double> part{}; ///< of a nodal_force, for each of the selection's nodes; empty: all of it
   };
   struct AppliedMass {
     Selection selection;
@@ -31,7 +32,7 @@ struct Scene {
   std::vector<int> material_of_cell;         ///< in materials_of(definition); empty when there is but one
   std::vector<ConstrainedNodes> constrained; ///< [[fixed]], [[symmetry]], [[moved]] and nodes of rigid cells:
                                              ///< all constrained degrees of freedom
-  std::vector<MovedNodes> moved; ///< the sides of joined cuts after [[moved]]
+  std::vector<MovedNodes> moved;             ///< the sides of joined cuts after [[moved]]
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'

@@ -46,6 +46,7 @@ std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::Ce
 int run_vibrations(const EigenOptions& options) {
   const cases::Scene scene = make_scene_within_memory(cases::read_case(options.vibrating, options.settings));
   const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
+  check_memory(options.vibrating, estimate_vibrations(size_of(scene)), memory_limit());
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const VibrationStudy study = study_vibrations(scene, designs, options.n_modes);

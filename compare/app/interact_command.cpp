@@ -78,6 +78,7 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
 int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
   const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
+  check_memory(options.file, {estimate_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);
   std::unique_ptr<PageServer> server; // the simulation's thread sends to it, and is stopped before it
   Simulation simulation(
@@ -111,7 +112,7 @@ int run(const InteractOptions& options) {
     write_file(options.out + "/" + scene.definition.name + "_pulls.csv",
                [&](std::ostream& out) { write_recording(out, simulation, scene.definition.dynamics->step); });
   if (simulation.is_recording_full())
-    print(std::cerr, "the recording ends after {} steps with a pull\n", Simulation::most_recorded);
+    print(std::cerr, "the recording ends after {} steps with a pull\n", most_recorded);
   return 0;
 }
 

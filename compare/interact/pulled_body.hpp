@@ -2,7 +2,7 @@
 
 #include "compare/solve/springs.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
-#include "mechanics/surface/embedded_surface.hpp"
+#include "mechanics/surface/patch.hpp"
 #include "mechanics/surface/rays.hpp"
 #include "msm/moving_body.hpp"
 
@@ -16,9 +16,10 @@ struct PullSettings {
   int n_threads = 1;           ///< of the multigrid path
 };
 
-/// A dynamic case's springs, moved step by step while a place of their surface is pulled by a spring, whose
-/// force goes to the nodes of the place's cell by its weights there. The force is that of the beginning of a
-/// step, and is constant in the step: so a recording of forces replays in any model.
+/// A dynamic case's springs, moved step by step while a place of their surface, a sphere's part of it, is
+/// pulled by a spring. The spring is a part of each step's equation, so that one of any stiffness drives no
+/// body on; its force in a step is known after it, and as a load of that step has the same solution: so a
+/// recording of forces replays in any model.
 class PulledBody {
  public:
   /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start
@@ -40,10 +41,12 @@ class PulledBody {
 
   const mechanics::EmbeddedSurface& surface() const { return surface_; }
   const mechanics::Spheres& spheres() const { return spheres_; }
-  std::optional<int> held() const { return held_; }       ///< a vertex of the surface
-  const Eigen::Vector3d& force() const { return force_; } ///< N, of the spring in the last step
-  double time() const { return motion_->now().time; }     ///< s, since the last restart
-  long n_steps() const { return n_steps_; }               ///< since the last restart
+  std::optional<int> held() const { return held_; } ///< a vertex of the surface
+  const Eigen::Vector3d& force() const {
+    return force_;
+  }                                                   ///< N, of the spring in the equation of the last step
+  double time() const { return motion_->now().time; } ///< s, since the last restart
+  long n_steps() const { return n_steps_; }           ///< since the last restart
   int n_failures() const { return n_failures_; }
   const std::string& failure() const { return failure_; } ///< of the last failed step
   /// What the last step was left with, relative to the forces of the motion; steps that were left with more
@@ -70,15 +73,11 @@ class PulledBody {
   long n_unfinished_ = 0;
   double largest_residual_ = 0;
   std::optional<int> held_;
-  std::optional<double> stiffness_; ///< N/mm, of the spring that holds; none before its first step
+  msm::Pull* pull_ = nullptr; ///< of the body; none: nothing is held
+  /// mm: displacement of the place when it was grabbed, and what it is drawn to; N.
   Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;
   msm::Points displacement_;
   bool is_displacement_of_now_ = false;
-
-  std::vector<cases::NodeVector> on_nodes(const mechanics::EmbeddedPoint& place,
-                                          const Eigen::Vector3d& force) const;
-  Eigen::Vector3d expected_place(int vertex);
-  double bearable_stiffness(const mechanics::EmbeddedPoint& place);
 };
 
 } // namespace springproof::compare

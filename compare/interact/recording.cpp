@@ -6,11 +6,11 @@ namespace springproof::compare {
 
 void write_recording(std::ostream& out, const Simulation& simulation, double step) {
   CsvWriter csv(out, 17); // doubles come back as they were
-  csv.row("step", "time", "x", "y", "z", "fx", "fy", "fz");
+  out << recording_header << '\n';
   for (const RecordedPull& pull : simulation.recording()) {
     const Eigen::Vector3d& place = simulation.surface().rest.vertices[cases::index(pull.vertex)];
-    csv.row(pull.step, static_cast<double>(pull.step) * step, place.x(), place.y(), place.z(), pull.force.x(),
-            pull.force.y(), pull.force.z());
+    csv.row(pull.step, static_cast<double>(pull.step) * step, place.x(), place.y(), place.z(),
+            simulation.radius(), pull.force.x(), pull.force.y(), pull.force.z());
   }
 }
 

@@ -1,6 +1,8 @@
 #include "compare/interact/replay.hpp"
 
-#include "mechanics/surface/embedded_surface.hpp"
+#include "compare/interact/recording.hpp"
+#include "compare/measure/landmarks.hpp"
+#include "mechanics/surface/patch.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -13,22 +15,24 @@ using Eigen::Vector3d;
 
 namespace {
 
-const std::string recording_header = "step,time,x,y,z,fx,fy,fz";
-constexpr std::size_t most_rows = 200'000;
+constexpr std::size_t most_holds = 10'000, most_loaded = 1'000'000; ///< places, and their nodes in all
 
 struct PullRow {
   long step;
-  Vector3d place, force; ///< mm, N
+  Vector3d centre; ///< mm
+  double radius;   ///< mm
+  Vector3d force;  ///< N
 };
 
 /// A place that was held, from its first step on, one force (N) a step.
 struct Hold {
-  Vector3d place;
+  Vector3d centre;
+  double radius;
   long first_step;
   std::vector<Vector3d> force;
 };
 
-std::vector<double> eight_numbers(const std::string& line) {
+std::vector<double> nine_numbers(const std::string& line) {
   constexpr double largest = 1e9;
   std::vector<double> numbers;
   for (std::size_t begin = 0; begin <= line.size();) {
@@ -39,7 +43,7 @@ std::vector<double> eight_numbers(const std::string& line) {
     numbers.push_back(value);
     begin = end + 1;
   }
-  return numbers.size() == 8 ? numbers : std::vector<double>{};
+  return numbers.size() == 9 ? numbers : std::vector<double>{};
 }
 
 std::vector<PullRow> rows_of(const std::string& text, const std::string& path, double step) {
@@ -56,17 +60,18 @@ std::vector<PullRow> rows_of(const std::string& text, const std::string& path, d
       continue;
     }
     if (line.empty()) continue;
-    const std::vector<double> n = eight_numbers(line);
-    if (n.empty())
-      refuse(fmt::format("must be eight numbers up to 1e9 between commas: {}", recording_header));
+    const std::vector<double> n = nine_numbers(line);
+    if (n.empty()) refuse(fmt::format("must be nine numbers up to 1e9 between commas: {}", recording_header));
     const bool is_next =
         n[0] == std::floor(n[0]) && n[0] > (rows.empty() ? 0 : static_cast<double>(rows.back().step));
     if (!is_next) refuse("step must be a whole number above 0 and above that of the line before");
     if (!(std::abs(n[1] - n[0] * step) <= 1e-6 * n[1]))
       refuse(fmt::format("time is {:.10g} s, must be {:.10g} s at step {:.0f} of dynamics.step = {:.10g} s",
                          n[1], n[0] * step, n[0], step));
-    if (rows.size() == most_rows) refuse(fmt::format("a recording may have {} steps with a pull", most_rows));
-    rows.push_back({static_cast<long>(n[0]), {n[2], n[3], n[4]}, {n[5], n[6], n[7]}});
+    if (!(n[5] >= 0)) refuse("radius must be 0 or above (mm)");
+    if (rows.size() == most_recorded)
+      refuse(fmt::format("a recording may have {} steps with a pull", most_recorded));
+    rows.push_back({static_cast<long>(n[0]), {n[2], n[3], n[4]}, n[5], {n[6], n[7], n[8]}});
   }
   if (rows.empty()) throw cases::InputError(path + ": has no pull");
   return rows;
@@ -75,9 +80,10 @@ std::vector<PullRow> rows_of(const std::string& text, const std::string& path, d
 std::vector<Hold> holds_of(const std::vector<PullRow>& rows) {
   std::vector<Hold> holds;
   for (const PullRow& row : rows) {
-    const bool goes_on = !holds.empty() && holds.back().place == row.place &&
+    const bool goes_on = !holds.empty() && holds.back().centre == row.centre &&
+                         holds.back().radius == row.radius &&
                          row.step == holds.back().first_step + static_cast<long>(holds.back().force.size());
-    if (!goes_on) holds.push_back({row.place, row.step, {}});
+    if (!goes_on) holds.push_back({row.centre, row.radius, row.step, {}});
     holds.back().force.push_back(row.force);
   }
   return holds;
@@ -109,21 +115,37 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
     throw cases::InputError(fmt::format(
         "{}: ends at {:.10g} s: dynamics.end is {:.10g} s, must not be before", path, last, dynamics->end));
   const std::vector<Hold> holds = holds_of(rows);
-  cases::TriangleMesh places;
-  for (const Hold& hold : holds) places.vertices.push_back(hold.place);
-  const mechanics::EmbeddedSurface embedded = mechanics::embed(std::move(places), scene.mesh);
-  for (std::size_t h = 0; h < holds.size(); ++h)
+  if (holds.size() > most_holds)
+    throw cases::InputError(fmt::format("{}: has {} places, may have {}", path, holds.size(), most_holds));
+  const mechanics::EmbeddedSurface surface = embedded_surface(scene);
+  // A load of the case on a plane of symmetry is the whole body's; a pull is of the part that was pulled.
+  const auto share = cases::modelled_share(scene);
+  std::size_t n_loaded = 0;
+  for (const Hold& hold : holds) {
+    const std::vector<mechanics::NodeWeight> place =
+        mechanics::patch_within(surface, hold.centre, hold.radius);
+    if (place.empty())
+      throw cases::InputError(
+          fmt::format("{}: step {}: no vertex of the case's surface lies within {:.6g} mm of "
+                      "({:.6g}, {:.6g}, {:.6g}): it is of another body",
+                      path, hold.first_step, hold.radius, hold.centre.x(), hold.centre.y(), hold.centre.z()));
+    n_loaded += place.size();
+    if (n_loaded > most_loaded)
+      throw cases::InputError(
+          fmt::format("{}: pulls {} nodes in all, may pull {}: fewer places or smaller ones", path, n_loaded,
+                      most_loaded));
     for (int axis = 0; axis < 3; ++axis) {
-      const cases::History history = history_of(holds[h], axis, dynamics->step);
-      for (std::size_t v = 0; v < 8; ++v) {
-        cases::Scene::AppliedLoad applied;
-        applied.selection.nodes = {embedded.vertices[h].nodes[v]};
-        applied.load.kind = cases::LoadKind::nodal_force;
-        applied.load.value = embedded.vertices[h].weights[v] * Vector3d::Unit(axis); // times the factor, N
-        applied.load.history = history;
-        scene.loads.push_back(std::move(applied));
+      cases::Scene::AppliedLoad applied;
+      for (const auto& [node, weight] : place) {
+        applied.selection.nodes.push_back(node);
+        applied.part.push_back(weight / share(node));
       }
+      applied.load.kind = cases::LoadKind::nodal_force;
+      applied.load.value = Vector3d::Unit(axis); // N, times the factor
+      applied.load.history = history_of(hold, axis, dynamics->step);
+      scene.loads.push_back(std::move(applied));
     }
+  }
   return scene;
 }
 

@@ -32,6 +32,7 @@ constexpr int most_connections = 32;
 constexpr int most_messages = 300; ///< a second
 constexpr auto time_to_ask = std::chrono::seconds(10);
 constexpr auto time_to_come_back = std::chrono::seconds(3);
+constexpr auto time_to_accept_again = std::chrono::milliseconds(100);
 
 /// 128 random bits, hexadecimal.
 std::string random_text() {
@@ -55,7 +56,7 @@ class PageSocket;
 
 struct ServerState {
   ServerState(ServedPage served, int port)
-      : page(std::move(served)), acceptor(io), signals(io, SIGINT, SIGTERM), leaving(io) {
+      : page(std::move(served)), acceptor(io), signals(io, SIGINT, SIGTERM), leaving(io), again(io) {
     error_code error;
     const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port));
     acceptor.open(here.protocol(), error);
@@ -73,7 +74,7 @@ struct ServerState {
   asio::io_context io{1}; ///< whose end is that of what it still waits for, which counts itself off
   tcp::acceptor acceptor;
   asio::signal_set signals;
-  asio::steady_timer leaving;
+  asio::steady_timer leaving, again;
   std::string host, token;
   std::shared_ptr<PageSocket> controller;
 
@@ -114,8 +115,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 
   void close(websocket::close_code code) {
     if (std::exchange(is_closing_, true)) return;
-    if (!ws_.is_open()) return leave();
-    ws_.async_close(code, [self = shared_from_this()](error_code) { self->leave(); });
+    leave(); // at once: a page that does not answer is waited for half a minute
+    if (ws_.is_open()) ws_.async_close(code, [self = shared_from_this()](error_code) {});
   }
 
  private:
@@ -303,8 +304,13 @@ PageSocket::~PageSocket() {
 void ServerState::accept() {
   acceptor.async_accept([this](error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && n_connections < most_connections)
-      std::make_shared<HttpRequest>(*this, std::move(socket))->read();
+    if (error) { // no descriptor is left: asked again at once, it would fail again at once
+      again.expires_after(time_to_accept_again);
+      return again.async_wait([this](error_code stopped) {
+        if (!stopped) accept();
+      });
+    }
+    if (n_connections < most_connections) std::make_shared<HttpRequest>(*this, std::move(socket))->read();
     accept();
   });
 }

@@ -18,6 +18,8 @@ struct RecordedPull {
   Eigen::Vector3d force; ///< N
 };
 
+constexpr std::size_t most_recorded = 200'000; ///< steps with a pull, and those of a replay
+
 struct SimulationSummary {
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
   int n_failures = 0;                           ///< steps that could not be solved, each a restart
@@ -54,9 +56,9 @@ class Simulation {
   const std::vector<RecordedPull>& recording() const { return recording_; }
   bool is_recording_full() const { return recording_.size() == most_recorded; }
   const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
+  double radius() const { return body_.spheres().radius; } ///< mm, of what is pulled about a vertex
 
   static constexpr std::size_t frame_numbers = 12; ///< float64 at the beginning of a frame
-  static constexpr std::size_t most_recorded = 2'000'000;
 
  private:
   const cases::Scene& scene_;

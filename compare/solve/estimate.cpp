@@ -189,6 +189,17 @@ Estimate estimate_springs(const BodySize& body) {
   return in_time(estimate, body.outline.definition);
 }
 
+std::vector<Estimate> estimate_vibrations(const BodySize& body) {
+  const cases::Fem& fem = body.outline.definition.fem;
+  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
+  std::vector<Estimate> models{factorised("finite elements (factorised)",
+                                          3 * refined_nodes(body, fem.refine + (is_quadratic ? 1 : 0)),
+                                          finite_elements),
+                               factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
+  for (Estimate& model : models) model.held_by = HeldBy::first_rank;
+  return models;
+}
+
 std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
   std::vector<Estimate> models;
   if (request.asks(cases::Side::fem)) {

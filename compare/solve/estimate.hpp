@@ -31,6 +31,8 @@ std::optional<BodySize> size_of(const cases::Case& definition);
 /// Of the definition's [fem], refined as it says.
 Estimate estimate_fem(const BodySize& body);
 Estimate estimate_springs(const BodySize& body);
+/// Of both models' lowest vibrations, whose matrices are factorised.
+std::vector<Estimate> estimate_vibrations(const BodySize& body);
 /// The models that a question asks for; of finite elements on several meshes, one for each.
 std::vector<Estimate> estimate(const BodySize& body, const Request& request);
 std::vector<Estimate> estimate(const Question& question);

@@ -43,7 +43,8 @@ bool is_area(const cases::Selection& selection) {
 
 std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene) {
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const auto& [selection, load] = scene.loads[i];
+    const auto& selection = scene.loads[i].selection;
+    const cases::Load& load = scene.loads[i].load;
     const bool is_point_force = load.kind == cases::LoadKind::nodal_force ||
                                 (load.kind == cases::LoadKind::total_force && !is_area(selection));
     if (is_point_force && !load.value.isZero(0))

@@ -77,9 +77,9 @@ void GridEquations::set_step(const mechanics::StepTerms& terms, Inertia& inertia
 }
 
 /// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
-/// reactions.
+/// reactions; one in motion that is moved by them, against these if they are the larger.
 double GridEquations::scale() const {
-  if (step_) return step_->scale;
+  if (step_) return supported_.moved.empty() ? step_->scale : std::max(step_->scale, reaction_);
   return load_norm_ > 0 ? load_norm_ : reaction_;
 }
 

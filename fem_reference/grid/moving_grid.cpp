@@ -9,7 +9,7 @@ MovingGrid::MovingGrid(const cases::Scene& scene, const Places& places, const Su
 
 void MovingGrid::external_force(double time, Vector& force) {
   force = equations_.rest();
-  for (const auto& [history, load] : loads_) force.head(load.size()) += history.at(time) * load;
+  for (const mechanics::LoadInTime& load : loads_) load.add(time, force);
 }
 
 void MovingGrid::supports_at(double time, Vector& displacement) const {

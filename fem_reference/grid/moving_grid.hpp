@@ -43,7 +43,7 @@ class MovingGrid : public mechanics::DynamicProblem {
   const Supported& supported_;
   GridEquations& equations_;
   Inertia inertia_;
-  std::vector<LoadInTime> loads_;
+  std::vector<mechanics::LoadInTime> loads_;
   Field<double> motion_, product_;
 
   void multiply(double mass, double damping, const Vector& motion, Vector& product);

@@ -134,13 +134,15 @@ Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Pla
   return made;
 }
 
-std::vector<LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic, const Places& places) {
-  std::vector<LoadInTime> loads;
+std::vector<mechanics::LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic,
+                                                 const Places& places) {
+  std::vector<mechanics::LoadInTime> loads;
   cases::Scene alone = scene;
   for (const auto& applied : scene.loads) {
     alone.loads = {applied};
-    loads.push_back({applied.load.history, make_load(alone, is_quadratic, places)});
-    loads.back().force.array() *= places.body.free.cast<double>().array();
+    Field<double> force = make_load(alone, is_quadratic, places);
+    force.array() *= places.body.free.cast<double>().array();
+    loads.emplace_back(applied.load.history, force);
   }
   return loads;
 }

@@ -2,6 +2,7 @@
 
 #include "cases/scene/scene.hpp"
 #include "fem_reference/grid/places.hpp"
+#include "mechanics/dynamics/load_in_time.hpp"
 
 #include <functional>
 #include <vector>
@@ -17,12 +18,6 @@ struct Supported {
   std::function<std::vector<double>(double time)> prescribed_at; ///< the same in a motion; s
 };
 
-/// What one load is of a dynamic scene, and how much of it acts when.
-struct LoadInTime {
-  cases::History history;
-  Field<double> force; ///< N, at a factor of 1; 0 on constrained entries
-};
-
 /// The loads and motions of a scene on a rank's part of a grid.
 /// @param scene         with the mesh of the elements
 /// @param is_quadratic  elements have nodes on their edges and faces too: places are halves of them
@@ -30,6 +25,8 @@ struct LoadInTime {
 Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Places& places, Body& body);
 
 /// @param scene, places  as of make_supported(), after it
-std::vector<LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic, const Places& places);
+/// The loads of a dynamic scene.
+std::vector<mechanics::LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic,
+                                                 const Places& places);
 
 } // namespace springproof::fem_reference::grid

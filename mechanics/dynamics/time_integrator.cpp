@@ -95,7 +95,7 @@ bool TimeIntegrator::try_step(double to) {
     failure_ = "a step's linear iterations leave its forces further from balance than all loads";
     return false;
   }
-  if (work_.residual > settings_.newton.tolerance) ++n_unfinished_;
+  if (settings_.enough_linear_iterations && work_.residual > settings_.newton.tolerance) ++n_unfinished_;
   largest_residual_ = std::max(largest_residual_, work_.residual); // a NaN was refused
   finish_step(c, to);
   return true;

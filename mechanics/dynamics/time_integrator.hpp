@@ -51,7 +51,8 @@ class TimeIntegrator {
   const Motion& now() const { return now_; }
   const Equilibrium& work() const { return work_; } ///< Newton's iterations and the residual of the last step
   int n_halvings() const { return n_halvings_; }    ///< steps that were halved
-  int n_unfinished() const { return n_unfinished_; } ///< steps taken with more residual than the tolerance
+  /// Steps in real time that were taken with more residual than the tolerance.
+  int n_unfinished() const { return n_unfinished_; }
   double largest_residual() const { return largest_residual_; } ///< that a step was left with, relative
 
   /// v . M v / 2, N mm, of the free degrees of freedom.

@@ -29,7 +29,7 @@ MovingSprings::Entries entries_of(const Problem& problem, const Inertia& inertia
   for (const auto& [history, force] : inertia.loads) {
     Vector all = to_vector(problem, problem.on_all_points(force));
     all.tail(all.size() - n_free).setZero();
-    entries.loads.emplace_back(history, std::move(all));
+    entries.loads.emplace_back(history, all);
   }
   return entries;
 }
@@ -94,7 +94,14 @@ class MovingLattice : public MovingSprings {
     ++work_.factorisations;
     if (!factorisation_.factorise(matrix_at(positions, term, terms().mass, terms().damping), 0)) return false;
     step.setZero(at.size());
-    step.head(tangent_.n_free()) = factorisation_.solve(residual.head(tangent_.n_free()));
+    const auto invert = [&](const Vector& right_side, Vector& solution) {
+      solution.head(tangent_.n_free()) = factorisation_.solve(right_side.head(tangent_.n_free()));
+    };
+    invert(residual, step);
+    if (pull()) {
+      with_pull_.prepare(*pull(), at.size(), invert);
+      with_pull_.correct(*pull(), step);
+    }
     return step.allFinite() && step.dot(residual) > 0;
   }
 
@@ -104,6 +111,7 @@ class MovingLattice : public MovingSprings {
   Matrix damping_;                  ///< by stiffness, of all entries of a vector
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
   Factorisation factorisation_;
+  WithPull with_pull_;
 
   bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {

@@ -211,10 +211,11 @@ class MatrixFreeSystem : public GridSystem {
   }
 
   double reaction(const Vector& displacement) override {
-    Vector force = Vector::Zero(displacement.size()), on_supports = force;
-    springs_.reactions(displacement, force);
-    for (const std::ptrdiff_t entry : problem_.body.constrained) on_supports[entry] = force[entry];
-    return norm(problem_.body, on_supports, n_threads_);
+    reactions_.setZero(displacement.size());
+    on_supports_.setZero(displacement.size());
+    springs_.reactions(displacement, reactions_);
+    for (const std::ptrdiff_t entry : problem_.body.constrained) on_supports_[entry] = reactions_[entry];
+    return norm(problem_.body, on_supports_, n_threads_);
   }
 
  private:
@@ -228,7 +229,7 @@ class MatrixFreeSystem : public GridSystem {
   SpringField<double> springs_;
   std::deque<Body> bodies_;
   std::optional<Multigrid> multigrid_; ///< none before it is asked for
-  Vector probe_, mode_at_;
+  Vector probe_, mode_at_, reactions_, on_supports_;
   Mode mode_{};
 
   Multigrid& multigrid() {

@@ -119,6 +119,12 @@ class MovingGrid : public MovingSprings {
 
   bool has_failed() const override { return has_failed_; }
 
+ protected:
+  void has_pull_changed() override {
+    factor_with_pull_.reset();
+    cycle_with_pull_.reset();
+  }
+
  private:
   static constexpr int max_iterations = 300;
   /// Unknowns up to which a factor takes less time than a cycle, and not too long to make.
@@ -154,12 +160,16 @@ class MovingGrid : public MovingSprings {
   bool has_failed_ = false;
   bool is_prepared_ = false; ///< in this step
 
+  /// Preconditioners with what pulls, where they are known for it.
+  std::optional<WithPull> factor_with_pull_, cycle_with_pull_;
+
   void spring_residual(const Vector& at, mechanics::Expect expect, Vector& residual) override {
     const Field<double>& place = vectors_.to_field(at, at_);
     vectors_.from_field([&](Field<double>& force) { statics_.residual(place, 0, expect, force); }, out_,
                         residual);
   }
   double spring_energy(const Vector& at) override { return statics_.energy(vectors_.to_field(at, at_), 0); }
+  double reaction(const Vector& at) override { return statics_.reaction(vectors_.to_field(at, at_)); }
 
   bool has_stiffness_damping() const override { return damping_.has_value(); }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
@@ -173,7 +183,7 @@ class MovingGrid : public MovingSprings {
     add(product, factor, damped_, n_threads_);
   }
 
-  /// product = (tangent + mass + damping of the step) direction
+  /// product = (tangent + mass + damping of the step) direction, without what pulls
   /// @param at  as a field
   void multiply(const Field<double>& at, Clamp clamp, const Vector& direction, Vector& product) {
     const Field<double>& v = vectors_.to_field(direction, in_);
@@ -183,11 +193,21 @@ class MovingGrid : public MovingSprings {
     add_damping(terms().damping, v, product);
   }
 
+  /// @param precondition  for multiply()     @param with_pull  the same with what pulls, where it is known
   void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations,
-             const std::function<void(const Vector&, Vector&)>& precondition) {
+             const std::function<void(const Vector&, Vector&)>& precondition,
+             std::optional<WithPull>& with_pull) {
+    if (pull() && !with_pull) with_pull.emplace().prepare(*pull(), at.size(), precondition);
     const Field<double>& place = vectors_.to_field(at, at_);
     mechanics::grid::conjugate_gradients(
-        [&](const Vector& v, Vector& product) { multiply(place, clamp, v, product); }, precondition,
+        [&](const Vector& v, Vector& product) {
+          multiply(place, clamp, v, product);
+          if (pull()) pull()->add_product(v, product);
+        },
+        [&](const Vector& v, Vector& out) {
+          precondition(v, out);
+          if (pull() && with_pull->matters()) with_pull->correct(*pull(), out);
+        },
         right_side, forcing * norm(body_, right_side, n_threads_), most_iterations,
         [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
     work_.linear_iterations += found_.iterations;
@@ -207,6 +227,7 @@ class MovingGrid : public MovingSprings {
     if (factor_ && !(of_factor_ && of_factor_->are_of(terms())) && n_alike_ == enough_alike) {
       of_factor_ = last_;
       n_with_factor_ = n_to_pass_ = 0;
+      factor_with_pull_.reset();
       const Field<double>& place = vectors_.to_field(at, at_);
       if (!factor_->factorise(
               [&](const Vector& v, Vector& product) { multiply(place, Clamp::yes, v, product); }))
@@ -216,8 +237,9 @@ class MovingGrid : public MovingSprings {
   }
 
   bool goes_by_factor(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
-    solve(at, residual, forcing, clamp, most_iterations(most_with_factor),
-          [&](const Vector& v, Vector& out) { factor_->apply(v, out); });
+    solve(
+        at, residual, forcing, clamp, most_iterations(most_with_factor),
+        [&](const Vector& v, Vector& out) { factor_->apply(v, out); }, factor_with_pull_);
     const bool is_done =
         found_.converged || found_.met_negative_curvature || terms().enough_linear_iterations.has_value();
     if (!is_done) n_to_pass_ = 16; // far from where it was made, cycles that are prepared here do better
@@ -235,18 +257,24 @@ class MovingGrid : public MovingSprings {
     is_slow_ = true;
   }
 
+  void linearise(const Vector& at) {
+    multigrid_->linearise(vectors_.to_field(at, at_));
+    if (cycle_with_pull_ && cycle_with_pull_->matters()) cycle_with_pull_.reset();
+  }
+
   void solve_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
-    solve(at, residual, forcing, clamp, most_iterations(max_iterations), [&](const Vector& v, Vector& out) {
+    const auto cycle = [&](const Vector& v, Vector& out) {
       const Field<double>& right_side = vectors_.to_field(v, in_);
       vectors_.from_field([&](Field<double>& field) { multigrid_->apply(right_side, field); }, out_, out);
-    });
+    };
+    solve(at, residual, forcing, clamp, most_iterations(max_iterations), cycle, cycle_with_pull_);
   }
 
   /// As far as the step's iterations go.
   bool goes_by_cut_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
     const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
-    if (is_anew) multigrid_->linearise(vectors_.to_field(at, at_));
+    if (is_anew) linearise(at);
     is_prepared_ = is_prepared_ || is_anew;
     solve_by_cycles(at, residual, forcing, clamp);
     const double slowness = found_.iterations / -std::log(forcing);
@@ -261,7 +289,7 @@ class MovingGrid : public MovingSprings {
     const double asked_for = -std::log(forcing); // of conjugate gradients
     for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
       if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
-      if (attempt > 0) multigrid_->linearise(vectors_.to_field(at, at_));
+      if (attempt > 0) linearise(at);
       solve_by_cycles(at, residual, forcing, clamp);
       const double slowness = found_.iterations / asked_for;
       if (attempt > 0) usual_slowness_ = slowness;

@@ -2,7 +2,7 @@
 
 usage: interact_test.py SPRINGPROOF CASE FOLDER [MUTATED]
 
-MUTATED: how many malformed messages are tried (default 60). A screenshot stays in FOLDER.
+MUTATED: how many malformed messages are tried (default 1000). A screenshot stays in FOLDER.
 """
 
 import atexit
@@ -280,6 +280,19 @@ def check_malformed(program, count):
     return n_cut_off
 
 
+def check_stalled(program):
+    """A page that is cut off and goes on as if it were not has no control any more, and holds nothing."""
+    page = open_when_free(program.address)
+    page.say(type="grab", origin=[200, 20, 50], direction=[-1, 0, 0])
+    page.say(type="drag", by=[30, 0, 0])
+    assert page.frame()["held"] >= 0
+    page.send("no message")  # its connection stays open, its close is not answered
+    other = open_when_free(program.address)
+    assert other.frame()["held"] == -1
+    other.close()
+    page.close()
+
+
 def open_when_free(address):
     """The page before leaves when the server has seen its connection close."""
     for _ in range(200):
@@ -337,12 +350,13 @@ def check_browser(springproof, case, folder):
 
 def main():
     springproof, case, folder = sys.argv[1], *map(Path, sys.argv[2:4])
-    count = int(sys.argv[4]) if len(sys.argv) > 4 else 60
+    count = int(sys.argv[4]) if len(sys.argv) > 4 else 1000
     folder.mkdir(parents=True, exist_ok=True)
     folder = folder.resolve()
     program = Program(springproof, case, "--stay")
     n_refused = check_refusals(program)
     check_pull(program)
+    check_stalled(program)
     n_cut_off = check_malformed(program, count)
     assert n_cut_off > count / 2, n_cut_off
     summary = program.interrupt()
@@ -350,7 +364,7 @@ def main():
     assert summary["refused_requests"] >= n_refused, summary
     print(f"{n_refused} kinds of requests refused, {n_cut_off} of {count} mutated messages cut off; {summary}")
     if not find_chromium():
-        print("no Chromium here: the page itself was not opened")
+        print("no Chromium here: the page itself was not opened, the test is skipped")
         return
     print(f"in Chromium: {check_browser(springproof, case, folder)}")
     print(f"of a large surface: {check_coarse_picture(springproof, case, folder)}")

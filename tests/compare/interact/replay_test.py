@@ -19,8 +19,8 @@ def write_case(source, folder):
                        for i, (x, y, z) in enumerate(CORNERS) for axis in "xyz")
     text = source.read_text().replace("end = 1", "end = 0.3\nwrite_every = 1").replace("[[measure]]", '[surface]\nfile = "top.stl"\n\n[[measure]]')
     (folder / "case.toml").write_text(text + measures)
-    rows = [f"{step},{step * 0.01:.17g},40,20,50,{0.02 * step:.17g},0,{0.01 * math.sin(step):.17g}" for step in range(3, 26)]
-    (folder / "pulls.csv").write_text("step,time,x,y,z,fx,fy,fz\n" + "\n".join(rows) + "\n")
+    rows = [f"{step},{step * 0.01:.17g},0,0,60,3,{0.02 * step:.17g},0,{0.01 * math.sin(step):.17g}" for step in range(3, 26)]
+    (folder / "pulls.csv").write_text("step,time,x,y,z,radius,fx,fy,fz\n" + "\n".join(rows) + "\n")
 
 
 def replay(springproof, folder, out):

@@ -1,6 +1,6 @@
 """Random pulls on a body for a while, without a browser: no NaN, no growth of memory, no cell inside out that is not told.
 
-usage: soak.py SPRINGPROOF CASE FOLDER [SECONDS [SEED [REACH]]]
+usage: soak.py SPRINGPROOF CASE FOLDER [SECONDS [SEED [REACH]]] [-- OPTIONS of interact]
 
 SECONDS: 10 by default. REACH: of a drag, as a part of the body's size, 0.3 by default. Says what was seen as one line of JSON; the
 recording of the pulls stays in FOLDER. A case of a picture that is not installed (its body.file) is a skip.
@@ -84,15 +84,16 @@ def soak(program, seconds, reach):
 
 
 def main():
-    springproof, case, folder = sys.argv[1], *map(Path, sys.argv[2:4])
-    seconds, seed, reach = (float(word) for word in (sys.argv[4:] + ["10", "1", "0.3"][len(sys.argv) - 4:]))
+    words, options = (sys.argv[:sys.argv.index("--")], sys.argv[sys.argv.index("--") + 1:]) if "--" in sys.argv else (sys.argv, [])
+    springproof, case, folder = words[1], *map(Path, words[2:4])
+    seconds, seed, reach = (float(word) for word in (words[4:] + ["10", "1", "0.3"][len(words) - 4:]))
     picture = re.search(r'^file = "(/.*?)"', case.read_text(), re.MULTILINE)
     if picture and not Path(picture.group(1)).exists():
         print(f"{picture.group(1)} is not here: nothing was compared")
         return
     random.seed(int(seed))
     folder.mkdir(parents=True, exist_ok=True)
-    program = Program(springproof, case, "--stay", "--out", folder)
+    program = Program(springproof, case, "--stay", "--out", folder, *options)
     seen = soak(program, seconds, reach)
     summary = program.interrupt()
     print(json.dumps({**seen, "summary": summary}))

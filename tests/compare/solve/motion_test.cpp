@@ -1,5 +1,6 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/sharing.hpp"
+#include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/answer_bytes.hpp"
@@ -8,6 +9,7 @@
 #include "compare/write/write_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -88,6 +90,53 @@ value = [0, 0, -9.81]
 }
 
 } // namespace
+
+TEST_CASE("supports that move drive both models, whatever they start from and however small loads are") {
+  const std::string bar = bar_text + R"(
+[[fixed]]
+region = "x-"
+[[moved]]
+region = "x+"
+displacement = [3, 0, 1]
+)",
+                    rest = R"(
+[fem]
+accuracy = "none"
+[msm]
+design = "moduli"
+[[measure]]
+name = "middle"
+kind = "displacement"
+node = "near 15 5 5"
+component = "x"
+)";
+  const std::string leaves = "history = [[0, 1], [0.004, 1], [0.02, 0]]\n",
+                    comes = "history = [[0, 0], [0.02, 1]]\n";
+  const std::string
+      later =
+          "[[load]]\nregion = 'y+'\nkind = 'total_force'\nvalue = [0.001, 0, 0]\nhistory = { step = 0.01 }\n",
+      weight = "[[load]]\nkind = 'gravity'\nvalue = [0, 0, -1e-6]\n";
+  const auto middle = [&](const std::string& history, const std::string& loads, const std::string& start) {
+    const std::string dynamics =
+        "[dynamics]\nscheme = 'newmark'\nstep = 0.002\nend = 0.03\nstart = '" + start + "'\n";
+    const Answers answers = solve(
+        cases::make_scene(cases::read_case_text(bar + history + loads + dynamics + rest, "driven.toml")), {},
+        solve_fem);
+    CAPTURE(history, loads, start, answers.fem.solution.message, answers.msm.solution.message);
+    REQUIRE(answers.fem.converged());
+    REQUIRE(answers.msm.converged());
+    CHECK(answers.msm.solution.trajectory->unfinished_steps == 0);
+    const auto end = [](const Answer& answer) { return answer.solution.trajectory->displacement.back().x(); };
+    CHECK(std::abs(end(answers.fem)) > 0.01); // mm
+    return std::array<double, 2>{end(answers.fem), end(answers.msm)};
+  };
+  middle(leaves, "", "equilibrium");
+  middle(leaves, later, "equilibrium");
+  const auto alone = middle(comes, "", "rest"), beside = middle(comes, weight, "rest");
+  for (std::size_t side = 0; side < 2; ++side)
+    CHECK(beside[side] ==
+          Approx(alone[side]).epsilon(1e-5)); // a ten-millionth of a weight moves it by 1e-6 mm
+}
 
 TEST_CASE("both models move through the time of a case, and are measured on their way", "[verification]") {
   const compare::Comparison comparison = compare::compare_case(released());

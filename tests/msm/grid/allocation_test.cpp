@@ -58,10 +58,15 @@ namespace moving_bodies {
 
 namespace {
 
-long allocated_by(mechanics::TimeIntegrator& motion, int first, int last, double step) {
+/// @param pull  of the motion's body, drawn further in every step; null: none
+long allocated_by(mechanics::TimeIntegrator& motion, int first, int last, double step,
+                  msm::Pull* pull = nullptr) {
   n_allocations = 0;
   counts = true;
-  for (int n = first; n <= last; ++n) motion.advance(n * step);
+  for (int n = first; n <= last; ++n) {
+    if (pull) pull->draw_to({0.02 * n, 0, -0.01 * n});
+    motion.advance(n * step);
+  }
   counts = false;
   return n_allocations;
 }
@@ -93,6 +98,16 @@ TEST_CASE("after the first steps on a grid a step allocates nothing") {
         allocated_by(motion, 1, 3, step);
         CHECK(allocated_by(motion, 4, 20, step) == 0);
         CHECK(body.motion->work().linear_iterations > 20);
+        const auto at = [&](Eigen::Index entry) { return msm::Pull::Entry{entry, 1, true}; };
+        const Eigen::Index node = body.vectors.size() / 6, n = body.vectors.size() / 3; // of a middle layer
+        for (const double stiffness : {0.01, 2.}) {
+          INFO("pulled by " << stiffness << " N/mm");
+          const int first = stiffness < 1 ? 21 : 31;
+          msm::Pull& pull =
+              body.motion->hold({{{{at(node)}, {at(node + n)}, {at(node + 2 * n)}}}, stiffness});
+          allocated_by(motion, first, first + 2, step, &pull);
+          CHECK(allocated_by(motion, first + 3, first + 9, step, &pull) == 0);
+        }
       }
 }
 

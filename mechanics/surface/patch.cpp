@@ -1,0 +1,36 @@
+#include "mechanics/surface/patch.hpp"
+
+#include <map>
+
+namespace springproof::mechanics {
+
+std::vector<NodeWeight> patch_within(const EmbeddedSurface& surface, const Eigen::Vector3d& centre,
+                                     double radius) {
+  const auto& positions = surface.rest.vertices;
+  const double reach = radius + 1e-9 * (1 + centre.norm()); // what a recording rounds
+  std::map<int, double> area;                               // mm², of vertices in the sphere
+  double whole = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if ((positions[v] - centre).norm() <= reach) area.emplace(static_cast<int>(v), 0);
+  for (const auto& triangle : surface.rest.triangles) {
+    double third = 0;
+    for (const int vertex : triangle)
+      if (const auto found = area.find(vertex); found != area.end()) {
+        if (third == 0) third = cases::doubled_area(triangle, positions).norm() / 6;
+        found->second += third;
+        whole += third;
+      }
+  }
+  std::map<int, double> weight; // of nodes
+  for (const auto& [vertex, share] : area) {
+    const double part = whole > 0 ? share / whole : 1 / static_cast<double>(area.size());
+    const EmbeddedPoint& point = surface.vertices[cases::index(vertex)];
+    for (std::size_t n = 0; n < point.nodes.size(); ++n) weight[point.nodes[n]] += part * point.weights[n];
+  }
+  std::vector<NodeWeight> weights;
+  for (const auto& [node, share] : weight)
+    if (share != 0) weights.push_back({node, share});
+  return weights;
+}
+
+} // namespace springproof::mechanics
