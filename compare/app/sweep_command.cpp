@@ -6,8 +6,8 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
-#include "compare/sweep/motion_sweep.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
+#include "compare/sweep/write_motion_sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/write/json.hpp"
 

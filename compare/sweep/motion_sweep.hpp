@@ -5,15 +5,16 @@
 #include "compare/sweep/plan.hpp"
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
 /// Speed against error in time: springs and finite elements of a dynamic case, at several resolutions and
 /// steps.
 namespace springproof::compare {
+
+/// The steps that a sweep in time takes, in those of the case.
+constexpr std::array<double, 3> step_factors{2, 1, 0.5};
 
 /// One motion: what it took, and how far its watched nodes are from the reference's.
 struct MotionRow {
@@ -53,12 +54,5 @@ std::optional<double> motion_error_percent(const cases::Trajectory& reference,
 /// For pictures a second: the most accurate of the motions whose step is no longer than a picture and that
 /// take no longer than the motion itself.
 std::string interactive_sentence(const MotionSweep& sweep, double hertz);
-
-void write_motion_sweep_text(std::ostream& out, const MotionSweep& sweep);
-void write_motion_sweep_csv(std::ostream& out, const MotionSweep& sweep);
-nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep);
-/// Error against computing per second of motion, log-log: FOLDER/motion_sweep.svg and .png.
-/// @throws InputError as draw()
-void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep);
 
 } // namespace springproof::compare

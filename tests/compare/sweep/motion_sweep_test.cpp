@@ -1,4 +1,4 @@
-#include "compare/sweep/motion_sweep.hpp"
+#include "compare/sweep/write_motion_sweep.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
