@@ -39,37 +39,16 @@ struct Limits {
 };
 constexpr Limits size_limits{60000, 400000, 10000, 30000};
 
-std::vector<std::array<int, 3>> levels_of(const cases::Box& box, int n_levels) {
-  std::array<int, 3> cells = box.cells;
-  if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
-    for (int& n : cells) n /= 2;
-  std::vector<std::array<int, 3>> levels;
-  for (int level = 0; level < n_levels; ++level) {
-    levels.push_back(cells);
-    for (int& n : cells) n *= 2;
-  }
-  return levels;
+void leave_out(std::vector<LeftOut>& left_out, const std::string& what, long size, long limit) {
+  left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
 }
 
-void leave_out(Plan& plan, const std::string& what, long size, long limit) {
-  plan.left_out.push_back({what, fmt::format("{} unknowns, above the limit of {}", size, limit)});
-}
-
-/// Designs of others are there to be compared with: the tight tolerance is enough, and all have the sizes
-/// that those of them have that are factorised.
 void add_springs(Plan& plan, Extent extent) {
-  for (const cases::Design design : msm::methods(cases::LinearElastic{}))
-    for (const auto& cells : plan.levels) {
-      const long size = n_unknowns(cells, Element::q1);
-      if (cases::is_of_others(design) && size > size_limits.lattice) {
-        leave_out(plan, "springs " + cases::name_of(design) + " " + cells_name(cells), size,
-                  size_limits.lattice);
-        continue;
-      }
-      for (const double tolerance : tolerances)
-        if ((extent == Extent::full && !cases::is_of_others(design)) || tolerance == tight)
-          plan.variants.push_back({Program::springs, design, {}, {}, cells, tolerance});
-    }
+  for (const SweptSprings& springs :
+       springs_to_sweep(cases::LinearElastic{}, plan.levels, extent, plan.left_out))
+    for (const double tolerance : tolerances)
+      if (springs.settings == Settings::all || tolerance == tight)
+        plan.variants.push_back({Program::springs, springs.design, {}, {}, springs.cells, tolerance});
 }
 
 void add_finite_elements(Plan& plan, Formulation formulation, Element element, Extent extent) {
@@ -84,7 +63,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
     const std::string name =
         cases::name_of(formulation) + " " + cases::name_of(element) + " " + cells_name(cells);
     if (size > size_limits.tight) {
-      leave_out(plan, name, size, size_limits.tight);
+      leave_out(plan.left_out, name, size, size_limits.tight);
       continue;
     }
     for (const double tolerance : tolerances) {
@@ -94,7 +73,7 @@ void add_finite_elements(Plan& plan, Formulation formulation, Element element, E
       plan.variants.push_back({Program::finite_elements, {}, formulation, element, cells, tolerance});
     }
     if (!is_linear && extent == Extent::full && size > size_limits.loose)
-      leave_out(plan, name + " at looser tolerances", size, size_limits.loose);
+      leave_out(plan.left_out, name + " at looser tolerances", size, size_limits.loose);
   }
 }
 
@@ -106,11 +85,41 @@ void add_calculix(Plan& plan) {
       if (size <= size_limits.calculix)
         plan.variants.push_back(variant);
       else
-        leave_out(plan, method_name(variant) + " " + cells_name(cells), size, size_limits.calculix);
+        leave_out(plan.left_out, method_name(variant) + " " + cells_name(cells), size, size_limits.calculix);
     }
 }
 
 } // namespace
+
+std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent) {
+  std::array<int, 3> cells = box.cells;
+  if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
+    for (int& n : cells) n /= 2;
+  std::vector<std::array<int, 3>> levels;
+  for (int level = 0; level < (extent == Extent::quick ? 3 : 4); ++level) {
+    levels.push_back(cells);
+    for (int& n : cells) n *= 2;
+  }
+  return levels;
+}
+
+std::vector<SweptSprings> springs_to_sweep(const cases::Material& material,
+                                           const std::vector<std::array<int, 3>>& levels, Extent extent,
+                                           std::vector<LeftOut>& left_out) {
+  std::vector<SweptSprings> all;
+  for (const cases::Design design : msm::methods(material))
+    for (const auto& cells : levels) {
+      const bool is_of_others = cases::is_of_others(design);
+      const long size = n_unknowns(cells, Element::q1);
+      if (is_of_others && size > size_limits.lattice)
+        leave_out(left_out, "springs " + cases::name_of(design) + " " + cells_name(cells), size,
+                  size_limits.lattice);
+      else
+        all.push_back(
+            {design, cells, extent == Extent::full && !is_of_others ? Settings::all : Settings::one});
+    }
+  return all;
+}
 
 Family family_of(const Variant& variant) {
   return variant.program == Program::springs ? Family::springs : Family::finite_elements;
@@ -184,7 +193,7 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
                                           "compares displacements interpolated between grids",
                                           cases::name_of(measure.kind)));
   Plan plan;
-  plan.levels = levels_of(*box, extent == Extent::quick ? 3 : 4);
+  plan.levels = levels_of(*box, extent);
   for (std::size_t level = plan.levels.size() - 3; level < plan.levels.size(); ++level)
     plan.reference.push_back(
         {Program::finite_elements, {}, Formulation::log_strain, Element::q2, plan.levels[level], tight});

@@ -45,6 +45,28 @@ struct LeftOut {
   std::string what, reason;
 };
 
+/// Levels of cells, each of twice the level before: four, of a quick sweep three. They start at half the
+/// box's own cells where these are even, at its own otherwise.
+std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent);
+
+/// With which of its tolerances (a sweep in time: steps) a sweep solves springs.
+enum class Settings { all, one };
+
+/// A design of springs on one level.
+struct SweptSprings {
+  cases::Design design{};
+  std::array<int, 3> cells{};
+  Settings settings{};
+};
+
+/// The designs that are made from a material, each on every level. Designs of others are there to be compared
+/// with: one setting is enough, and all have the sizes that those of them have that are factorised. A quick
+/// sweep has one setting of every design.
+/// @param left_out  what is too large is added to it
+std::vector<SweptSprings> springs_to_sweep(const cases::Material& material,
+                                           const std::vector<std::array<int, 3>>& levels, Extent extent,
+                                           std::vector<LeftOut>& left_out);
+
 /// What a sweep solves.
 struct Plan {
   std::vector<std::array<int, 3>> levels; ///< cells, each of twice the level before
@@ -54,8 +76,7 @@ struct Plan {
 };
 
 /// The plan for a case: every spring design at every level and tolerance, small- and finite-strain finite
-/// elements (q1, q1_bbar, q2) and CalculiX as far as their unknowns allow. Levels start at half the case's
-/// own cells where these are even, at its own otherwise.
+/// elements (q1, q1_bbar, q2) and CalculiX as far as their unknowns allow, on levels_of() its body.
 /// @throws InputError for a body that is no box or a material without small strain
 Plan plan_sweep(const cases::Case& definition, Extent extent);
 

@@ -4,16 +4,14 @@
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/provenance/whole_file.hpp"
 #include "compare/sweep/analysis.hpp"
+#include "compare/sweep/error_plot.hpp"
 #include "compare/write/csv.hpp"
-#include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace springproof::compare {
 
@@ -176,34 +174,17 @@ constexpr Picture pictures[] = {
     {Error::worst_measure, Clock::re_solve, "measures_again",
      "worst measure, re-solve after a load change of 5 %"}};
 
-/// Of gnuplot; a marker of 0 is the linetype's own.
-struct Appearance {
-  int linetype = 0, marker = 0;
-};
-
-/// Springs have the linetypes 2 to 6 and 9, a colour each, designs of others the thin grey lines of 10 with a
-/// marker each; the finite elements those of 1 (small strain), 7 (finite strain) and 8 (CalculiX), an element
-/// its marker.
+/// The finite elements have linetype 1 (small strain), 7 (finite strain) and 8 (CalculiX), an element its
+/// marker.
 /// @param number  of the design among ours, or among those of others
 Appearance appearance(const Variant& v, int number) {
-  constexpr std::array ours{2, 3, 4, 5, 6, 9}, markers{4, 6, 8, 10, 12, 14};
-  if (v.program == Program::springs && cases::is_of_others(v.design))
-    return {10, markers.at(cases::index(number) % markers.size())};
-  if (v.program == Program::springs) return {ours.at(cases::index(number) % ours.size())};
+  if (v.program == Program::springs) return appearance_of_springs(v.design, number);
   if (v.program == Program::calculix) return {8, 1 + static_cast<int>(v.formulation)};
   const int marker = v.element == cases::Element::q1 ? 4 : v.element == cases::Element::q1_bbar ? 6 : 12;
   return {v.formulation == cases::Formulation::small_strain ? 1 : 7, marker};
 }
 
-/// A method's points: those of the tightest tolerance, which a line joins through the resolutions, and the
-/// others.
-struct Series {
-  std::string method;
-  Appearance appearance;
-  std::optional<double> floor; ///< percent; springs
-  std::vector<Point> tight, loose;
-};
-
+/// Points of the tightest tolerance are joined.
 std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
   std::vector<Series> all;
   std::array<int, 2> n_designs{}; // ours, and of others
@@ -217,65 +198,17 @@ std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
     }
     const Variant& first = rows.front()->variant;
     int& n_alike = n_designs.at(cases::is_of_others(first.design) ? 1 : 0);
-    Series series{method, appearance(first, n_alike), std::nullopt, {}, {}};
+    Series series{method, appearance(first, n_alike)};
     if (first.program == Program::springs) {
       ++n_alike;
       series.floor = errors_by_level(sweep, method, picture.error).back();
     }
-    for (const SweepRow* row : rows) {
-      const auto point = point_of(*row, picture.error, picture.clock);
-      if (!point || !(point->error_percent > 0)) continue; // zero has no place on a logarithmic axis
-      (row->variant.tolerance == tightest ? series.tight : series.loose).push_back(*point);
-    }
-    if (!series.tight.empty() || !series.loose.empty()) all.push_back(series);
+    for (const SweepRow* row : rows)
+      if (const auto point = point_of(*row, picture.error, picture.clock))
+        series.add(*point, row->variant.tolerance == tightest);
+    if (!series.joined.empty() || !series.loose.empty()) all.push_back(series);
   }
   return all;
-}
-
-/// Blocks of the data file: two per method, tight and loose, then the Pareto front. An empty one has a point
-/// that is not drawn, so that the numbers stay.
-void write_data(std::ostream& out, const std::vector<Series>& all, const std::vector<Point>& points) {
-  CsvWriter csv(out, 6);
-  const auto block = [&](const std::string& title, const std::vector<Point>& content) {
-    csv.row("# " + title + ": ms", "percent", "variant");
-    for (const Point& p : content) csv.row(1e3 * p.seconds, p.error_percent, p.name);
-    if (content.empty()) csv.row("nan", "nan", "none");
-    csv.end_block();
-  };
-  for (const Series& series : all) {
-    block(series.method, series.tight);
-    block(series.method + ", looser tolerances", series.loose);
-  }
-  std::vector<Point> front;
-  for (const std::size_t i : pareto_front(points))
-    if (points[i].error_percent > 0) front.push_back(points[i]);
-  block("Pareto front", front);
-}
-
-PlotValues values_of(const Sweep& sweep, const Picture& picture, const std::vector<Series>& all) {
-  std::vector<std::string> methods;
-  std::vector<double> linetypes, markers, floors;
-  double least = std::numeric_limits<double>::infinity(); // error that is drawn
-  for (const Series& series : all) {
-    methods.push_back(series.tight.empty() ? "" : series.method); // what has no line has no title
-    linetypes.push_back(series.appearance.linetype);
-    markers.push_back(series.appearance.marker);
-    floors.push_back(series.floor.value_or(0));
-    for (const auto* points : {&series.tight, &series.loose})
-      for (const Point& p : *points) least = std::min(least, p.error_percent);
-  }
-  const double uncertainty = uncertainty_percent(*sweep.reference, picture.error);
-  // A much smaller uncertainty would leave no room for the errors.
-  const double bottom = 0.7 * std::clamp(uncertainty, least / 10, least);
-  return {{"headline", sweep.definition.name + ": " + picture.title},
-          {"methods", methods},
-          {"linetypes", linetypes},
-          {"markers", markers},
-          {"floors", floors},
-          {"uncertainty", uncertainty},
-          {"bottom", bottom},
-          {"width", 1200.},
-          {"height", 700.}};
 }
 
 } // namespace
@@ -325,6 +258,12 @@ void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
   }
 }
 
+Json left_out_to_json(const std::vector<LeftOut>& left_out) {
+  Json all = Json::array();
+  for (const LeftOut& left : left_out) all.push_back({{"what", left.what}, {"reason", left.reason}});
+  return all;
+}
+
 Json sweep_to_json(const Sweep& sweep) {
   Json document = provenance();
   document["case"] = sweep.definition.name;
@@ -338,9 +277,7 @@ Json sweep_to_json(const Sweep& sweep) {
   document["reference"] = reference_to_json(sweep);
   document["variants"] = Json::array();
   for (const SweepRow& row : sweep.rows) document["variants"].push_back(row_to_json(sweep, row));
-  document["left_out"] = Json::array();
-  for (const LeftOut& left : sweep.plan.left_out)
-    document["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+  document["left_out"] = left_out_to_json(sweep.plan.left_out);
   document["conclusions"] = Json::array();
   for (const Conclusions& group : conclusions(sweep))
     document["conclusions"].push_back({{"heading", group.heading}, {"sentences", group.sentences}});
@@ -351,12 +288,16 @@ Json sweep_to_json(const Sweep& sweep) {
 void plot_sweep(const std::string& folder, const Sweep& sweep) {
   if (!sweep.reference) return;
   for (const Picture& picture : pictures) {
-    const std::vector<Series> all = series_of(sweep, picture);
-    if (all.empty()) continue; // such as a case without measures
-    write_file(folder + "/" + picture.name + ".csv", [&](std::ostream& out) {
-      write_data(out, all, points_of(sweep, picture.error, picture.clock));
-    });
-    draw(folder, picture.name, "sweep", values_of(sweep, picture, all));
+    ErrorPlot plot{picture.name,
+                   picture.name + std::string(".csv"),
+                   sweep.definition.name + ": " + picture.title,
+                   "time",
+                   "ms",
+                   1e-3};
+    plot.uncertainty = uncertainty_percent(*sweep.reference, picture.error);
+    plot.series = series_of(sweep, picture);
+    plot.points = points_of(sweep, picture.error, picture.clock);
+    plot_errors(folder, plot); // which has no points of a case without measures, for one
   }
 }
 

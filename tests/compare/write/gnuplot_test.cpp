@@ -20,6 +20,9 @@ void draw_sweep(const TemporaryFolder& folder, const std::string& headline) {
   folder.write("plot.csv", "1,1\n2,2\n\n\n1,1\n\n\n1,1\n");
   compare::draw(folder.path.string(), "plot", "sweep",
                 {{"headline", headline},
+                 {"points", "plot.csv"},
+                 {"time_label", "time, s"},
+                 {"real_time", 0.},
                  {"methods", std::vector<std::string>{"one"}},
                  {"linetypes", std::vector{1.}},
                  {"markers", std::vector{0.}},
