@@ -39,10 +39,6 @@ std::string describe(const Point& p) {
   return fmt::format("{} ({}, {})", p.name, time_text(p.seconds), error);
 }
 
-const char* name_of(Family family) {
-  return family == Family::springs ? "springs" : "finite elements";
-}
-
 /// Two digits, or the whole number.
 std::string factor_text(double factor) {
   return factor < 99.5 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
@@ -77,11 +73,6 @@ std::vector<std::string> floor_sentences(const Sweep& sweep, Error error) {
     if (method.rfind("springs ", 0) == 0)
       sentences.push_back(floor_sentence(method, levels, errors_by_level(sweep, method, error)));
   return sentences;
-}
-
-/// Whether errors of mesh and model cancel, so that the error is less than more cells leave of it.
-bool is_accidental(double error, double with_most_cells) {
-  return error < (1 - floor_fraction) * with_most_cells;
 }
 
 /// Median of the repetitions; nothing without any.
@@ -122,10 +113,15 @@ std::optional<std::size_t> fastest_within(const std::vector<Point>& points, doub
   return best(points, is_allowed, speed_first);
 }
 
-std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points, double seconds) {
+std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points, double seconds,
+                                                std::optional<Family> family) {
   return best(
-      points, [&](const Point& p) { return p.seconds <= seconds; },
+      points, [&](const Point& p) { return p.seconds <= seconds && (!family || p.family == *family); },
       [](const Point& p) { return std::tuple(p.error_percent, p.seconds); });
+}
+
+bool is_accidental(double error, double with_most_cells) {
+  return error < (1 - floor_fraction) * with_most_cells;
 }
 
 std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<double>>& errors) {
@@ -193,6 +189,10 @@ std::vector<std::string> methods_of(const Sweep& sweep) {
   return methods;
 }
 
+const char* family_name(Family family) {
+  return family == Family::springs ? "springs" : "finite elements";
+}
+
 std::string time_text(double seconds) {
   return seconds < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
 }
@@ -212,9 +212,9 @@ std::string fastest_sentence(const std::vector<Point>& points, double error_perc
   const Family other = winner.family == Family::springs ? Family::finite_elements : Family::springs;
   const auto rival = fastest_within(points, error_percent, other);
   const std::string sentence = start + describe(winner) + " is the fastest";
-  if (!rival) return sentence + fmt::format("; no {} get there.", name_of(other));
+  if (!rival) return sentence + fmt::format("; no {} get there.", family_name(other));
   return sentence + fmt::format(", {} times as fast as the fastest {}, {}.",
-                                factor_text(points[*rival].seconds / winner.seconds), name_of(other),
+                                factor_text(points[*rival].seconds / winner.seconds), family_name(other),
                                 describe(points[*rival]));
 }
 

@@ -25,11 +25,16 @@ std::vector<std::size_t> pareto_front(const std::vector<Point>& points);
 std::optional<std::size_t> fastest_within(const std::vector<Point>& points, double error_percent,
                                           std::optional<Family> family = std::nullopt);
 
-/// The most accurate point that takes at most a time; of equally accurate ones the faster.
-std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points, double seconds);
+/// The most accurate point that takes at most a time, of one family or of all; of equally accurate ones the
+/// faster.
+std::optional<std::size_t> most_accurate_within(const std::vector<Point>& points, double seconds,
+                                                std::optional<Family> family = std::nullopt);
 
 /// An error is at its floor when it is within this fraction of the one with the most cells.
 constexpr double floor_fraction = 0.1;
+
+/// Whether errors of mesh and model cancel, so that the error is less than more cells leave of it.
+bool is_accidental(double error, double with_most_cells);
 
 /// The coarsest level from which on every error is at the floor that refinement leads to. The last level
 /// itself: no floor is in sight. Nothing without an error on the last level.
@@ -60,6 +65,9 @@ double uncertainty_percent(const Reference& reference, Error error);
 
 /// Names of the methods in the order of the rows.
 std::vector<std::string> methods_of(const Sweep& sweep);
+
+/// "springs" or "finite elements".
+const char* family_name(Family family);
 
 /// A time for reading: "0.41 ms", "16 ms", "2.5 s".
 std::string time_text(double seconds);

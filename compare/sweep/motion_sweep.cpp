@@ -18,7 +18,7 @@ namespace {
 using Cells = std::array<int, 3>;
 
 /// Finite elements take no larger bodies through all steps: half an hour a motion.
-constexpr double most_nodes = 70000;
+constexpr long most_nodes = 70000;
 
 /// The case on another mesh with another step; whole bodies at the ends alone.
 cases::Case with_steps(const cases::Case& definition, const Cells& cells, double step) {
@@ -31,17 +31,18 @@ cases::Case with_steps(const cases::Case& definition, const Cells& cells, double
   return result;
 }
 
-std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent) {
-  Cells cells = std::get<cases::Box>(definition.body).cells;
-  if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
-    for (int& n : cells) n /= 2;
+/// Levels that are too large are left out.
+std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent,
+                                  std::vector<LeftOut>& left_out) {
   std::vector<Cells> levels;
-  for (int level = 0; level < (extent == Extent::quick ? 3 : 4); ++level) {
-    double n_nodes = 1;
+  for (const Cells& cells : levels_of(std::get<cases::Box>(definition.body), extent)) {
+    long n_nodes = 1;
     for (const int n : cells) n_nodes *= n + 1;
-    if (n_nodes > most_nodes) break;
-    levels.push_back(cells);
-    for (int& n : cells) n *= 2;
+    if (n_nodes <= most_nodes)
+      levels.push_back(cells);
+    else
+      left_out.push_back({"all motions of " + cells_name(cells) + " cells",
+                          fmt::format("{} nodes, above the limit of {}", n_nodes, most_nodes)});
   }
   return levels;
 }
@@ -71,19 +72,49 @@ void check_watched(const cases::Case& definition, const std::vector<Cells>& leve
   }
 }
 
-MotionRow timed(const std::string& method, Family family, const cases::Case& definition, const Answer& answer,
-                const cases::Trajectory& reference) {
-  MotionRow row{method,
-                family,
-                std::get<cases::Box>(definition.body).cells,
-                definition.dynamics->step,
-                answer.solution.status,
-                answer.solution.message,
-                answer.solution.unknowns};
-  if (!answer.converged() || !answer.solution.trajectory) return row;
+/// The designs that a sweep takes, and the case's own, which has all steps in a quick sweep too.
+std::vector<SweptSprings> springs_in_time(const cases::Case& definition, const std::vector<Cells>& levels,
+                                          Extent extent, std::vector<LeftOut>& left_out) {
+  std::vector<SweptSprings> all = springs_to_sweep(definition.material, levels, extent, left_out);
+  const cases::Design own = definition.msm.design;
+  if (cases::facts_of(own).source != cases::DesignSource::material)
+    for (const Cells& cells : levels) all.push_back({own, cells, Settings::all});
+  for (SweptSprings& springs : all)
+    if (springs.design == own) springs.settings = Settings::all;
+  if (extent == Extent::quick)
+    left_out.push_back({"the finest level, and other steps than the case's of all designs but its own",
+                        "--quick was asked for"});
+  return all;
+}
+
+/// A case that no model can be made of is a failed answer, as one that is not solved.
+Answer answered(const std::function<Answer()>& solve) {
+  try {
+    return solve();
+  } catch (const cases::InputError& error) {
+    Answer refused;
+    refused.solution = failed_solution(error);
+    return refused;
+  }
+}
+
+/// With an error, or failed with the reason why there is none.
+void hold_against(const cases::Trajectory& reference, const Answer& answer, const cases::Case& definition,
+                  MotionRow& row) {
+  const cases::Solution& solution = answer.solution;
+  row.status = solution.status;
+  row.message = solution.message;
+  row.unknowns = solution.unknowns;
+  if (!answer.converged()) return;
+  const auto error =
+      solution.trajectory ? motion_error_percent(reference, *solution.trajectory) : std::nullopt;
+  if (!error || !std::isfinite(*error)) {
+    row.status = cases::Status::failed;
+    row.message = "its displacements are not finite, or not of the nodes and times of the reference";
+    return;
+  }
   row.seconds_per_second = answer.solve_seconds / definition.dynamics->end;
-  row.error_percent = motion_error_percent(reference, *answer.solution.trajectory);
-  return row;
+  row.error_percent = error;
 }
 
 /// Finite strain by a scheme of second order, whatever the case has.
@@ -101,8 +132,42 @@ cases::Trajectory reference_motion(const cases::Case& definition, const Cells& c
   return *found.answer.solution.trajectory;
 }
 
-std::string of_row(const MotionRow& row) {
-  return fmt::format("{}, {} cells, steps of {:g} ms", row.method, cells_name(row.cells), 1e3 * row.step);
+/// The levels, of a case that can be swept.
+/// @throws InputError
+std::vector<Cells> checked_levels(const cases::Case& definition, Extent extent,
+                                  std::vector<LeftOut>& left_out) {
+  if (!std::holds_alternative<cases::Box>(definition.body))
+    throw cases::InputError(definition.file +
+                            ": body.shape: a sweep refines the body, which must be \"box\"");
+  const std::vector<Cells> levels = levels_in_time(definition, extent, left_out);
+  if (levels.size() < 2)
+    throw cases::InputError(
+        definition.file +
+        fmt::format(": body.cells: a sweep in time needs two meshes of at most {} nodes", most_nodes));
+  if (definition.dynamics->n_steps() % 2 != 0)
+    throw cases::InputError(definition.dynamics->where,
+                            "a sweep in time takes twice the step too: end must be an even number of steps");
+  check_watched(definition, levels);
+  return levels;
+}
+
+/// What all motions are held against, and its uncertainty, in words and numbers of the sweep.
+/// @throws InputError when it does not move
+cases::Trajectory add_reference(MotionSweep& sweep, const std::vector<Cells>& levels) {
+  const cases::Case& definition = sweep.definition;
+  const double step = definition.dynamics->step;
+  const cases::Trajectory truth = reference_motion(definition, levels.back(), step / 4);
+  if (!motion_error_percent(truth, truth))
+    throw cases::InputError(definition.file +
+                            ": measure: their nodes do not move, so that no motion has an error");
+  const auto change = [&](const Cells& cells, double other_step) {
+    return motion_error_percent(truth, reference_motion(definition, cells, other_step))
+        .value_or(std::numeric_limits<double>::infinity());
+  };
+  sweep.reference = fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
+                                cells_name(levels.back()), 250 * step);
+  sweep.uncertainty_percent = change(levels[levels.size() - 2], step / 4) + change(levels.back(), step / 2);
+  return truth;
 }
 
 } // namespace
@@ -130,60 +195,32 @@ std::optional<double> motion_error_percent(const cases::Trajectory& reference,
 
 MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
                          const std::function<void(const MotionSweep&)>& on_row) {
-  if (!std::holds_alternative<cases::Box>(definition.body))
-    throw cases::InputError(definition.file +
-                            ": body.shape: a sweep refines the body, which must be \"box\"");
-  const std::vector<Cells> levels = levels_in_time(definition, extent);
-  if (levels.size() < 2)
-    throw cases::InputError(definition.file +
-                            ": body.cells: a sweep in time needs two meshes of at most 70,000 nodes");
-  if (definition.dynamics->n_steps() % 2 != 0)
-    throw cases::InputError(definition.dynamics->where,
-                            "a sweep in time takes twice the step too: end must be an even number of steps");
-  check_watched(definition, levels);
-  const double step = definition.dynamics->step;
-  const cases::Trajectory truth = reference_motion(definition, levels.back(), step / 4);
-  const auto change = [&](const cases::Trajectory& coarser) {
-    return motion_error_percent(truth, coarser).value_or(std::numeric_limits<double>::infinity());
+  MotionSweep sweep{definition, "", 0, {}, {}};
+  const std::vector<Cells> levels = checked_levels(definition, extent, sweep.left_out);
+  const cases::Trajectory truth = add_reference(sweep, levels);
+  const auto add = [&](const MotionRow& planned, Settings settings, const auto& solve) {
+    for (const double factor : step_factors) {
+      if (settings == Settings::one && factor != 1) continue;
+      MotionRow row = planned;
+      row.step = factor * definition.dynamics->step;
+      const cases::Case variant = with_steps(definition, row.cells, row.step);
+      hold_against(truth, answered([&] { return solve(cases::make_scene(variant)); }), variant, row);
+      sweep.rows.push_back(row);
+      on_row(sweep);
+    }
   };
-  MotionSweep sweep{definition,
-                    fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
-                                cells_name(levels.back()), 250 * step),
-                    change(reference_motion(definition, levels[levels.size() - 2], step / 4)) +
-                        change(reference_motion(definition, levels.back(), step / 2)),
-                    {}};
-  const std::string springs = "springs " + cases::name_of(definition.msm.design);
+  for (const SweptSprings& springs : springs_in_time(definition, levels, extent, sweep.left_out))
+    add({"springs " + cases::name_of(springs.design), springs.design, springs.cells}, springs.settings,
+        [&](const cases::Scene& scene) {
+          std::optional<msm::DesignResult> made;
+          return solve_springs(with_design(scene, springs.design), 1, made);
+        });
   const std::string elements =
       cases::name_of(definition.fem.formulation) + " " + cases::name_of(definition.fem.element);
   for (const Cells& cells : levels)
-    for (const double factor : step_factors) {
-      const cases::Case variant = with_steps(definition, cells, factor * step);
-      const cases::Scene scene = cases::make_scene(variant);
-      std::optional<msm::DesignResult> design;
-      sweep.rows.push_back(timed(springs, Family::springs, variant, solve_springs(scene, 1, design), truth));
-      on_row(sweep);
-      sweep.rows.push_back(
-          timed(elements, Family::finite_elements, variant, solve_fem_as_given(scene).answer, truth));
-      on_row(sweep);
-    }
+    add({elements, std::nullopt, cells}, Settings::all,
+        [](const cases::Scene& scene) { return solve_fem_as_given(scene).answer; });
   return sweep;
-}
-
-std::string interactive_sentence(const MotionSweep& sweep, double hertz) {
-  const MotionRow* best = nullptr;
-  for (const MotionRow& row : sweep.rows) {
-    const bool keeps_up =
-        row.error_percent >= 0. && row.step <= (1 + 1e-9) / hertz && row.seconds_per_second <= 1;
-    if (keeps_up && (!best || *row.error_percent < *best->error_percent)) best = &row;
-  }
-  if (!best) return fmt::format("at {:g} Hz: none of these motions keeps up", hertz);
-  const std::string error =
-      *best->error_percent > sweep.uncertainty_percent
-          ? fmt::format("{:.2g} %", *best->error_percent)
-          : fmt::format("below the reference's uncertainty of {:.2g} %", sweep.uncertainty_percent);
-  return fmt::format(
-      "at {:g} Hz: {} are the most accurate that keep up: error {}, {:.2g} s of computing a second", hertz,
-      of_row(*best), error, best->seconds_per_second);
 }
 
 } // namespace springproof::compare

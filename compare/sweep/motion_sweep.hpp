@@ -19,15 +19,16 @@ constexpr std::array<double, 3> step_factors{2, 1, 0.5};
 /// One motion: what it took, and how far its watched nodes are from the reference's.
 struct MotionRow {
   std::string method;
-  Family family{};
+  std::optional<cases::Design> design{}; ///< of springs; nothing: finite elements
   std::array<int, 3> cells{};
   double step = 0; ///< s
   cases::Status status{};
-  std::string message;
+  std::string message{};
   std::size_t unknowns = 0;
   double seconds_per_second =
       0; ///< of computing for a second of motion; one run, one thread, without setting up
-  std::optional<double> error_percent{};
+  std::optional<double> error_percent{}; ///< finite; absent when it failed
+  Family family() const { return design ? Family::springs : Family::finite_elements; }
 };
 
 struct MotionSweep {
@@ -35,14 +36,16 @@ struct MotionSweep {
   std::string reference;
   double uncertainty_percent = 0; ///< what the last halvings of its cells and of its step changed, together
   std::vector<MotionRow> rows;
+  std::vector<LeftOut> left_out;
 };
 
-/// The case's own springs and finite elements at levels of cells as plan_sweep() has them, each with twice,
-/// once and half the case's step, against the finite-strain motion on the finest level by generalized_alpha
-/// with a quarter of the step. One after the other in this process.
+/// Springs of the designs that a sweep takes (springs_to_sweep()), the case's own with its settings and the
+/// others with their defaults, and the case's finite elements, on levels_of() its body, with twice, once and
+/// half the case's step or with that one alone, against the finite-strain motion on the finest level by
+/// generalized_alpha with a quarter of the step. One after the other in this process.
 /// @param on_row  called with the sweep as it is after every motion
 /// @throws InputError for a body that is no box, a case without measures of nodes, or with nodes that a level
-/// has not; SolveError when the reference fails
+/// has not or that do not move; SolveError when the reference fails
 MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
                          const std::function<void(const MotionSweep&)>& on_row);
 
@@ -50,9 +53,5 @@ MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
 /// first's: root mean squares over times and nodes.
 std::optional<double> motion_error_percent(const cases::Trajectory& reference,
                                            const cases::Trajectory& other);
-
-/// For pictures a second: the most accurate of the motions whose step is no longer than a picture and that
-/// take no longer than the motion itself.
-std::string interactive_sentence(const MotionSweep& sweep, double hertz);
 
 } // namespace springproof::compare

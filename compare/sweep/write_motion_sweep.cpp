@@ -2,9 +2,10 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/provenance/whole_file.hpp"
+#include "compare/sweep/error_plot.hpp"
+#include "compare/sweep/motion_conclusions.hpp"
+#include "compare/sweep/write_sweep.hpp"
 #include "compare/write/csv.hpp"
-#include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
@@ -14,7 +15,24 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr std::array<double, 3> marks_of_steps{5, 7, 9}; ///< square, disc, triangle, of gnuplot
+/// Motions with the case's own step are joined, which all methods have.
+std::vector<Series> series_of(const MotionSweep& sweep) {
+  std::vector<Series> all;
+  std::array<int, 2> n_designs{}; // ours, and of others
+  for (const MotionRow& row : sweep.rows) {
+    if (all.empty() || all.back().method != row.method) {
+      Appearance appearance{1};
+      if (row.design)
+        appearance =
+            appearance_of_springs(*row.design, n_designs.at(cases::is_of_others(*row.design) ? 1 : 0)++);
+      all.push_back({row.method, appearance});
+    }
+    const double step = sweep.definition.dynamics->step;
+    if (const auto point = point_of(sweep, row))
+      all.back().add(*point, std::abs(row.step - step) < 1e-9 * step);
+  }
+  return all;
+}
 
 } // namespace
 
@@ -32,7 +50,8 @@ void write_motion_sweep_text(std::ostream& out, const MotionSweep& sweep) {
     else
       print(out, " {}: {}\n", cases::name_of(row.status), row.message);
   }
-  for (const double hertz : {30., 60., 500.}) print(out, "{}\n", interactive_sentence(sweep, hertz));
+  for (const LeftOut& left : sweep.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+  for (const std::string& sentence : conclusions(sweep)) print(out, "{}\n", sentence);
 }
 
 void write_motion_sweep_csv(std::ostream& out, const MotionSweep& sweep) {
@@ -65,44 +84,23 @@ nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep) {
     }
     document["motions"].push_back(entry);
   }
-  document["conclusions"] = Json::array();
-  for (const double hertz : {30., 60., 500.})
-    document["conclusions"].push_back(interactive_sentence(sweep, hertz));
+  document["left_out"] = left_out_to_json(sweep.left_out);
+  document["conclusions"] = conclusions(sweep);
   return document;
 }
 
 void plot_motion_sweep(const std::string& folder, const MotionSweep& sweep) {
-  std::vector<std::string> lines; // a block for each method and step
-  std::vector<double> linetypes;  // as in all figures; a step's mark is the same for both models
-  std::vector<double> markers;
-  write_file(folder + "/motion_sweep_points.csv", [&](std::ostream& out) {
-    CsvWriter csv(out, 8);
-    for (const Family family : {Family::springs, Family::finite_elements})
-      for (std::size_t s = 0; s < step_factors.size(); ++s) {
-        const double step = step_factors[s] * sweep.definition.dynamics->step;
-        std::string name;
-        for (const MotionRow& row : sweep.rows) {
-          if (row.family != family || std::abs(row.step - step) > 1e-9 * step || !row.error_percent) continue;
-          name = fmt::format("{}, {:g} ms", row.method, 1e3 * step);
-          csv.row(row.seconds_per_second, *row.error_percent);
-        }
-        if (name.empty()) continue;
-        csv.end_block();
-        lines.push_back(name);
-        linetypes.push_back(family == Family::finite_elements ? 1 : 2);
-        markers.push_back(marks_of_steps[s]);
-      }
-  });
-  if (lines.empty()) return;
-  draw(folder, "motion_sweep", "motion_sweep",
-       {{"points", "motion_sweep_points.csv"},
-        {"headline", sweep.definition.name + ": motions, one thread"},
-        {"lines", lines},
-        {"linetypes", linetypes},
-        {"markers", markers},
-        {"uncertainty", sweep.uncertainty_percent},
-        {"width", 1000.},
-        {"height", 600.}});
+  const double ms = 1e3 * sweep.definition.dynamics->step;
+  ErrorPlot plot{
+      "motion_sweep", "motion_sweep_points.csv",
+      fmt::format("{}: motions on one thread; lines: steps of {:g} ms, small marks: {:g} and {:g} ms",
+                  sweep.definition.name, ms, step_factors[0] * ms, step_factors[2] * ms),
+      "computing for a second of motion", "s"};
+  plot.real_time = 1;
+  plot.uncertainty = sweep.uncertainty_percent;
+  plot.series = series_of(sweep);
+  plot.points = points_of(sweep);
+  plot_errors(folder, plot);
 }
 
 } // namespace springproof::compare

@@ -1,7 +1,11 @@
 #include "compare/sweep/write_motion_sweep.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/sweep/motion_conclusions.hpp"
+#include "msm/design/design.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,6 +15,7 @@
 
 using namespace springproof;
 
+using Catch::Contains;
 using compare::MotionRow;
 using compare::MotionSweep;
 
@@ -52,7 +57,7 @@ element = "q1_bbar"
 [msm]
 design = "hybrid"
 )",
-                           "block.toml");
+                               "block.toml");
 }
 
 cases::Trajectory motion(const std::vector<double>& times, double factor) {
@@ -65,16 +70,41 @@ cases::Trajectory motion(const std::vector<double>& times, double factor) {
   return result;
 }
 
-MotionRow row(double step, double seconds, std::optional<double> error) {
+MotionRow springs(double step, double seconds, std::optional<double> error, int n_cells = 2) {
   return {"springs hybrid",
-          compare::Family::springs,
-          {2, 2, 2},
+          cases::Design::hybrid,
+          {n_cells, n_cells, n_cells},
           step,
-          cases::Status::converged,
+          error ? cases::Status::converged : cases::Status::failed,
           "",
           81,
           seconds,
           error};
+}
+
+MotionRow elements(double step, double seconds, std::optional<double> error, int n_cells = 2) {
+  MotionRow row = springs(step, seconds, error, n_cells);
+  row.method = "log_strain q1";
+  row.design.reset();
+  return row;
+}
+
+MotionSweep swept(const std::vector<MotionRow>& rows, double uncertainty = 0.5) {
+  MotionSweep sweep;
+  sweep.uncertainty_percent = uncertainty;
+  sweep.rows = rows;
+  return sweep;
+}
+
+MotionSweep quickly(const cases::Case& definition) {
+  return compare::sweep_motion(definition, compare::Extent::quick, [](const MotionSweep&) {});
+}
+
+std::vector<const MotionRow*> rows_of(const MotionSweep& sweep, const std::string& method) {
+  std::vector<const MotionRow*> rows;
+  for (const MotionRow& row : sweep.rows)
+    if (row.method == method) rows.push_back(&row);
+  return rows;
 }
 
 } // namespace
@@ -88,50 +118,153 @@ TEST_CASE("the difference of two motions is of the times that both have") {
 }
 
 TEST_CASE("the most accurate motion at a rate keeps up with it") {
-  MotionSweep sweep;
-  sweep.uncertainty_percent = 1;
-  sweep.rows = {row(0.02, 0.1, 2), row(0.01, 0.5, 5), row(0.01, 0.9, 3), row(0.005, 1.1, 1.5),
-                row(0.01, 0.2, std::nullopt)};
-  CHECK(compare::interactive_sentence(sweep, 60).find("error 3 %, 0.9 s") != std::string::npos);
-  CHECK(compare::interactive_sentence(sweep, 30).find("error 2 %") != std::string::npos);
+  const MotionSweep sweep = swept({springs(0.02, 0.1, 2), springs(0.01, 0.5, 5), springs(0.01, 0.9, 3),
+                                   springs(0.005, 1.1, 1.5), springs(0.01, 0.2, std::nullopt)});
+  CHECK_THAT(compare::interactive_sentence(sweep, 60), Contains("error 3 %, 0.9 s"));
+  CHECK_THAT(compare::interactive_sentence(sweep, 30), Contains("error 2 %"));
   CHECK(compare::interactive_sentence(sweep, 500) == "at 500 Hz: none of these motions keeps up");
+  CHECK(compare::conclusions(sweep).size() == 3);
 }
 
-TEST_CASE("a sweep in time has every method, mesh and step, and errors that fall with both") {
+TEST_CASE("the most accurate motion at a rate is held against the other family's") {
+  const auto at_60 = [](const std::vector<MotionRow>& rows, double uncertainty = 0.5) {
+    return compare::interactive_sentence(swept(rows, uncertainty), 60);
+  };
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 3)}),
+             Contains("at 60 Hz: log_strain q1, 2x2x2 cells, steps of 10 ms are the most accurate that keep "
+                      "up: error 3 %, 0.9 s of computing a second; the most accurate springs: springs "
+                      "hybrid, 2x2x2 cells, steps of 10 ms: error 4 %, 0.2 s"));
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 5)}),
+             Contains("springs hybrid") && Contains("; the most accurate finite elements: log_strain q1"));
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 1.1, 3)}),
+             Contains("; no finite elements keep up"));
+  CHECK_THAT(at_60({elements(0.01, 0.2, 4)}), Contains("; no springs keep up"));
+  // 4 - 3 is more than 0.5 and less than 1.5; below 5 nothing can be told
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 3)}, 0.5), !Contains("does not tell"));
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 3)}, 1.5),
+             Contains("uncertainty of 1.5 % does not tell from the best"));
+  CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 3)}, 5),
+             Contains("error below the reference's uncertainty of 5 %") && !Contains("does not tell"));
+}
+
+TEST_CASE("an error that is small by accident is told, with the most accurate motion that is not") {
+  const std::vector<MotionRow> rows{springs(0.01, 0.2, 2), springs(0.01, 5, 20, 4), elements(0.01, 0.9, 9)};
+  const std::string sentence = compare::interactive_sentence(swept(rows), 60);
+  CHECK_THAT(sentence, Contains("error 2 % by accident (more cells and shorter steps lead to 20 %)"));
+  CHECK_THAT(sentence, Contains("the most accurate not by accident: log_strain q1"));
+  // what the reference does not tell apart is no accident
+  CHECK_THAT(compare::interactive_sentence(swept(rows, 19), 60), !Contains("accident"));
+}
+
+TEST_CASE(
+    "a quick sweep in time has all designs with the case's step, its own and finite elements with three") {
   int n_calls = 0;
   const MotionSweep sweep =
       compare::sweep_motion(block(), compare::Extent::quick, [&](const MotionSweep&) { ++n_calls; });
-  REQUIRE(sweep.rows.size() == 2 * 3 * 3);
-  CHECK(n_calls == 18);
+  const auto designs = msm::methods(block().material);
+  REQUIRE(sweep.rows.size() == 3 * 3 + 3 * (designs.size() - 1) + 3 * 3);
+  CHECK(n_calls == static_cast<int>(sweep.rows.size()));
+  for (const cases::Design design : designs)
+    CHECK(rows_of(sweep, "springs " + cases::name_of(design)).size() ==
+          (design == cases::Design::hybrid ? 9 : 3));
   CHECK(sweep.uncertainty_percent > 0);
   CHECK(sweep.uncertainty_percent < 20); // coarse as the meshes are
+  int n_moved = 0;
   for (const MotionRow& motion : sweep.rows) {
     INFO(motion.method << " " << compare::cells_name(motion.cells) << " " << motion.step << " "
                        << motion.message);
-    REQUIRE(motion.error_percent);
+    CHECK(motion.error_percent.has_value() == (motion.status == cases::Status::converged));
+    CHECK(motion.message.empty() == motion.error_percent.has_value());
+    if (!motion.error_percent) continue;
+    ++n_moved;
     CHECK(std::isfinite(*motion.error_percent));
     CHECK(motion.seconds_per_second > 0);
   }
-  // finite elements: coarsest with the longest step, finest with the shortest
-  CHECK(*sweep.rows[17].error_percent < 0.5 * *sweep.rows[1].error_percent);
+  CHECK(n_moved > 18);
+  const auto fem = rows_of(sweep, "log_strain q1_bbar"), own = rows_of(sweep, "springs hybrid");
+  REQUIRE(fem.size() == 9);
+  // coarsest with the longest step, finest with the shortest
+  CHECK(fem.back()->error_percent.value() < 0.5 * fem.front()->error_percent.value());
+  CHECK(own.back()->error_percent.value() < own.front()->error_percent.value());
+  REQUIRE(sweep.left_out.size() == 1);
+  CHECK(sweep.left_out[0].reason == "--quick was asked for");
   std::ostringstream text, csv;
   compare::write_motion_sweep_text(text, sweep);
-  CHECK(text.str().find("at 60 Hz: ") != std::string::npos);
+  CHECK_THAT(text.str(), Contains("\nat 60 Hz: ") && Contains("\nleft out: "));
   compare::write_motion_sweep_csv(csv, sweep);
   const std::string lines = csv.str();
-  CHECK(std::count(lines.begin(), lines.end(), '\n') == 19);
+  CHECK(std::count(lines.begin(), lines.end(), '\n') == static_cast<int>(sweep.rows.size()) + 1);
   const auto document = compare::motion_sweep_to_json(sweep);
-  CHECK(document["motions"].size() == 18);
-  CHECK(document["motions"][0]["error_percent"].is_number());
+  CHECK(document["motions"].size() == sweep.rows.size());
+  CHECK(document["left_out"].size() == 1);
+  CHECK(document["conclusions"].size() == 3);
+}
+
+TEST_CASE("a design that is refused is a failed row of a sweep in time, with the reason") {
+  cases::Case auxetic = block(); // of a negative Poisson's ratio, which the case's own design takes
+  std::get<cases::LinearElastic>(auxetic.material).poissons_ratio = -0.1;
+  auxetic.msm.design = cases::Design::moduli;
+  auxetic.dynamics->end = 0.01;
+  const MotionSweep sweep = quickly(auxetic);
+  const auto refused = rows_of(sweep, "springs hybrid"), own = rows_of(sweep, "springs moduli");
+  REQUIRE(refused.size() == 3);
+  for (const MotionRow* row : refused) {
+    CHECK(row->status == cases::Status::failed);
+    CHECK_THAT(row->message, Contains("nu"));
+    CHECK_FALSE(row->error_percent);
+  }
+  REQUIRE(own.size() == 9);
+  CHECK(own.back()->error_percent);
+  const auto document = compare::motion_sweep_to_json(sweep);
+  for (const auto& motion : document["motions"])
+    CHECK(motion["error_percent"].is_null() == (motion["status"] == "failed"));
+}
+
+TEST_CASE("the springs of a sweep are all that the material has, and what is too large is left out by name") {
+  std::vector<compare::LeftOut> left_out;
+  const auto swept_of = [&](const cases::Material& material, compare::Extent extent) {
+    return compare::springs_to_sweep(material, {{2, 2, 2}, {40, 40, 40}}, extent, left_out);
+  };
+  const auto full = swept_of(cases::LinearElastic{1, 0.3}, compare::Extent::full);
+  const auto n_designs = msm::methods(cases::LinearElastic{1, 0.3}).size();
+  CHECK(full.size() + left_out.size() == 2 * n_designs);
+  CHECK(left_out.size() == 6); // designs of others with 206,763 unknowns
+  for (const auto& springs : full)
+    CHECK((springs.settings == compare::Settings::one) == cases::is_of_others(springs.design));
+  for (const auto& springs : swept_of(cases::LinearElastic{1, 0.3}, compare::Extent::quick))
+    CHECK(springs.settings == compare::Settings::one);
+  const cases::TransverselyIsotropic muscle{2, 1, 0.3, 0.3, 0.5, Eigen::Vector3d::UnitX()};
+  for (const auto& springs : swept_of(muscle, compare::Extent::full))
+    CHECK(springs.design == cases::Design::transverse);
+}
+
+TEST_CASE("the figure of a sweep in time has two blocks of points for every method, and the front") {
+  const TemporaryFolder folder;
+  MotionSweep sweep = swept({springs(0.005, 0.1, 9), springs(0.0025, 0.3, 8), springs(0.005, 0.9, 3, 4),
+                             springs(0.005, 0.2, std::nullopt), elements(0.005, 0.5, 4)});
+  sweep.definition = block();
+  compare::plot_motion_sweep(folder.path.string(), sweep);
+  const std::string points = content(folder.path / "motion_sweep_points.csv");
+  std::vector<std::size_t> n_rows{0}; // of every block, its header too
+  std::istringstream lines(points);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty())
+      ++n_rows.back();
+    else if (n_rows.back() > 0)
+      n_rows.push_back(0);
+  }
+  CHECK(n_rows == std::vector<std::size_t>{3, 2, 2, 2, 5, 0}); // the front: 0.1, 0.3, 0.5 and 0.9 s
+  CHECK_THAT(content(folder.path / "motion_sweep.gp"), Contains("linetypes[2] = [2, 1]"));
 }
 
 TEST_CASE("a sweep in time says what it cannot sweep") {
-  const auto none = [](const MotionSweep&) {};
-  CHECK_THROWS_AS(compare::sweep_motion(block("near 2.5 5 20"), compare::Extent::quick, none),
-                  cases::InputError);
+  CHECK_THROWS_AS(quickly(block("near 2.5 5 20")), cases::InputError);
   cases::Case odd = block();
   odd.dynamics->end = 0.065;
-  CHECK_THROWS_AS(compare::sweep_motion(odd, compare::Extent::quick, none), cases::InputError);
+  CHECK_THROWS_AS(quickly(odd), cases::InputError);
+  cases::Case at_rest = block();
+  at_rest.loads[0].value.setZero();
+  CHECK_THROWS_WITH(quickly(at_rest), Contains("do not move"));
 }
 
 } // namespace motion_sweeps
