@@ -51,12 +51,19 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
                                    const MeshStudy* study) {
   std::vector<MeasuredValue> values;
   for (const cases::Measure& measure : scene.definition.measures) {
-    const auto value_by = [&](const Answer& answer) -> std::optional<double> {
-      if (!answer.converged() || !can_evaluate(measure, answer.solution)) return std::nullopt;
-      return value_of(measure, scene, answer.solution);
+    MeasuredValue value{measure.name, unit_of(measure), {}, {}, {}};
+    const auto value_by = [&](const Answer& answer, std::string& reason) -> std::optional<double> {
+      if (!answer.converged()) return std::nullopt;
+      if (can_evaluate(measure, answer.solution))
+        if (const auto found = value_of(measure, scene, answer.solution); found && std::isfinite(*found))
+          return found;
+      reason = why_without_value(measure, scene, answer.solution);
+      return std::nullopt;
     };
-    MeasuredValue value{measure.name, unit_of(measure), value_by(answers.fem), value_by(answers.msm), {}};
-    if (answers.peer) value.peer = value_by(answers.peer->answer);
+    value.fem = value_by(answers.fem, value.fem_reason);
+    value.msm = value_by(answers.msm, value.msm_reason);
+    std::string unused;
+    if (answers.peer) value.peer = value_by(answers.peer->answer, unused);
     if (value.fem && value.msm)
       value.error_same_mesh_percent =
           measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);

@@ -4,7 +4,7 @@
 
 namespace springproof::compare {
 
-/// A measure on both sides. A side that failed or was skipped has no value.
+/// A measure on both sides. A side that failed or was skipped has no value; values are finite.
 ///
 /// The reference is the limit of the finite elements under refinement where the case has one and its study
 /// shows it, else the finite elements on the case's own mesh. Errors are (value - reference)/reference; those
@@ -22,6 +22,9 @@ struct MeasuredValue {
   /// Estimate of what interpolation from another mesh adds to the springs' value, in the unit, and to their
   /// error, points; of a field norm, the norm of that field. Absent where nothing was interpolated.
   std::optional<double> interpolation_error{}, interpolation_error_percent{};
+  /// Why a side that has an answer has no value, such as a frequency of what does not swing; empty: it has
+  /// one.
+  std::string fem_reason{}, msm_reason{};
 };
 
 /// All measures of a case, in its order.

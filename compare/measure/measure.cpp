@@ -239,6 +239,15 @@ std::optional<double> value_of(const cases::Measure& measure, const cases::Scene
   return value_over_time(*measure.over_time, series_of(measure, scene, solution));
 }
 
+std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
+                              const cases::Solution& solution) {
+  if (!can_evaluate(measure, solution)) return "the solution is of displacements alone, without its fields";
+  if (measure.over_time && solution.trajectory)
+    return why_without_number(*measure.over_time, series_of(measure, scene, solution));
+  const auto value = value_of(measure, scene, solution);
+  return value && std::isfinite(*value) ? "" : "it is not a finite number";
+}
+
 bool is_trajectory_norm(const cases::Measure& measure) {
   return measure.over_time == cases::OverTime::trajectory_l2;
 }

@@ -42,6 +42,10 @@ std::optional<NumericalDamping> numerical_damping(const cases::Measure& measure,
 std::optional<double> value_of(const cases::Measure& measure, const cases::Scene& scene,
                                const cases::Solution& solution);
 
+/// Why value_of() has no finite value of a converged solution; empty: it has one.
+std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
+                              const cases::Solution& solution);
+
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
 /// @param sharing  the ranks that share the field; null: all of it is here

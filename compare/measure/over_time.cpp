@@ -65,6 +65,15 @@ Extreme peak_of(const TimeSeries& series) {
   return vertex(series, i);
 }
 
+/// From here on a way is rounding, of what moved by so much: a solve leaves 1e-9 of its forces.
+double rounding_of(const TimeSeries& series) {
+  return 1e-9 * std::abs(series.value[furthest(series)] - series.value.front());
+}
+
+bool are_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 double settled_value(const TimeSeries& series) {
   const auto swings = swings_of(series);
   return swings ? swings->settled : series.value.back();
@@ -97,6 +106,7 @@ std::vector<Extreme> extremes(const TimeSeries& series) {
 }
 
 std::optional<Swings> swings_of(const TimeSeries& series) {
+  if (!are_finite(series.value)) return std::nullopt;
   const std::vector<Extreme> all = extremes(series);
   if (all.size() < 3) return std::nullopt;
   std::vector<double> times, ways;
@@ -104,21 +114,48 @@ std::optional<Swings> swings_of(const TimeSeries& series) {
     times.push_back(all[k].time);
     if (k > 0) ways.push_back(std::log(std::abs(all[k].value - all[k - 1].value)));
   }
+  const double half_period = line_through(times).slope;
+  const double step =
+      (series.time.back() - series.time.front()) / static_cast<double>(series.time.size() - 1);
+  if (half_period < 2 * step) return std::nullopt;
   const double decrement = -line_through(ways).slope; // of half a swing: pi zeta / sqrt(1 - zeta²)
   const double ratio = decrement / std::acos(-1.0);
   const double left = std::exp(-decrement); // of a swing's size half a period later, on the other side
   const double last = all.back().value, before = all[all.size() - 2].value;
-  return Swings{0.5 / line_through(times).slope, ratio / std::hypot(1, ratio),
-                (last + left * before) / (1 + left)};
+  return Swings{0.5 / half_period, ratio / std::hypot(1, ratio), (last + left * before) / (1 + left)};
+}
+
+std::string why_without_number(cases::OverTime what, const TimeSeries& series) {
+  using cases::OverTime;
+  if (what == OverTime::end ? !std::isfinite(series.value.back()) : !are_finite(series.value))
+    return "a value of its course is not a finite number";
+  switch (what) {
+  case OverTime::peak_time:
+    return rounding_of(series) > 0 ? "" : "it does not move";
+  case OverTime::overshoot: {
+    const double way = settled_value(series) - series.value.front();
+    return std::abs(way) > rounding_of(series) ? "" : "it settles where it began";
+  }
+  case OverTime::frequency:
+  case OverTime::damping_ratio:
+    if (swings_of(series)) return "";
+    return extremes(series).size() < 3
+               ? "it does not swing: its course has fewer than three turning points of more than 5 % of its "
+                 "range"
+               : "its swings take fewer than four steps each: noise, or too long a step";
+  case OverTime::end:
+  case OverTime::settled:
+  case OverTime::peak:
+  case OverTime::trajectory_l2:
+    break;
+  }
+  return "";
 }
 
 std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& series) {
   using cases::OverTime;
   assert(!series.value.empty() && series.value.size() == series.time.size());
-  const auto of_swings = [&](double Swings::*number) {
-    const auto swings = swings_of(series);
-    return swings ? std::optional((*swings).*number) : std::nullopt;
-  };
+  if (!why_without_number(what, series).empty()) return std::nullopt;
   switch (what) {
   case OverTime::end:
     break;
@@ -129,14 +166,13 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
   case OverTime::peak_time:
     return peak_of(series).time;
   case OverTime::overshoot: {
-    const double settled = settled_value(series), way = settled - series.value.front();
-    if (way == 0) return std::nullopt;
-    return 100 * (peak_of(series).value - settled) / way;
+    const double settled = settled_value(series);
+    return 100 * (peak_of(series).value - settled) / (settled - series.value.front());
   }
   case OverTime::frequency:
-    return of_swings(&Swings::frequency);
+    return swings_of(series)->frequency;
   case OverTime::damping_ratio:
-    return of_swings(&Swings::damping_ratio);
+    return swings_of(series)->damping_ratio;
   case OverTime::trajectory_l2:
     return root_mean_square(series.time, series.value);
   }
@@ -146,7 +182,7 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other) {
   assert(reference.time == other.time);
   const double size = root_mean_square(reference.time, reference.value);
-  if (!(size > 0)) return std::nullopt;
+  if (!(size > 0) || !are_finite(reference.value) || !are_finite(other.value)) return std::nullopt;
   std::vector<double> difference = other.value;
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.value[i];
   return 100 * root_mean_square(reference.time, difference) / size;

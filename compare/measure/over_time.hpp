@@ -33,17 +33,22 @@ struct Swings {
 /// Fit to all extremes: half periods by a straight line through their times, decay by one through the
 /// logarithms of the ways between them, which do not depend on where the swings settle (logarithmic
 /// decrement).
-/// @return nothing with fewer than three extremes
+/// @return nothing with fewer than three extremes, with values that are not finite, and of swings that take
+/// fewer than four steps each: a parabola through three values shows no extreme of these, and noise has them
 std::optional<Swings> swings_of(const TimeSeries& series);
 
 /// A number of a series, in the unit of unit_over_time().
 /// @param series  of at least one value
-/// @return nothing where the series has no such number: frequencies of what does not swing, an overshoot of
-///         what ends where it begins
+/// @return finite; nothing where why_without_number() has a reason
 std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& series);
 
+/// Why a series has no such number: frequencies of what does not swing, an overshoot of what settles where it
+/// began, the time of a peak of what does not move, anything of values that are not finite. Empty: it has
+/// one.
+std::string why_without_number(cases::OverTime what, const TimeSeries& series);
+
 /// Root mean square of the difference of two series of equal times over that of the reference, percent;
-/// nothing when the reference is zero throughout.
+/// nothing when the reference is zero throughout, or a value is not finite.
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other);
 
 /// Whether it has another unit than the measure: a time, a frequency, a ratio.

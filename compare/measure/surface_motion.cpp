@@ -32,9 +32,9 @@ std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Ans
     motion.difference.push_back(std::sqrt(of_difference / n));
     motion.largest.push_back(std::sqrt(largest));
   }
-  const double size = *value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.fem});
-  const double apart = *value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.difference});
-  if (size > 0) motion.error_percent = 100 * apart / size;
+  const auto size = value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.fem});
+  const auto apart = value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.difference});
+  if (size && apart && *size > 0) motion.error_percent = 100 * *apart / *size;
   return motion;
 }
 

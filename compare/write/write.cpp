@@ -172,7 +172,8 @@ void write_mesh_study(std::ostream& out, const MeshStudy& study) {
   }
 }
 
-/// One line a measure: against the limit first, where there is one, then against the same mesh.
+/// One line a measure: against the limit first, where there is one, then against the same mesh. Then why
+/// values are missing.
 void write_measures(std::ostream& out, const std::vector<MeasuredValue>& measures,
                     const std::optional<Peer>& peer) {
   const bool has_limits = std::any_of(measures.begin(), measures.end(),
@@ -200,6 +201,9 @@ void write_measures(std::ostream& out, const std::vector<MeasuredValue>& measure
          error_text(m, m.fem, m.error_same_mesh_percent), number(m.fem_error_percent, "{:+.2f}"),
          number(m.peer, "{:.6g}"));
   }
+  for (const MeasuredValue& m : measures)
+    for (const auto& [side, reason] : {std::pair("fem", &m.fem_reason), std::pair("msm", &m.msm_reason)})
+      if (!reason->empty()) print(out, "  {}: no value of {}: {}\n", m.name, side, *reason);
 }
 
 /// Adds "discretisation_error_percent" (by measure, null where there is none), and "mesh_study" with the
@@ -281,7 +285,9 @@ Json case_to_json(const Comparison& comparison) {
                         {"error_percent", m.error_percent},
                         {"error_uncertainty_percent", m.error_uncertainty_percent},
                         {"error_same_mesh_percent", m.error_same_mesh_percent},
-                        {"fem_error_percent", m.fem_error_percent}});
+                        {"fem_error_percent", m.fem_error_percent},
+                        {"fem_reason", m.fem_reason},
+                        {"msm_reason", m.msm_reason}});
     if (comparison.answers.peer) measures.back()["peer"] = m.peer;
     if (comparison.answers.interpolated) {
       measures.back()["interpolation_error"] = m.interpolation_error;

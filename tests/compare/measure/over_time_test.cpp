@@ -1,7 +1,10 @@
 #include "compare/measure/over_time.hpp"
 
+#include "cases/case/names.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 using namespace springproof;
 
@@ -80,4 +83,102 @@ TEST_CASE("a trajectory's error is the root mean square of the difference over t
   CHECK(compare::trajectory_error_percent(reference, other).value() == Approx(10));
   CHECK(compare::value_over_time(OverTime::trajectory_l2, constant(-3)).value() == Approx(3));
   CHECK_FALSE(compare::trajectory_error_percent(constant(0), constant(1)));
+}
+
+namespace {
+
+constexpr auto nan_value = std::numeric_limits<double>::quiet_NaN();
+const std::vector<OverTime> all_numbers{OverTime::end,           OverTime::settled,      OverTime::peak,
+                                        OverTime::peak_time,     OverTime::overshoot,    OverTime::frequency,
+                                        OverTime::damping_ratio, OverTime::trajectory_l2};
+
+/// Which numbers a series has. Those are finite, the others have a reason.
+std::vector<OverTime> numbers_of(const TimeSeries& series) {
+  std::vector<OverTime> there;
+  for (const OverTime what : all_numbers) {
+    const auto value = compare::value_over_time(what, series);
+    INFO(cases::name_of(what) << " of " << series.value.size() << " values");
+    CHECK(value.has_value() == compare::why_without_number(what, series).empty());
+    if (!value) continue;
+    CHECK(std::isfinite(*value));
+    there.push_back(what);
+  }
+  return there;
+}
+
+TimeSeries with_value(TimeSeries series, std::size_t at, double value) {
+  series.value[at] = value;
+  return series;
+}
+
+/// Values between -1 and 1 of a generator that is the same everywhere.
+TimeSeries noise(std::size_t n) {
+  TimeSeries series;
+  unsigned state = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    state = state * 1664525u + 1013904223u; // Numerical Recipes
+    series.time.push_back(0.01 * static_cast<double>(i));
+    series.value.push_back(state / 2147483648.0 - 1);
+  }
+  return series;
+}
+
+} // namespace
+
+TEST_CASE("a number that a series does not have is missing with a reason, neither zero nor a NaN") {
+  const std::vector<OverTime> of_rest{OverTime::end, OverTime::settled, OverTime::peak,
+                                      OverTime::trajectory_l2};
+  CHECK(numbers_of(constant(3)) == of_rest);
+  CHECK(numbers_of(constant(0)) == of_rest);
+  CHECK(numbers_of({{0}, {3}}) == of_rest);        // a single value
+  CHECK(numbers_of({{0, 1}, {0, 3}}).size() == 6); // a way: no swings
+  const TimeSeries creeping{{0, 1, 2, 3}, {0, 4, 6, 7}};
+  CHECK(numbers_of(creeping).size() == 6);
+  CHECK_THAT(compare::why_without_number(OverTime::frequency, creeping), Catch::Contains("does not swing"));
+  CHECK(numbers_of(released(2, 0.05, 4)) == all_numbers);
+  CHECK(numbers_of(released(2, 0.9, 4)).size() == 6); // swings that are gone at once
+}
+
+TEST_CASE("a series with a value that is no number has none but its end") {
+  const TimeSeries whole = released(2, 0.05, 4);
+  for (const double wrong : {nan_value, std::numeric_limits<double>::infinity()})
+    for (const std::size_t at : {std::size_t{0}, std::size_t{1}, std::size_t{100}, whole.value.size() - 1}) {
+      INFO(wrong << " at " << at);
+      const TimeSeries broken = with_value(whole, at, wrong);
+      const bool is_at_end = at + 1 == whole.value.size();
+      CHECK(numbers_of(broken) == (is_at_end ? std::vector<OverTime>() : std::vector{OverTime::end}));
+      CHECK_FALSE(compare::swings_of(broken));
+      CHECK_FALSE(compare::trajectory_error_percent(whole, broken));
+      CHECK_FALSE(compare::trajectory_error_percent(broken, whole));
+    }
+}
+
+TEST_CASE("what settles where it began has no overshoot, up to rounding") {
+  TimeSeries back{{0, 1, 2, 3}, {0, 1, 0.5, 1e-12}};
+  CHECK_FALSE(compare::value_over_time(OverTime::overshoot, back)); // 1e14 %
+  back.value.back() = 0.25;
+  CHECK(compare::value_over_time(OverTime::overshoot, back).value() ==
+        Approx(100 * (1 + 1 / 48. - 0.25) / 0.25)); // the parabola's vertex
+}
+
+TEST_CASE("noise has no frequency, and hides none that is larger") {
+  const TimeSeries white = noise(400);
+  CHECK(compare::extremes(white).size() > 100); // every few values one: beyond a twentieth of the range
+  CHECK_FALSE(compare::value_over_time(OverTime::frequency, white));
+  CHECK_FALSE(compare::value_over_time(OverTime::damping_ratio, white));
+  CHECK_THAT(compare::why_without_number(OverTime::frequency, white),
+             Catch::Contains("fewer than four steps"));
+  CHECK(compare::value_over_time(OverTime::settled, white) == white.value.back());
+  // a swing of eight steps is found beneath noise of a fiftieth of its range
+  TimeSeries swinging = noise(200);
+  for (std::size_t i = 0; i < swinging.value.size(); ++i)
+    swinging.value[i] = 0.02 * swinging.value[i] + std::sin(tau * swinging.time[i] / 0.08);
+  CHECK(compare::value_over_time(OverTime::frequency, swinging).value() ==
+        Approx(12.5).epsilon(0.01)); // 24 swings, whose ends are known to a fraction of a step
+}
+
+TEST_CASE("rounding that does not swing has no frequency") {
+  TimeSeries still = constant(0);
+  still.value = {0, 1e-17, 0};
+  CHECK_FALSE(compare::value_over_time(OverTime::frequency, still));
 }
