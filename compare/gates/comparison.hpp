@@ -11,8 +11,8 @@ struct Comparison {
   cases::Scene scene; ///< as the case file has it; what "auto" was found to mean is with the answers
   Answers answers;
   std::vector<MeasuredValue> measures;
-  std::vector<Gate> gates;             ///< one per expectation
-  std::optional<MeshStudy> mesh_study; ///< absent when the case has accuracy = "none"
+  std::vector<Gate> gates;                 ///< one per expectation
+  std::optional<MeshStudy> mesh_study;     ///< absent when the case has accuracy = "none"
   std::vector<LandmarkDistance> landmarks; ///< one per landmark
 
   /// What a converged side must not be unless its case accepts that: with inverted cells, or in an unstable
@@ -20,8 +20,8 @@ struct Comparison {
   std::vector<std::string> doubts() const;
   /// What failed of the case as a whole: it expects nothing, a solve failed or is in doubt.
   std::vector<std::string> failures() const;
-  /// No solve failed or is in doubt, and no gate is missed but by a side that was not asked for: the success of
-  /// `run`.
+  /// No solve failed or is in doubt, and no gate is missed; those that need a side that was not asked for are
+  /// not judged: the success of `run`.
   bool is_sound() const;
   /// The success of `gate`. Never met are: an expectation of a measure that is not there, or has no finite
   /// value; a case that expects nothing; a case of which a solve has failed or is in doubt.

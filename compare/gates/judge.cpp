@@ -12,20 +12,41 @@ namespace {
 
 using cases::Quantity;
 
-/// What the measures alone do not tell.
-std::string why_without_value(const Answers& answers, Quantity quantity) {
-  const auto why = [](const char* side, const cases::Solution& solution) -> std::string {
-    if (solution.status == cases::Status::skipped) return fmt::format("{} was not solved", side);
-    return solution.status == cases::Status::converged ? "" : describe_failure(side, solution);
+/// The sides that a quantity is of.
+std::vector<std::pair<const char*, const Answer*>> sides_of(const Answers& answers, Quantity quantity) {
+  std::vector<std::pair<const char*, const Answer*>> sides;
+  if (quantity != Quantity::msm) sides.emplace_back("fem", &answers.fem);
+  if (quantity != Quantity::fem) sides.emplace_back("msm", &answers.msm);
+  return sides;
+}
+
+/// Why a measure that is there has no value, and whether that is because a side was not asked for.
+void explain(Gate& gate, const Answers& answers, const MeasuredValue& measured) {
+  const auto add = [&gate](const std::string& reason) {
+    if (!reason.empty()) gate.cause += (gate.cause.empty() ? "" : "; ") + reason;
   };
-  std::string reason;
-  if (quantity != Quantity::msm) reason = why("fem", answers.fem.solution);
-  if (quantity != Quantity::fem && reason.empty()) reason = why("msm", answers.msm.solution);
-  if (reason.empty() && quantity == Quantity::error_percent)
-    return "the reference is zero, or a value is not finite: there is no percentage; expect an interval of "
-           "msm "
-           "or fem";
-  return reason.empty() ? "it has no finite value" : reason;
+  const Quantity quantity = gate.expectation.quantity;
+  bool is_at_fault = false;
+  for (const auto& [side, answer] : sides_of(answers, quantity)) {
+    const cases::Solution& solution = answer->solution;
+    if (solution.status == cases::Status::skipped) {
+      gate.is_left_out = true;
+      add(fmt::format("{} was not asked for", side));
+      continue;
+    }
+    const std::string& reason = answer == &answers.fem ? measured.fem_reason : measured.msm_reason;
+    is_at_fault = is_at_fault || !answer->converged() || !reason.empty();
+    if (!answer->converged())
+      add(describe_failure(side, solution));
+    else if (!reason.empty())
+      add(fmt::format("{}: {}", side, reason));
+  }
+  gate.is_left_out = gate.is_left_out && !is_at_fault;
+  if (!gate.cause.empty()) return;
+  gate.cause = quantity == Quantity::error_percent
+                   ? "the reference is zero, or a value is not finite: there is no percentage; expect an "
+                     "interval of msm or fem"
+                   : "it has no finite value";
 }
 
 bool needs_limit(const cases::Expectation& expected) {
@@ -132,7 +153,7 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
     Gate gate = judge(expected, measures);
     gate.unit = expected.quantity == Quantity::error_percent ? "%" : measure ? unit_of(*measure) : "";
-    if (!gate.met() && !gate.value && measured) gate.cause = why_without_value(answers, expected.quantity);
+    if (!gate.met() && !gate.value && measured) explain(gate, answers, *measured);
     if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied);
     const bool is_interpolated = answers.interpolated && expected.quantity != Quantity::fem;
     if (is_interpolated && measured && measured->interpolation_error)

@@ -21,6 +21,9 @@ struct Gate {
   bool is_undecided = false;           ///< not met, because the interval's end lies within the uncertainty
   std::string warning{}; ///< such as that the interval is narrower than the error bar; empty: none
   std::string cause{};   ///< why a measure that is there has no value; empty when it has one
+  /// Without a value because a side that it needs was not asked for: neither met nor missed. `gate` is not
+  /// met by it.
+  bool is_left_out = false;
   bool met() const { return missed.empty(); }
 };
 

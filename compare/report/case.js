@@ -54,7 +54,7 @@ function measures() {
   const with_bar = (value, bar, decimals) => (missing(value) ? "–" : [decimals === undefined ? general(value) : signed(value, decimals),
     missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
   const expectation = (name) => one_case.expectations.filter((one) => one.measure === name).map((one) => make("div", null,
-    `${in_words(one.quantity)} in [${one.interval.map((end) => general(end)).join(", ")}]: `, one.met ? "met" : make("strong", null,
+    `${in_words(one.quantity)} in [${one.interval.map((end) => general(end)).join(", ")}]: `, one.met ? "met" : !one.judged ? "not judged" : make("strong", null,
       one.undecided ? "undecided" : "missed"), !one.met && one.reason ? ` (${one.reason})` : ""));
   const expects = one_case.expectations.length > 0;
   const heads = ["finite elements", "their limit", "springs", "error, %", "error of finite elements, %"].map((text) => head(text));

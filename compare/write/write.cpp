@@ -8,6 +8,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/springs_text.hpp"
+#include "compare/write/write_gates.hpp"
 #include "compare/write/write_landmarks.hpp"
 #include "compare/write/write_motion.hpp"
 
@@ -268,7 +269,7 @@ Json peer_to_json(const Peer& peer) {
 } // namespace
 
 Json case_to_json(const Comparison& comparison) {
-  Json measures = Json::array(), expectations = Json::array();
+  Json measures = Json::array();
   for (const MeasuredValue& m : comparison.measures) {
     const std::optional<Limit>& limit = m.fem_limit;
     const StudiedMeasure* studied =
@@ -294,21 +295,12 @@ Json case_to_json(const Comparison& comparison) {
       measures.back()["interpolation_error_percent"] = m.interpolation_error_percent;
     }
   }
-  for (const Gate& gate : comparison.gates)
-    expectations.push_back({{"measure", gate.expectation.measure},
-                            {"quantity", cases::name_of(gate.expectation.quantity)},
-                            {"interval", gate.expectation.interval},
-                            {"reference", cases::name_of(gate.expectation.reference)},
-                            {"value", gate.value},
-                            {"met", gate.met()},
-                            {"undecided", gate.is_undecided},
-                            {"reason", gate.missed}});
   Json document{{"name", comparison.scene.definition.name},
                 {"description", comparison.scene.definition.description},
                 {"fem", fem_to_json(comparison)},
                 {"msm", msm_to_json(comparison.answers)},
                 {"measures", measures},
-                {"expectations", expectations},
+                {"expectations", expectations_to_json(comparison.gates)},
                 {"status", comparison.answers.failed() ? "failed" : "converged"},
                 {"doubts", comparison.doubts()}};
   if (!comparison.landmarks.empty()) document["landmarks"] = landmarks_to_json(comparison);
@@ -345,10 +337,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   }
   write_landmarks_text(out, comparison);
   for (const std::string& doubt : comparison.doubts()) print(out, "  FAILED: {}\n", doubt);
-  for (const Gate& gate : gates)
-    print(out, "  {} {} ({}): {}\n", gate.met() ? "met   " : "MISSED", gate.expectation.measure,
-          cases::name_of(gate.expectation.reference),
-          gate.met() ? number(gate.value, "{:.6g}") : gate.missed);
+  write_expectations_text(out, gates);
 }
 
 Json side_to_json(const Answer& side) {

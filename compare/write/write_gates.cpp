@@ -162,6 +162,30 @@ std::string describe(const Gate& gate) {
                             expected.interval[0], expected.interval[1]);
 }
 
+void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates) {
+  for (const Gate& gate : gates) {
+    const char* verdict = gate.met() ? "met   " : gate.is_left_out ? "not judged" : "MISSED";
+    print(out, "  {} {} {} ({}): {}\n", verdict, gate.expectation.measure,
+          cases::name_of(gate.expectation.quantity), cases::name_of(gate.expectation.reference),
+          gate.met() ? fmt::format("{:.6g}", *gate.value) : reason_of(gate));
+  }
+}
+
+Json expectations_to_json(const std::vector<Gate>& gates) {
+  Json all = Json::array();
+  for (const Gate& gate : gates)
+    all.push_back({{"measure", gate.expectation.measure},
+                   {"quantity", cases::name_of(gate.expectation.quantity)},
+                   {"interval", gate.expectation.interval},
+                   {"reference", cases::name_of(gate.expectation.reference)},
+                   {"value", gate.value},
+                   {"met", gate.met()},
+                   {"judged", !gate.is_left_out},
+                   {"undecided", gate.is_undecided},
+                   {"reason", reason_of(gate)}});
+  return all;
+}
+
 void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases) {
   for (const Comparison& judged : cases) {
     for (const std::string& failure : judged.failures())

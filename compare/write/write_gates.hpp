@@ -14,6 +14,14 @@ std::string reason_of(const Gate& gate);
 /// A gate in words: "alpha_1 error_percent = -4.98 % in [-6.44, -3.38]", or with the reason why not.
 std::string describe(const Gate& gate);
 
+/// What `run` tells of a case's expectations: a line each, "met", "MISSED" or "not judged", which is of those
+/// that need a side that was not asked for.
+void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates);
+
+/// The same: [{"measure", "quantity", "interval", "reference", "value", "met", "judged", "undecided",
+/// "reason"}, ...]
+nlohmann::ordered_json expectations_to_json(const std::vector<Gate>& gates);
+
 /// One line per gate (and per failure of a case as a whole), warnings under their gates, and counts per kind.
 void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases);
 

@@ -48,6 +48,20 @@ def test_exit_states(folder):
         assert wrong.returncode == 2 and not wrong.stdout and wrong.stderr, (words, wrong)
 
 
+def test_one_side(folder):
+    """What needs a side that was not asked for is not judged, what does not is; the gates are not met by it."""
+    for only, other in (("msm", "fem"), ("fem", "msm")):
+        done = springproof("run", CUBE, "--only", only)
+        assert done.returncode == 0 and done.stdout.count("not judged") == 4 and done.stdout.count(f"{other} was not asked for") == 4, done
+        judged = json.loads(springproof("run", CUBE, "--only", only, "--json").stdout)["cases"][0]["expectations"]
+        assert [one["judged"] for one in judged] == [one["quantity"] == only for one in judged], judged
+        assert [one["met"] for one in judged] == [one["judged"] for one in judged], judged
+        missed = springproof("run", CUBE, "--only", only, "--set", "expect[1].fem=[1,2]", "--set", "expect[2].msm=[1,2]")
+        assert missed.returncode == 1 and missed.stdout.count("MISSED") == 1, missed
+    refused = springproof("gate", CUBE, "--only", "msm")
+    assert refused.returncode == 2 and not refused.stdout, refused  # gates are of whole cases
+
+
 def test_machine_formats(folder):
     """JUnit is valid, JSON stands alone, annotations go where they do not disturb."""
     junit = folder / "deep" / "gates.xml"

@@ -2,13 +2,17 @@
 
 #include "tests/compare/gates/judged.hpp"
 
+#include "cases/case/names.hpp"
+
 #include <catch2/catch.hpp>
+#include <functional>
 #include <limits>
 
 using namespace springproof;
 
 using cases::Quantity;
 using cases::ReferenceKind;
+using compare::Comparison;
 using judged::comparison;
 using judged::expectation;
 
@@ -162,4 +166,98 @@ TEST_CASE(
   CHECK_FALSE(doubtful({cases::Doubt::inverted}).met());
   CHECK(doubtful({cases::Doubt::inverted, cases::Doubt::unstable}).met());
   CHECK(judged::judge(comparison({})).is_sound()); // what expects nothing is no failure of run
+}
+
+TEST_CASE("a gate without a value is never met, whatever the reason, and the reason is told") {
+  const auto nan = std::numeric_limits<double>::quiet_NaN(),
+             infinite = std::numeric_limits<double>::infinity();
+  struct Missing {
+    std::string reason; ///< part of it
+    std::function<void(Comparison&)> remove;
+  };
+  const std::vector<Missing> all{
+      {"no finite value",
+       [&](Comparison& c) {
+         c.measures[0] = {"L", "mm", nan, nan, nan};
+       }},
+      {"no finite value",
+       [&](Comparison& c) {
+         c.measures[0] = {"L", "mm", infinite, -infinite, infinite};
+       }},
+      {"it does not swing",
+       [](Comparison& c) {
+         c.measures[0] = {"L", "Hz", {}, {}, {}};
+         c.measures[0].fem_reason = c.measures[0].msm_reason = "it does not swing";
+       }},
+      {"failed at 0.25 of the load: limit point",
+       [](Comparison& c) {
+         for (compare::Answer* side : {&c.answers.fem, &c.answers.msm}) {
+           side->solution.status = cases::Status::failed;
+           side->solution.load_reached = 0.25;
+           side->solution.message = "limit point";
+         }
+         c.measures[0] = {"L", "mm", {}, {}, {}};
+       }},
+      {"was not asked for",
+       [](Comparison& c) {
+         c.answers.fem.solution.status = c.answers.msm.solution.status = cases::Status::skipped;
+         c.measures[0] = {"L", "mm", {}, {}, {}};
+       }},
+      {"there is no such measure", [](Comparison& c) { c.measures.clear(); }},
+  };
+  constexpr double most = std::numeric_limits<double>::max();
+  for (const auto quantity : {Quantity::fem, Quantity::msm, Quantity::error_percent})
+    for (const Missing& missing : all) {
+      INFO(cases::name_of(quantity) << ": " << missing.reason);
+      auto without = comparison({expectation(quantity, {-most, most})}); // which holds every number
+      missing.remove(without);
+      const auto judged = judged::judge(without);
+      REQUIRE(judged.gates.size() == 1);
+      CHECK_FALSE(judged.gates[0].met());
+      CHECK_FALSE(judged.gates[0].value);
+      CHECK_FALSE(judged.met());
+      CHECK(judged.is_sound() == (missing.reason == "was not asked for"));
+      // of a percentage without a value of its own only that it is not finite is known
+      const bool is_of_both = quantity == Quantity::error_percent && missing.reason == "no finite value";
+      CHECK_THAT(describe(judged.gates[0]), Catch::Contains(is_of_both ? "not finite" : missing.reason));
+    }
+  auto zero = comparison({expectation(Quantity::error_percent, {-most, most})});
+  zero.measures[0] = {"L", "mm", 0.0, 9.0, {}};
+  CHECK_FALSE(judged::judge(zero).met());
+  CHECK_FALSE(judged::judge(zero).is_sound());
+  CHECK_THAT(describe(judged::judge(zero).gates[0]), Catch::Contains("the reference is zero"));
+}
+
+TEST_CASE("a gate that needs a side that was not asked for is not judged, one of the other side is") {
+  const auto springs_alone = [](const std::function<void(Comparison&)>& change) {
+    auto result =
+        comparison({expectation(Quantity::msm, {8, 10}), expectation(Quantity::error_percent, {-11, 0}),
+                    expectation(Quantity::fem, {9, 11})});
+    result.answers.fem.solution.status = cases::Status::skipped;
+    result.measures[0] = {"L", "mm", {}, 9.0, {}};
+    change(result);
+    return judged::judge(result);
+  };
+  const auto left_out = [](const Comparison& judged) {
+    std::vector<bool> all;
+    for (const compare::Gate& gate : judged.gates) all.push_back(gate.is_left_out);
+    return all;
+  };
+  const auto explored = springs_alone([](Comparison&) {});
+  CHECK(left_out(explored) == std::vector<bool>{false, true, true});
+  CHECK(explored.gates[0].met());
+  CHECK(explored.is_sound());  // the success of run --only
+  CHECK_FALSE(explored.met()); // not of gate
+  CHECK(describe(explored.gates[1]) == "L error_percent: fem was not asked for");
+
+  const auto outside = springs_alone([](Comparison& c) { c.measures[0].msm = 7; });
+  CHECK_FALSE(outside.is_sound());
+  const auto does_not_swing = springs_alone([](Comparison& c) {
+    c.measures[0].msm.reset();
+    c.measures[0].msm_reason = "it does not swing";
+  });
+  CHECK(left_out(does_not_swing) == std::vector<bool>{false, false, true});
+  CHECK_FALSE(does_not_swing.is_sound());
+  CHECK(reason_of(does_not_swing.gates[1]) == "fem was not asked for; msm: it does not swing");
+  CHECK_FALSE(springs_alone([](Comparison& c) { c.measures[0].name = "M"; }).is_sound());
 }

@@ -54,6 +54,28 @@ TEST_CASE("gates as text: a line each with its kind, warnings beneath, and count
   CHECK_THAT(text, Catch::EndsWith("GATES FAILED: exact 0 of 1, published 1 of 1, regression 0 of 1\n"));
 }
 
+TEST_CASE("run tells of each expectation whether it is met, missed or not judged, and why") {
+  auto explored = judged::comparison({expectation(Quantity::msm, {8, 10}), expectation(Quantity::msm, {1, 2}),
+                                      expectation(Quantity::error_percent, {-11, -9})});
+  explored.answers.fem.solution.status = cases::Status::skipped;
+  explored.measures[0] = {"L", "mm", {}, 9.0, {}};
+  const auto gates = judged::judge(explored).gates;
+  std::ostringstream text;
+  compare::write_expectations_text(text, gates);
+  CHECK(text.str() == "  met    L msm (published): 9\n"
+                      "  MISSED L msm (published): 9 is outside [1, 2]\n"
+                      "  not judged L error_percent (published): fem was not asked for\n");
+  const auto document = nlohmann::json::parse(compare::expectations_to_json(gates).dump());
+  REQUIRE(document.size() == 3);
+  CHECK(document[0]["met"] == true);
+  CHECK(document[1]["judged"] == true);
+  CHECK(document[1]["met"] == false);
+  CHECK(document[2]["judged"] == false);
+  CHECK(document[2]["met"] == false);
+  CHECK(document[2]["value"].is_null());
+  CHECK(document[2]["reason"] == "fem was not asked for");
+}
+
 TEST_CASE("gates as JSON: values, error bars and verdicts, null where there is no value") {
   const auto document = nlohmann::json::parse(compare::gates_to_json(mixed()).dump());
   CHECK(document["schema"] == 1);
