@@ -22,13 +22,6 @@ Points start_of(const cases::Scene& scene, const Springs& springs, const ModelOp
   return Model(cases::scene_before_start(scene), springs, options).solve(settings).displacement;
 }
 
-double volume_of(const cases::HexMesh& mesh, const Points& displacement) {
-  double volume = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    volume += cases::cell_volume(cases::cell_vertices(mesh, c, displacement));
-  return volume;
-}
-
 cases::Solution follow(const cases::Scene& scene, MovingBody& body, const Points& start,
                        const mechanics::IntegrationSettings& settings) {
   const auto points = [&](const Vector& state) { return body.to_points(state); };

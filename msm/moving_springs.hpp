@@ -50,8 +50,9 @@ class MovingSprings : public mechanics::DynamicProblem {
     std::vector<mechanics::LoadInTime> loads;
     Vector free; ///< 1 on free degrees of freedom
   };
-  /// @param springs  of a problem of make_moving_problem(); must outlive this
-  MovingSprings(SpringSystem& springs, Entries entries) : springs_(springs), entries_(std::move(entries)) {}
+  /// @param springs  static equations of a problem of make_moving_problem(); must outlive this
+  MovingSprings(mechanics::NonlinearProblem& springs, Entries entries)
+      : springs_(springs), entries_(std::move(entries)) {}
 
   void mass_product(const Vector& motion, Vector& product) override {
     product = entries_.mass.cwiseProduct(motion);
@@ -130,7 +131,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   virtual void add_stiffness_damping(const Vector& motion, Vector& product) = 0;
 
  private:
-  SpringSystem& springs_;
+  mechanics::NonlinearProblem& springs_;
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
   Vector diagonal_;

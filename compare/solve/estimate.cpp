@@ -132,12 +132,11 @@ std::optional<BodySize> size_of(const cases::Case& definition) {
 
 namespace {
 
-/// Of a dynamic case, on one rank. A step takes about as many iterations of Newton's method as half an
-/// equilibrium, and a linear body's are not factorised again: an upper bound for these.
+/// Of a dynamic case. A step takes about as many iterations of Newton's method as half an equilibrium, and a
+/// linear body's are not factorised again: an upper bound for these.
 Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   if (!definition.dynamics) return equilibrium;
   equilibrium.seconds *= 0.5 * definition.dynamics->n_steps();
-  equilibrium.held_by = HeldBy::first_rank;
   return equilibrium;
 }
 
@@ -172,21 +171,29 @@ Estimate estimate_fem(const BodySize& body) {
     estimate = linear("finite elements (assembled)", unknowns, unknowns, algebraic_multigrid);
   if (fem.formulation == cases::Formulation::small_strain)
     estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
+  if (body.outline.definition.dynamics) estimate.held_by = HeldBy::first_rank;
   return in_time(estimate, body.outline.definition);
 }
 
 Estimate estimate_springs(const BodySize& body) {
   const double unknowns = 3 * body.n_nodes;
-  const bool is_alone = body.outline.definition.msm.solver != cases::Solver::snes;
-  const HeldBy held_by = is_alone ? HeldBy::first_rank : HeldBy::all_ranks_together;
-  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline.definition.msm);
+  const cases::Case& definition = body.outline.definition;
+  const bool is_by_snes = definition.msm.solver == cases::Solver::snes;
+  const bool is_assembled_motion = is_by_snes && definition.dynamics;
+  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(definition.msm) && !is_assembled_motion;
   Estimate estimate;
-  if (!is_on_grid || body.n_nodes < msm::multigrid_from)
-    estimate = factorised("springs (factorised)", unknowns, springs_lattice);
-  else
+  if (is_on_grid && body.n_nodes >= msm::multigrid_from)
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
-  estimate.held_by = held_by;
-  return in_time(estimate, body.outline.definition);
+  else if (is_assembled_motion && unknowns > msm::factorised_by_snes)
+    estimate = linear("springs (assembled)", unknowns, unknowns, algebraic_multigrid);
+  else
+    estimate = factorised("springs (factorised)", unknowns, springs_lattice);
+  estimate.held_by = is_by_snes ? HeldBy::all_ranks_together : HeldBy::first_rank;
+  if (is_assembled_motion) { // by their types, 13 links and a volume term a node: springs, and dampers
+    estimate.megabytes_of_each = 1e-6 * 1200 * body.n_nodes;
+    estimate.megabytes += estimate.megabytes_of_each;
+  }
+  return in_time(estimate, definition);
 }
 
 std::vector<Estimate> estimate_vibrations(const BodySize& body) {
@@ -221,6 +228,7 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
     if (motion > model.megabytes)
       model.remedy = "take fewer or longer steps in [dynamics], or a larger write_every";
     model.megabytes += motion;
+    model.megabytes_of_each += motion;
   }
   return models;
 }
@@ -255,15 +263,16 @@ RanksOfMachine ranks_of_machine() {
 
 double megabytes_within(const MemoryLimit& limit, const Estimate& model, const RanksOfMachine& ranks) {
   const int n_within = limit.is_of_a_process ? 1 : ranks.here;
+  const double rest = model.megabytes - model.megabytes_of_each, of_each = model.megabytes_of_each * n_within;
   switch (model.held_by) {
   case HeldBy::all_ranks_together:
-    return model.megabytes * n_within / ranks.all;
+    return rest * n_within / ranks.all + of_each;
   case HeldBy::every_rank:
-    return model.megabytes * n_within;
+    return rest * n_within + of_each;
   case HeldBy::first_rank:
     break;
   }
-  return model.megabytes;
+  return rest + of_each;
 }
 
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit) {

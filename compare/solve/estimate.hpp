@@ -15,6 +15,7 @@ struct Estimate {
   double megabytes = 0; ///< of 10^6 bytes, above what the program takes by itself
   double seconds = 0;   ///< of one thread, from the model to the equilibrium
   HeldBy held_by = HeldBy::all_ranks_together;
+  double megabytes_of_each = 0; ///< of megabytes: what every rank has whole, whoever holds the rest
   std::string remedy = "give the body fewer cells, or refine it less"; ///< where memory is short
 };
 

@@ -12,6 +12,17 @@ namespace springproof::compare {
 
 namespace {
 
+/// By PETSc's solver, or the grid's on several ranks.
+cases::Solution solve_by_snes(const cases::Scene& scene, const msm::DesignResult& design) {
+  if (scene.definition.dynamics) {
+    MovingSprings moving = make_moving_springs(scene, design);
+    return solvers().follow_lattice_by_snes(scene, std::move(moving.lattice), std::move(moving.damping));
+  }
+  return with_fields(scene, design,
+                     design.terms ? solvers().solve_lattice_by_snes(scene, assembled_lattice(scene, design))
+                                  : solvers().solve_by_snes(scene, stiffness_of_cells(design)));
+}
+
 /// PETSc's solver takes all ranks, the others rank 0 alone.
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
@@ -22,11 +33,7 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
     design = design_for(scene);
     return *design;
   };
-  return solve_side(designed, [&](const msm::DesignResult& found) {
-    return with_fields(scene, found,
-                       found.terms ? solvers().solve_lattice_by_snes(scene, assembled_lattice(scene, found))
-                                   : solvers().solve_by_snes(scene, stiffness_of_cells(found)));
-  });
+  return solve_side(designed, [&](const msm::DesignResult& found) { return solve_by_snes(scene, found); });
 }
 
 /// Every node of the region belongs to a face of it: what is shared by more and more nodes tends to a

@@ -65,7 +65,11 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     result_.newton_iterations += solved->newton_iterations;
     result_.residual = solved->residual;
     check_limits();
-    return solved->converged || fail("Newton's method does not converge");
+    if (solved->converged) return true;
+    // A solver of its own does not know rounding, and stops where no step gains anything.
+    problem_.residual(at, load_factor, Expect::residual, residual_);
+    return (may_be_rounding(solved->residual) && is_rounding(at, load_factor)) ||
+           fail("Newton's method does not converge");
   }
   // Off a saddle the way is long and winds through a narrow valley of the potential.
   const int max_iterations =
@@ -88,21 +92,20 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     // an energy falls, the residual may well grow on the way.
     if (problem_.merit() != Merit::energy && iteration == max_iterations / 2 && norm > 0.1 * norm_at_first)
       return fail("Newton's method does not converge");
-    const auto may_be_rounding = [&] {
-      return size.constraints_hold && (problem_.moves_supports() || norm < 1e-6);
-    };
     if (norm_before > 0) {
       const double ratio = norm / norm_before;
       forcing = std::min(0.1, 0.9 * ratio * ratio);
       // Close to the solution each step gains much. Where it does not, rounding may be all that is left.
-      if (ratio > 0.1 && may_be_rounding() && is_rounding(at, load_factor)) return true;
+      if (ratio > 0.1 && size.constraints_hold && may_be_rounding(norm) && is_rounding(at, load_factor))
+        return true;
     }
     norm_before = norm;
     forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
     check_limits();
     ++result_.newton_iterations;
     if (!take_step(at, forcing, load_factor, fallback))
-      return (may_be_rounding() && is_rounding(at, load_factor)) || fail("no step gets nearer");
+      return (size.constraints_hold && may_be_rounding(norm) && is_rounding(at, load_factor)) ||
+             fail("no step gets nearer");
   }
 }
 
@@ -137,6 +140,10 @@ bool Newton::take_full_step(Vector& at, double load_factor, Expect expect) {
   residual_.swap(trial_.residual);
   trial_.energy.reset();
   return true;
+}
+
+bool Newton::may_be_rounding(double relative_residual) const {
+  return problem_.moves_supports() || relative_residual < 1e-6;
 }
 
 /// Whether a residual is no larger than what the last digits of the state decide: no state in double

@@ -53,6 +53,7 @@ class Newton {
   void check_limits() const;
   bool take_step(Vector& at, double forcing, double load_factor, Convexity fallback);
   bool take_full_step(Vector& at, double load_factor, Expect expect);
+  bool may_be_rounding(double relative_residual) const;
   bool is_rounding(const Vector& at, double load_factor);
   bool fail(const char* reason);
 };

@@ -77,7 +77,7 @@ class NonlinearProblem {
     double residual; ///< relative
   };
   /// A problem's own solver in place of Newton's method here.
-  /// @param at  where to start; on success the solution
+  /// @param at  where to start; on success the solution, otherwise where it has come
   virtual std::optional<Solved> solve_at(Vector& /*at*/, double /*load_factor*/) { return std::nullopt; }
 
   /// Whether the exact tangent is positive definite; nothing when that is not known.

@@ -17,29 +17,34 @@ namespace petsc = mechanics::petsc;
 LatticePart::LatticePart(const Problem& problem, MPI_Comm communicator)
     : problem_(problem), communicator_(communicator) {
   deal_out();
-  lattice_.rest.resize(index(n_own_) + ghosts_.size());
-  for (std::size_t local = 0; local < lattice_.rest.size(); ++local)
-    lattice_.rest[local] = problem.lattice.rest[index(global(local))];
-  for (const Link& link : problem.lattice.links)
-    if (owns(link.i)) lattice_.links.push_back({local(link.i), local(link.j), link.spring});
-  for (const VolumeCell& cell : problem.lattice.volume_cells)
-    if (owns(cell.nodes[0])) {
-      lattice_.volume_cells.push_back(cell);
-      for (int& node : lattice_.volume_cells.back().nodes) node = local(node);
-    }
-  for (const Tetrahedron& tetrahedron : problem.lattice.tetrahedra)
-    if (owns(tetrahedron.nodes[0])) {
-      lattice_.tetrahedra.push_back(tetrahedron);
-      for (int& node : lattice_.tetrahedra.back().nodes) node = local(node);
-    }
+  lattice_ = part_of(problem.lattice);
   for (PetscInt d = 3 * first_; d < 3 * (first_ + n_own_); ++d)
     if (problem.is_constrained[index(d)]) constrained_.push_back(d);
   moved_ = make_vector();
-  force_ = make_vector();
+  gradient_ = make_vector();
   applied_ = make_vector();
-  put(applied_.get(), own(problem.on_all_points(problem.force)));
-  const WriteEntries applied(applied_.get());
-  for (const PetscInt d : constrained_) applied[d - 3 * first_] = 0;
+  Vector applied = own(problem.on_all_points(problem.force));
+  clear_constrained(applied);
+  put(applied_.get(), applied);
+}
+
+Lattice LatticePart::part_of(const Lattice& whole) const {
+  Lattice part;
+  part.rest.resize(index(n_own_) + ghosts_.size());
+  for (std::size_t local = 0; local < part.rest.size(); ++local)
+    part.rest[local] = whole.rest[index(global(local))];
+  for (const Link& link : whole.links)
+    if (owns(link.i)) part.links.push_back({local(link.i), local(link.j), link.spring});
+  const auto take = [&](const auto& cells, auto& own_cells) {
+    for (const auto& cell : cells) {
+      if (!owns(cell.nodes[0])) continue;
+      own_cells.push_back(cell);
+      for (int& node : own_cells.back().nodes) node = local(node);
+    }
+  };
+  take(whole.volume_cells, part.volume_cells);
+  take(whole.tetrahedra, part.tetrahedra);
+  return part;
 }
 
 void LatticePart::deal_out() {
@@ -77,7 +82,7 @@ petsc::Vector LatticePart::make_vector() const {
                                        n_ghosts, ghosts_.data()));
 }
 
-petsc::Matrix LatticePart::make_matrix() const {
+petsc::Matrix LatticePart::make_matrix(const Lattice& part) const {
   const auto create = [&](MatType type) {
     const Mat made = petsc::get<Mat>(MatCreate, communicator_);
     petsc::Matrix owned(made);
@@ -89,17 +94,39 @@ petsc::Matrix LatticePart::make_matrix() const {
   petsc::Matrix matrix = create(MATAIJ); // GAMG's coarsening wants it, with its block size
   const petsc::Matrix sparsity = create(MATPREALLOCATOR);
   check(MatSetUp(sparsity.get()));
-  add_tangent(lattice_.rest, sparsity.get());
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero(); // of points that no spring holds
+  for (PetscInt p = first_; p < first_ + n_own_; ++p)
+    check(MatSetValuesBlocked(sparsity.get(), 1, &p, 1, &p, none.data(), ADD_VALUES));
+  add_tangent(part, part.rest, sparsity.get());
   check(MatPreallocatorPreallocate(sparsity.get(), PETSC_TRUE, matrix.get()));
+  // Constrained rows keep their zeros: a factorisation is analysed once.
+  check(MatSetOption(matrix.get(), MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
   check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
   // Where it is not definite, the pivots' signs or conjugate gradients tell.
   check(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE));
-  petsc::attach_rigid_motions(matrix.get(), lattice_.rest);
+  petsc::attach_rigid_motions(matrix.get(), part.rest);
+  return matrix;
+}
+
+petsc::Matrix LatticePart::tangent_at_rest(const Lattice& whole) const {
+  const Lattice part = part_of(whole);
+  petsc::Matrix matrix = make_matrix(part);
+  add_tangent(part, part.rest, matrix.get());
   return matrix;
 }
 
 Vector LatticePart::own(const Points& values) const {
   return Eigen::Map<const Vector>(values.front().data() + 3 * first_, 3 * n_own_);
+}
+
+Vector LatticePart::own(const std::vector<double>& values) const {
+  Vector own(3 * n_own_);
+  for (PetscInt p = 0; p < n_own_; ++p) own.segment<3>(3 * p).setConstant(values[index(first_ + p)]);
+  return own;
+}
+
+void LatticePart::clear_constrained(Vector& own) const {
+  for_each_constrained([&](PetscInt entry) { own[entry] = 0; });
 }
 
 Points LatticePart::deal(const Vector& own, const cases::Sharing* sharing) const {
@@ -116,34 +143,64 @@ Vector LatticePart::own(Vec vector) const {
   return Eigen::Map<const Vector>(ReadEntries(vector).data(), 3 * n_own_);
 }
 
-void LatticePart::residual(Vec displacement, double load_factor, Vec out) const {
-  const Points internal = internal_force_at(lattice_, local_displacement(displacement));
+/// The gradient of the lattice's energy at a displacement: gradient_.
+void LatticePart::find_gradient(Vec displacement) const {
+  const Points force = internal_force_at(lattice_, local_displacement(displacement));
   {
-    const WriteEntries force(force_.get());
-    for (std::size_t p = 0; p < internal.size(); ++p)
-      for (int c = 0; c < 3; ++c) force[3 * p + static_cast<std::size_t>(c)] = -internal[p][c];
+    const WriteEntries gradient(gradient_.get());
+    for (std::size_t p = 0; p < force.size(); ++p)
+      for (int c = 0; c < 3; ++c) gradient[3 * p + static_cast<std::size_t>(c)] = -force[p][c];
   }
-  petsc::add_ghosts(force_.get());
-  check(VecCopy(force_.get(), out));
+  petsc::add_ghosts(gradient_.get());
+}
+
+Vector LatticePart::internal_force(const Vector& displacement) const {
+  put(moved_.get(), displacement);
+  find_gradient(moved_.get());
+  return -own(gradient_.get());
+}
+
+void LatticePart::residual(Vec displacement, double load_factor, Vec out) const {
+  find_gradient(displacement);
+  check(VecCopy(gradient_.get(), out));
   check(VecAXPY(out, -load_factor, applied_.get()));
   // An iterative solver moves the supports a little: the next step has to bring them back.
   const ReadEntries is(displacement);
   const WriteEntries entries(out);
-  for_each_constrained(load_factor, [&](PetscInt d, double prescribed) { entries[d] = is[d] - prescribed; });
+  const Points prescribed = supports(load_factor);
+  for_each_constrained([&](PetscInt entry) { entries[entry] = is[entry] - at(prescribed, entry); });
 }
 
 void LatticePart::tangent(Vec displacement, Mat matrix) const {
+  tangent_of_forces(displacement, matrix);
+  constrain(matrix);
+}
+
+void LatticePart::tangent_of_forces(Vec displacement, Mat matrix) const {
   check(MatZeroEntries(matrix));
   Points positions = local_displacement(displacement);
   for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += lattice_.rest[p];
-  add_tangent(positions, matrix);
-  check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
+  add_tangent(lattice_, positions, matrix);
+}
+
+void LatticePart::constrain(Mat tangent) const {
+  check(MatZeroRowsColumns(tangent, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
                            nullptr, nullptr));
 }
 
-void LatticePart::move_supports(Vec displacement, double load_factor) const {
-  const WriteEntries entries(displacement);
-  for_each_constrained(load_factor, [&](PetscInt d, double prescribed) { entries[d] = prescribed; });
+void LatticePart::move_supports(Vector& displacement, double load_factor) const {
+  const Points prescribed = supports(load_factor);
+  for_each_constrained([&](PetscInt entry) { displacement[entry] = at(prescribed, entry); });
+}
+
+/// Where they are, mm, one per point of all; empty: where they were at rest.
+Points LatticePart::supports(double load_factor) const {
+  return problem_.supports ? problem_.on_all_points(problem_.supports(load_factor)) : Points{};
+}
+
+double LatticePart::at(const Points& of_supports, PetscInt entry) const {
+  const PetscInt d = 3 * first_ + entry;
+  return of_supports.empty() ? 0 : of_supports[index(d / 3)][static_cast<int>(d % 3)];
 }
 
 double LatticePart::reference_force() const {
@@ -151,14 +208,14 @@ double LatticePart::reference_force() const {
   return norm > 0 ? norm : 1;
 }
 
-void LatticePart::add_tangent(const Points& positions, Mat matrix) const {
+void LatticePart::add_tangent(const Lattice& part, const Points& positions, Mat matrix) const {
   const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
     const PetscInt row = global(index(i)), column = global(index(j));
     const Eigen::Matrix3d transposed = block.transpose(); // PETSc wants rows, Eigen stores columns
     check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, transposed.data(), ADD_VALUES));
     if (i != j) check(MatSetValuesBlocked(matrix, 1, &column, 1, &row, block.data(), ADD_VALUES));
   };
-  visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
+  visit_tangent_blocks(part, positions, TransverseTerm::exact, add);
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
@@ -171,14 +228,6 @@ Points LatticePart::local_displacement(Vec displacement) const {
   for (std::size_t p = 0; p < local.size(); ++p)
     local[p] = Eigen::Vector3d(entries[3 * p], entries[3 * p + 1], entries[3 * p + 2]);
   return local;
-}
-
-template<class Action>
-void LatticePart::for_each_constrained(double load_factor, const Action& action) const {
-  const Points supports =
-      problem_.supports ? problem_.on_all_points(problem_.supports(load_factor)) : Points{};
-  for (const PetscInt d : constrained_)
-    action(d - 3 * first_, supports.empty() ? 0 : supports[index(d / 3)][static_cast<int>(d % 3)]);
 }
 
 } // namespace springproof::msm

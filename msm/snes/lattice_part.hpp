@@ -16,11 +16,16 @@ class LatticePart {
   std::size_t n_unknowns() const { return msm::n_unknowns(problem_); } ///< over all ranks
 
   mechanics::petsc::Vector make_vector() const;
-  /// With the sparsity of the tangent.
-  mechanics::petsc::Matrix make_matrix() const;
+  /// With the sparsity of the tangent, and all of the diagonal.
+  mechanics::petsc::Matrix make_matrix() const { return make_matrix(lattice_); }
+  /// The tangent at rest of another lattice of the same points, whose links and cells join none that the
+  /// problem's do not; its supports are not constrained.
+  mechanics::petsc::Matrix tangent_at_rest(const Lattice& whole) const;
 
-  /// This rank's entries of values of all points.
+  /// This rank's entries of values of all points; of a number per point three times that.
   Vector own(const Points& values) const;
+  Vector own(const std::vector<double>& values) const;
+  void clear_constrained(Vector& own) const;
   /// Of the points that this rank owns to those that it shows of the answer.
   Points deal(const Vector& own, const cases::Sharing* sharing) const;
 
@@ -28,13 +33,23 @@ class LatticePart {
   void put(Vec vector, const Vector& own) const;
   Vector own(Vec vector) const;
 
+  /// Internal forces on the points at a displacement, N.
+  Vector internal_force(const Vector& displacement) const;
   /// Minus the forces on the points at a displacement, N; of constrained degrees of freedom how far they are
   /// from where they should be, mm. SNES' function: it has the tangent as its derivative.
   void residual(Vec displacement, double load_factor, Vec out) const;
-  /// The derivative of residual().
+  /// The derivative of residual(): that of the forces, constrained.
   void tangent(Vec displacement, Mat matrix) const;
+  void tangent_of_forces(Vec displacement, Mat matrix) const;
+  void constrain(Mat tangent) const;
   /// Sets the constrained degrees of freedom.
-  void move_supports(Vec displacement, double load_factor) const;
+  void move_supports(Vector& displacement, double load_factor) const;
+  bool has_moving_supports() const { return bool(problem_.supports); }
+  /// Calls action(entry) for constrained ones among the owned entries.
+  template<class Action>
+  void for_each_constrained(const Action& action) const {
+    for (const PetscInt d : constrained_) action(d - 3 * first_);
+  }
 
   /// What residuals are measured against: the norm of the applied forces, N; 1 when there are none.
   double reference_force() const;
@@ -46,17 +61,19 @@ class LatticePart {
   std::vector<PetscInt> ghosts_;      ///< ascending
   std::vector<PetscInt> constrained_; ///< owned degrees of freedom
   Lattice lattice_;                   ///< in local numbers
-  mechanics::petsc::Vector moved_, force_, applied_;
+  mechanics::petsc::Vector moved_, gradient_, applied_;
 
   bool owns(int point) const { return point >= first_ && point < first_ + n_own_; }
   PetscInt global(std::size_t local) const;
   int local(int point) const;
   void deal_out();
-  void add_tangent(const Points& positions, Mat matrix) const;
+  Lattice part_of(const Lattice& whole) const;
+  mechanics::petsc::Matrix make_matrix(const Lattice& part) const;
+  void add_tangent(const Lattice& part, const Points& positions, Mat matrix) const;
   Points local_displacement(Vec displacement) const;
-  /// Calls action(entry among the owned ones, prescribed displacement in mm) for constrained ones.
-  template<class Action>
-  void for_each_constrained(double load_factor, const Action& action) const;
+  void find_gradient(Vec displacement) const;
+  Points supports(double load_factor) const;
+  double at(const Points& of_supports, PetscInt entry) const; ///< of constrained, owned entries
 };
 
 } // namespace springproof::msm

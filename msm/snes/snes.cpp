@@ -55,8 +55,8 @@ class SnesProblem : public petsc::DistributedProblem {
 
   std::optional<Solved> solve_at(Vector& at, double load_factor) override {
     load_factor_ = load_factor;
+    part_.move_supports(at, load_factor);
     part_.put(at_.get(), at);
-    part_.move_supports(at_.get(), load_factor);
     Solved solved = solver_.solve(at_.get());
     solved.residual /= part_.reference_force();
     work_.linear_iterations += solver_.last_linear_iterations();
@@ -76,18 +76,11 @@ class SnesProblem : public petsc::DistributedProblem {
   /// By the factorisation's pivots, or by conjugate gradients for a random right side, which has a part in
   /// every mode, meeting no negative curvature.
   std::optional<bool> is_stable(const Vector& at) override {
-    const KSP linear = solver_.linear_solver();
-    const bool is_direct = solver_.is_direct();
     part_.put(at_.get(), at);
     part_.tangent(at_.get(), solver_.tangent());
     const petsc::Vector right = random_like(at_), solution = petsc::like(at_);
-    check(KSPSetOperators(linear, solver_.tangent(), solver_.tangent()));
-    if (!is_direct) check(KSPSetTolerances(linear, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
-    check(KSPSolve(linear, right.get(), solution.get()));
-    const auto reason = petsc::get<KSPConvergedReason>(KSPGetConvergedReason, linear);
-    if (!is_direct || reason <= 0) return reason > 0;
-    const Mat factor = petsc::get<Mat>(PCFactorGetMatrix, petsc::get<PC>(KSPGetPC, linear));
-    return petsc::get<PetscInt>(MatMumpsGetInfog, factor, 12) == 0; // negative pivots
+    const bool is_solved = solver_.solve_tangent(right.get(), solution.get(), 1e-6, 1000);
+    return is_solved && (!solver_.is_direct() || solver_.n_negative_pivots() == 0);
   }
   bool direction(const Vector&, const Vector&, double, double, mechanics::Convexity, Vector&) override {
     return false; // solve_at() does it all

@@ -1,6 +1,7 @@
 #include "msm/snes/snes_solver.hpp"
 
 #include "mechanics/equilibrium/newton.hpp"
+#include "msm/snes/snes.hpp"
 
 #include <utility>
 
@@ -43,7 +44,7 @@ void SnesSolver::choose_linear_solver() {
   const PC preconditioner = petsc::get<PC>(KSPGetPC, linear);
   PetscInt n_unknowns = 0;
   check(MatGetSize(tangent_.get(), &n_unknowns, nullptr));
-  if (n_unknowns <= factorised_up_to) {
+  if (n_unknowns <= factorised_by_snes) {
     check(KSPSetType(linear, KSPPREONLY));
     check(PCSetType(preconditioner, PCCHOLESKY));
     check(PCFactorSetMatSolverType(preconditioner,
@@ -60,9 +61,34 @@ mechanics::NonlinearProblem::Solved SnesSolver::solve(Vec at) {
   const SNES snes = snes_.get();
   errors_.call([&] { return SNESSolve(snes, nullptr, at); });
   petsc::check_memory_of(linear_solver());
+  last_linear_iterations_ = petsc::get<PetscInt>(SNESGetLinearSolveIterations, snes);
   return {petsc::get<SNESConvergedReason>(SNESGetConvergedReason, snes) > 0,
           petsc::get<PetscInt>(SNESGetIterationNumber, snes),
           petsc::get<PetscReal>(SNESGetFunctionNorm, snes)};
+}
+
+void SnesSolver::set_tolerance(double tolerance) {
+  PetscReal relative = 0, step = 0;
+  PetscInt max_iterations = 0, max_evaluations = 0;
+  check(SNESGetTolerances(snes_.get(), nullptr, &relative, &step, &max_iterations, &max_evaluations));
+  check(SNESSetTolerances(snes_.get(), tolerance, relative, step, max_iterations, max_evaluations));
+}
+
+bool SnesSolver::solve_tangent(Vec right, Vec solution, double tolerance, int max_iterations) {
+  const KSP linear = linear_solver();
+  PetscReal usual = 0, absolute = 0, divergence = 0;
+  PetscInt usual_iterations = 0;
+  check(KSPGetTolerances(linear, &usual, &absolute, &divergence, &usual_iterations));
+  const auto has_forcing = petsc::get<PetscBool>(SNESKSPGetUseEW, snes_.get());
+  check(SNESKSPSetUseEW(snes_.get(), PETSC_FALSE)); // it would take the last iteration's tolerance
+  check(KSPSetTolerances(linear, tolerance, absolute, divergence, max_iterations));
+  check(KSPSetOperators(linear, tangent_.get(), tangent_.get()));
+  check(KSPSolve(linear, right, solution));
+  check(KSPSetTolerances(linear, usual, absolute, divergence, usual_iterations));
+  check(SNESKSPSetUseEW(snes_.get(), has_forcing));
+  petsc::check_memory_of(linear);
+  last_linear_iterations_ = petsc::get<PetscInt>(KSPGetIterationNumber, linear);
+  return petsc::get<KSPConvergedReason>(KSPGetConvergedReason, linear) > 0;
 }
 
 KSP SnesSolver::linear_solver() const {
@@ -76,8 +102,9 @@ bool SnesSolver::is_direct() const {
   return is_direct == PETSC_TRUE;
 }
 
-long SnesSolver::last_linear_iterations() const {
-  return petsc::get<PetscInt>(SNESGetLinearSolveIterations, snes_.get());
+long SnesSolver::n_negative_pivots() const {
+  const Mat factor = petsc::get<Mat>(PCFactorGetMatrix, petsc::get<PC>(KSPGetPC, linear_solver()));
+  return petsc::get<PetscInt>(MatMumpsGetInfog, factor, 12);
 }
 
 } // namespace springproof::msm

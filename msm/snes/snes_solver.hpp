@@ -7,12 +7,9 @@
 
 namespace springproof::msm {
 
-/// Unknowns up to which a tangent is factorised; there both ways take about as long.
-constexpr PetscInt factorised_up_to = 30000;
-
 /// PETSc's Newton method with a line search on the residual, for equations with a symmetric tangent: MUMPS up
-/// to factorised_up_to unknowns, conjugate gradients with algebraic multigrid (GAMG) beyond. Its options have
-/// the prefix msm_.
+/// to factorised_by_snes unknowns, conjugate gradients with algebraic multigrid (GAMG) beyond. Its options
+/// have the prefix msm_.
 class SnesSolver {
  public:
   /// What PETSc calls, on all ranks in the same order; all may throw.
@@ -34,10 +31,18 @@ class SnesSolver {
   /// for want of memory
   mechanics::NonlinearProblem::Solved solve(Vec at);
 
+  void set_tolerance(double tolerance); ///< on the norm of the residual, N
+
   Mat tangent() const { return tangent_.get(); }
-  KSP linear_solver() const;
-  bool is_direct() const;              ///< whether the tangent is factorised
-  long last_linear_iterations() const; ///< of the last solve()
+  /// Solves tangent * solution = right side with the tangent as it is: exactly where it is factorised.
+  /// @param tolerance  on |residual| / |right side|
+  /// @return whether the solver has converged
+  bool solve_tangent(Vec right, Vec solution, double tolerance, int max_iterations);
+  bool is_direct() const; ///< whether the tangent is factorised
+  long last_linear_iterations() const {
+    return last_linear_iterations_;
+  }                               ///< of the last solve() or solve_tangent()
+  long n_negative_pivots() const; ///< of the last factorisation
 
  private:
   Equations equations_;
@@ -45,7 +50,9 @@ class SnesSolver {
   mechanics::petsc::Matrix tangent_;
   mechanics::petsc::NonlinearSolver snes_;
   mechanics::petsc::CallbackErrors errors_;
+  long last_linear_iterations_ = 0;
 
+  KSP linear_solver() const;
   void choose_linear_solver();
 };
 

@@ -200,6 +200,83 @@ def test_a_network(folder):
         assert "msm_strain:" in said and "msm_reaction:" in said and "msm_stress" not in said, said
 
 
+MOTION = """schema = 1
+name = "block"
+description = "A body that is released from its weight, damped, with an end that moves."
+[body]
+%s
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+density = 1000
+mass_damping = 3
+stiffness_damping = 0.0005
+[[fixed]]
+region = "x-"
+[[moved]]
+region = "x+"
+components = ["y"]
+displacement = [0, 1, 0]
+history = [[0, 0], [0.02, 1]]
+[[load]]
+kind = "gravity"
+value = [0, 0, -9.81]
+history = [[0, 1], [0, 0.3]]
+[dynamics]
+scheme = "newmark"
+step = 0.002
+end = 0.04
+start = "equilibrium"
+write_every = 5
+[fem]
+accuracy = "none"
+[msm]
+design = "%s"
+solver = "%s"
+[[measure]]
+name = "tip"
+kind = "displacement"
+node = "x+ y+ z+"
+component = "z"
+over_time = "peak"
+[[measure]]
+name = "volume"
+kind = "volume"
+over_time = "end"
+"""
+
+
+def test_a_motion(folder):
+    """the springs' motion by SNES is the same on 1, 2 and 3 ranks, and that of the one-rank solver"""
+    body = 'shape = "box"\nsize = [30, 10, 10]\ncells = [9, 3, 3]'
+    for design in ("hybrid", "uniform"):
+        place = folder / design
+        place.mkdir()
+        motions = {}
+        for solver, ranks in (("newton", 1), ("snes", 1), ("snes", 2), ("snes", 3)):
+            (place / solver).mkdir(exist_ok=True)
+            document, out, _ = solve(place / solver, MOTION % (body, design, solver), ranks, "--only", "msm")
+            assert document["msm"]["status"] == "converged", document
+            motions[solver, ranks] = document["motion"]
+            assert [n for n in files_in(out) if n.startswith("block_motion/")] == [f"block_motion/block_{i:04}.vtu" for i in range(5)], files_in(out)
+        alone = motions["snes", 1]
+        assert len(alone["time"]) == 21, alone
+        for key, tolerance in ((("newton", 1), 1e-6), (("snes", 2), 1e-9), (("snes", 3), 1e-9)):  # steps are solved to 1e-9
+            other = motions[key]
+            assert other["time"] == alone["time"], (key, other["time"])
+            for a, b in zip(alone["measures"], other["measures"]):
+                size = max(map(abs, a["msm"]))
+                assert size > 0.1 and len(a["msm"]) == len(b["msm"]) == 21, (key, a, b)
+                assert max(abs(x - y) for x, y in zip(a["msm"], b["msm"])) <= tolerance * size, (key, a, b)
+    case = folder / "block.toml"
+    for change, told in ((('solver = "snes"', 'solver = "fire"'), '"newton" or "snes"'),
+                         (('solver = "snes"', 'solver = "snes"\niterations_per_step = 6'), "iterations_per_step")):
+        case.write_text((MOTION % (body, "hybrid", "snes")).replace(*change))
+        refused = springproof("run", case)
+        assert refused.returncode == 2 and told in refused.stderr and len(refused.stderr.splitlines()) == 1, refused
+
+
 def test_a_mesh_study(folder):
     """the limit of a mesh study, and the error of a field against it"""
     case = (CASE % (BOX % (4, 4, 4), "log_strain", "newton")).replace('accuracy = "none"\n', "")
