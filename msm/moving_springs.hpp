@@ -124,7 +124,8 @@ class MovingSprings : public mechanics::DynamicProblem {
     springs_.residual(at, 0, expect, residual);
   }
   virtual double spring_energy(const Vector& at) { return springs_.energy(at, 0); }
-  virtual double reaction(const Vector& at) { return springs_.reaction(at); } ///< N
+  /// Norm of the forces that springs exert on supports, N; asked for where supports move.
+  virtual double reaction(const Vector& at) = 0;
 
   /// product += damping tangent at rest * motion, on free degrees of freedom.
   virtual bool has_stiffness_damping() const = 0;

@@ -72,7 +72,7 @@ Matrix diagonal_matrix(const Vector& diagonal) {
 class MovingLattice : public MovingSprings {
  public:
   MovingLattice(const Problem& problem, SpringSystem& springs, const Inertia& inertia)
-      : MovingSprings(springs, entries_of(problem, inertia)), problem_(problem),
+      : MovingSprings(springs, entries_of(problem, inertia)), problem_(problem), springs_(springs),
         tangent_(problem.lattice, problem.is_constrained),
         damping_(tangent_at_rest(problem, inertia.damping)) {
     const auto n = tangent_.n_free();
@@ -107,12 +107,14 @@ class MovingLattice : public MovingSprings {
 
  private:
   const Problem& problem_;
+  SpringSystem& springs_;
   Tangent tangent_;
   Matrix damping_;                  ///< by stiffness, of all entries of a vector
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
   Factorisation factorisation_;
   WithPull with_pull_;
 
+  double reaction(const Vector& at) override { return springs_.reaction(at); }
   bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
     if (damping_.nonZeros() > 0) product += damping_ * motion;

@@ -53,12 +53,20 @@ MovingPart::MovingPart(const Problem& problem, const LatticePart& part, PartInTi
 std::optional<mechanics::NonlinearProblem::Solved> MovingPart::solve_at(Vector& at, double /*load_factor*/) {
   part_.put(at_.get(), at);
   // SNES asks for a norm below its tolerance: for 0 where nothing acts.
-  solver_.set_tolerance(std::max(settings_.tolerance * terms().scale, std::numeric_limits<double>::min()));
+  const double scale = moves_supports() ? std::max(terms().scale, reaction(at)) : terms().scale;
+  solver_.set_tolerance(std::max(settings_.tolerance * scale, std::numeric_limits<double>::min()));
   Solved solved = solver_.solve(at_.get());
-  solved.residual = relative(solved.residual, terms().scale);
+  solved.residual = relative(solved.residual, scale);
   work_.linear_iterations += solver_.last_linear_iterations();
   at = part_.own(at_.get());
   return solved;
+}
+
+double MovingPart::reaction(const Vector& at) {
+  Vector force = part_.internal_force(at), on_free = force;
+  part_.clear_constrained(on_free);
+  force -= on_free;
+  return std::sqrt(dot(force, force));
 }
 
 bool MovingPart::direction(const Vector& at, const Vector& residual, double /*load_factor*/, double forcing,

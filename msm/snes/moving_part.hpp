@@ -61,6 +61,7 @@ class MovingPart : public MovingSprings {
   SnesSolver solver_;
   Vector state_, residual_;
 
+  double reaction(const Vector& at) override;
   bool has_stiffness_damping() const override { return damping_ != nullptr; }
   void add_stiffness_damping(const Vector& motion, Vector& product) override;
   /// Functions of SNES.
