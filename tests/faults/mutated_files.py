@@ -2,8 +2,8 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, stl, nifti, nrrd, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2
-within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
+Kinds: case, dynamic, msh, stl, skin, nifti, nrrd, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1
+or 2 within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
 without a word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that
 is named. The damage is the same in every run. Only Python's standard library is used.
 """
@@ -212,6 +212,37 @@ class Stl(Kind):
         return springproof("run", "--only", "msm", self.case('[body]\nshape = "voxels"\nsurface = "body.stl"\nedge = 1'))
 
 
+class Skin(Kind):
+    """A .vtp of squares and of a strip about the box, which the body takes along, and on which distances are measured."""
+
+    @property
+    def whole(self):
+        corners = [f"{2 * (i & 1)} {2 * (i >> 1 & 1)} {2 * (i >> 2)}" for i in range(8)]
+        array = lambda name, values, kind="Int32": f'<DataArray type="{kind}" Name="{name}" format="ascii">\n' + "\n".join(values) + "\n</DataArray>\n"
+        squares = ["0 2 3 1", "4 5 7 6", "0 1 5 4", "2 6 7 3", "0 4 6 2"]
+        points = array("points", corners, "Float64").replace("Name=", 'NumberOfComponents="3" Name=')
+        return ('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
+                '<Piece NumberOfPoints="8" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="1" NumberOfPolys="5">\n'
+                f"<Points>\n{points}</Points>\n"
+                f'<Strips>\n{array("connectivity", ["1 3 5 7"])}{array("offsets", ["4"])}</Strips>\n'
+                f'<Polys>\n{array("connectivity", squares)}{array("offsets", ["4", "8", "12", "16", "20"])}</Polys>\n'
+                "</Piece>\n</PolyData>\n</VTKFile>\n").encode()
+
+    def damaged(self, content, chance):
+        """Most damage to its bytes leaves no XML: two of three files have another number."""
+        if chance.randrange(3) == 0:
+            return damaged(content, chance)
+        number = chance.choice(list(re.finditer(rb'(?<=[\s"])\d+(?=[\s"])', content)))
+        value = chance.choice([chance.choice(UNTHOUGHT), b"%d" % chance.randint(-2, 25), b"%g" % chance.uniform(-3, 3)])
+        return content[:number.start()] + value + content[number.end():]
+
+    def given(self, content):
+        (self.folder / "skin.vtp").write_bytes(content)
+        path = self.case()
+        path.write_text(path.read_text() + '[surface]\nfile = "skin.vtp"\n[[landmark]]\nname = "top"\npoint = [1, 1, 2]\n')
+        return springproof("run", path)
+
+
 class Nifti(Kind):
     """A picture of 12 x 3 x 2 voxels."""
     name = "body.nii"
@@ -356,7 +387,7 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "nifti": Nifti, "nrrd": Nrrd, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "skin": Skin, "nifti": Nifti, "nrrd": Nrrd, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
 
 

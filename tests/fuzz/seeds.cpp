@@ -93,6 +93,8 @@ int main(int, char** argv) {
   write("mesh/wedge", cases::bytes_of_mesh(wedge()));
   write("stl/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 1, 1}, {1, 1, 1}))));
   write("stl/wedge", cases::bytes_of(boundary(wedge())));
+  write("vtp/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 2, 2}, {1, 1, 1}))));
+  write("vtp/wedge", cases::bytes_of(boundary(wedge())));
   write("vtu/cloud", cases::bytes_of(cloud()));
   write("vtu/cells", cases::bytes_of(cells()));
   write("labels/grid", cases::bytes_of(cases::LabelGrid{{3, 2, 1}, {0, 0, 0}, {1, 2, 0, 2, 0, 1}}));
