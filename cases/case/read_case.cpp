@@ -148,16 +148,20 @@ Expectation read_expectation(Table& table, const std::vector<std::string>& measu
 }
 
 void read_measures(Table& root, Case& result) {
+  const bool moves_surface = result.dynamics && root.has("surface");
   std::vector<std::string> seen;
   result.measures = root.sections("measure", [&](Table& table) {
     Measure measure = read_measure(table, result);
     const auto same = std::find(seen.begin(), seen.end(), measure.name);
     if (same != seen.end())
       table.entry("name").refuse(fmt::format("a new name: measure[{}] has this one", same - seen.begin()));
+    if (moves_surface && measure.name == surface_measure)
+      table.entry("name").refuse("another name: in motion the [surface] is a measure of this one");
     seen.push_back(measure.name);
     result.has_fields = result.has_fields || is_of_fields(measure.kind);
     return measure;
   });
+  if (moves_surface) seen.emplace_back(surface_measure);
   result.expectations = root.sections("expect", [&](Table& table) { return read_expectation(table, seen); });
 }
 

@@ -7,6 +7,10 @@
 
 namespace springproof::cases {
 
+/// Name of the measure that a dynamic case with [surface] has beside its own: the root mean square
+/// displacement of the surface over time.
+inline constexpr const char* surface_measure = "surface";
+
 /// Reads and checks a case file (TOML 1.0; docs/case-file.md has every key). Whatever does not need the mesh
 /// is checked here; make_scene() does the rest.
 /// @param path       the file; names of files in it are relative to its folder

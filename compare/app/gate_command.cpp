@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/app/replay_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
@@ -26,6 +27,7 @@ struct GateOptions {
   std::vector<std::string> settings;
   std::vector<std::string> bless; ///< names of cases
   DisplacementOptions displacements;
+  std::string replay; ///< a recording of interact; empty: none
   std::string junit, out;
   int workers = 0; ///< one per core
   int meshes = 0;  ///< of the finite elements' limit; 0: as the cases' accuracy asks
@@ -38,7 +40,7 @@ std::vector<Question> read_all(const GateOptions& options) {
   Request request;
   if (!options.displacements.file.empty()) request.only = cases::Side::fem;
   request.meshes = options.meshes;
-  return read_questions(options.files, options.settings, request);
+  return with_recording(read_questions(options.files, options.settings, request), options.replay);
 }
 
 /// @throws InputError for a name that is no case's or has nothing to bless
@@ -123,6 +125,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
       ->allow_extra_args(false);
   add_displacement_options(*command, options->displacements);
   add_converge_option(*command, options->meshes);
+  add_replay_option(*command, options->replay);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
   CLI::Option* json = command->add_flag("--json", options->json,
                                         "one JSON document on standard output, and nothing else there");

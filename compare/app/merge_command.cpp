@@ -11,7 +11,8 @@ namespace springproof::compare {
 namespace {
 
 constexpr const char* recorded_options[] = {
-    "--set=", "--converge=", "--msm-displacements=", "--interpolate=", "--trace=", "--quick=", "--budget="};
+    "--set=",   "--converge=", "--msm-displacements=", "--interpolate=", "--replay=", "--trace=",
+    "--quick=", "--budget="};
 
 struct MergeOptions {
   std::vector<std::string> folders;

@@ -1,13 +1,12 @@
 #include "compare/app/commands.hpp"
 
 #include "compare/app/design_options.hpp"
+#include "compare/app/replay_option.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
-#include "compare/interact/replay.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/whole_file.hpp"
 #include "compare/ranking/ranking.hpp"
 #include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
@@ -136,11 +135,7 @@ int run(const RunOptions& options) {
   if (!options.out.empty()) // for the .vtu
     for (Question& question : questions) question.scene.definition.has_fields = true;
   check_memory(questions);
-  if (!options.replay.empty()) {
-    if (questions.size() != 1) throw cases::InputError("--replay: a recording is of one case");
-    questions.front().scene =
-        with_recording(std::move(questions.front().scene), read_file(options.replay), options.replay);
-  }
+  questions = with_recording(std::move(questions), options.replay);
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
@@ -210,10 +205,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->excludes("--only")
       ->excludes("--peer")
       ->excludes("--msm-displacements");
-  command
-      ->add_option("--replay", options->replay,
-                   "a recording of interact (NAME_pulls.csv), whose forces act on both models")
-      ->excludes(command->get_option("--designs"));
+  add_replay_option(*command, options->replay)->excludes(command->get_option("--designs"));
   command->callback([options, out, &chosen] {
     if (!options->designs.empty() && *out && !options->report)
       throw CLI::ValidationError("--designs",

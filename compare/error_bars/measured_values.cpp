@@ -1,6 +1,8 @@
 #include "compare/error_bars/measured_values.hpp"
 
+#include "cases/case/read_case.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/measure/surface_motion.hpp"
 
 #include <cmath>
 
@@ -45,6 +47,17 @@ void add_interpolation_error(MeasuredValue& value, const cases::Measure& measure
     value.interpolation_error_percent = std::abs(*percent);
 }
 
+/// Of the surface that a dynamic case names, over the time of the written bodies.
+MeasuredValue surface_over_time(const cases::Scene& scene, const Answers& answers) {
+  MeasuredValue value{cases::surface_measure, "mm", {}, {}, {}};
+  const auto motion = surface_motion(scene, answers);
+  if (!motion) return value;
+  value.fem = value_over_time(cases::OverTime::trajectory_l2, {motion->time, motion->fem});
+  value.msm = value_over_time(cases::OverTime::trajectory_l2, {motion->time, motion->msm});
+  value.error_percent = value.error_same_mesh_percent = motion->error_percent;
+  return value;
+}
+
 } // namespace
 
 std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers,
@@ -79,6 +92,8 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
       add_interpolation_error(value, measure, scene, answers);
     values.push_back(value);
   }
+  if (scene.definition.surface && scene.definition.dynamics)
+    values.push_back(surface_over_time(scene, answers));
   return values;
 }
 

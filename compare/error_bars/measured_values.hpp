@@ -27,7 +27,8 @@ struct MeasuredValue {
   std::string fem_reason{}, msm_reason{};
 };
 
-/// All measures of a case, in its order.
+/// All measures of a case, in its order; after them, of a dynamic case with [surface], that surface's
+/// (cases::surface_measure), without values unless both models moved to the end.
 /// @param study  of the same case; null: there is none
 std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers, const MeshStudy* study);
 

@@ -152,7 +152,8 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     const MeasuredValue* measured = find_named(measures, expected.measure);
     const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
     Gate gate = judge(expected, measures);
-    gate.unit = expected.quantity == Quantity::error_percent ? "%" : measure ? unit_of(*measure) : "";
+    const std::string unit = measure ? unit_of(*measure) : measured ? measured->unit : "";
+    gate.unit = expected.quantity == Quantity::error_percent ? "%" : unit;
     if (!gate.met() && !gate.value && measured) explain(gate, answers, *measured);
     if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied);
     const bool is_interpolated = answers.interpolated && expected.quantity != Quantity::fem;

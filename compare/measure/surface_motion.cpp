@@ -18,17 +18,19 @@ std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Ans
   const auto n = static_cast<double>(surface.vertices.size());
   SurfaceMotion motion;
   for (std::size_t body = 0; body < fem->bodies.size(); ++body) {
-    double of_fem = 0, of_difference = 0, largest = 0;
+    double of_fem = 0, of_msm = 0, of_difference = 0, largest = 0;
     for (const mechanics::EmbeddedPoint& vertex : surface.vertices) {
       const Eigen::Vector3d reference = mechanics::displacement_at(vertex, fem->bodies[body].displacement);
-      const double apart =
-          (mechanics::displacement_at(vertex, msm->bodies[body].displacement) - reference).squaredNorm();
+      const Eigen::Vector3d other = mechanics::displacement_at(vertex, msm->bodies[body].displacement);
+      const double apart = (other - reference).squaredNorm();
       of_fem += reference.squaredNorm();
+      of_msm += other.squaredNorm();
       of_difference += apart;
       largest = apart <= largest ? largest : apart; // a NaN stays
     }
     motion.time.push_back(fem->time[cases::index(fem->bodies[body].step)]);
     motion.fem.push_back(std::sqrt(of_fem / n));
+    motion.msm.push_back(std::sqrt(of_msm / n));
     motion.difference.push_back(std::sqrt(of_difference / n));
     motion.largest.push_back(std::sqrt(largest));
   }

@@ -7,10 +7,11 @@ namespace springproof::compare {
 
 /// How far the springs' surface is from the finite elements' while both move.
 struct SurfaceMotion {
-  std::vector<double> time;       ///< s, of the written bodies
-  std::vector<double> fem;        ///< mm: root mean square, over the vertices, of the finite elements' displacement
-  std::vector<double> difference; ///< mm: the same of the difference of both models' displacements
-  std::vector<double> largest;    ///< mm: the largest difference of a vertex
+  std::vector<double> time; ///< s, of the written bodies
+  std::vector<double> fem;  ///< mm: root mean square, over the vertices, of the finite elements' displacement
+  std::vector<double> msm;  ///< mm: the same of the springs'
+  std::vector<double> difference;      ///< mm: the same of the difference of both models' displacements
+  std::vector<double> largest;         ///< mm: the largest difference of a vertex
   std::optional<double> error_percent; ///< root mean square of difference over time, over that of fem
 };
 

@@ -28,7 +28,7 @@ void add_errors(RankedDesign& ranked, const Comparison& comparison) {
     const MeasuredValue& measured = comparison.measures[m];
     if (!measured.error_percent) continue;
     const double error = std::abs(*measured.error_percent);
-    const bool is_volume = asked[m].kind == cases::MeasureKind::volume;
+    const bool is_volume = m < asked.size() && asked[m].kind == cases::MeasureKind::volume;
     if (is_volume) ranked.worst_volume = std::max(ranked.worst_volume.value_or(0), error);
     if ((is_volume && has_others) || (ranked.worst && !(error > *ranked.worst))) continue;
     ranked.worst = error;

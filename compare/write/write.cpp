@@ -390,12 +390,12 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
           "fem_discretisation_error_percent", "peer", "reference", "fem_limit", "fem_limit_uncertainty",
           "error_uncertainty_percent", "error_same_mesh_percent");
   for (const auto& [scene, answers, measures, gates, study, landmarks] : comparisons)
-    for (std::size_t i = 0; i < measures.size(); ++i) {
-      const MeasuredValue& m = measures[i];
+    for (const MeasuredValue& m : measures) {
       const std::optional<Limit>& limit = m.fem_limit;
+      const StudiedMeasure* studied = study ? find_named(study->measures, m.name) : nullptr;
       csv.row(scene.definition.name, m.name, m.unit, m.fem, m.msm, m.error_percent,
               cases::name_of(answers.fem.solution.status), status_of(answers.msm.solution),
-              study ? study->measures[i].discretisation_error_percent : std::nullopt, m.peer,
+              studied ? studied->discretisation_error_percent : std::nullopt, m.peer,
               m.fem_limit ? "limit" : "same_mesh", limit ? std::optional(limit->value) : std::nullopt,
               limit ? std::optional(limit->uncertainty) : std::nullopt, m.error_uncertainty_percent,
               m.error_same_mesh_percent);

@@ -111,6 +111,7 @@ nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
   if (const auto surface = surface_motion(comparison.scene, comparison.answers))
     document["surface"] = {{"time", surface->time},
                            {"fem", surface->fem},
+                           {"msm", surface->msm},
                            {"difference", surface->difference},
                            {"largest_difference", surface->largest},
                            {"error_percent", surface->error_percent}};
@@ -142,10 +143,10 @@ std::vector<std::string> notes_on_motion(const Comparison& comparison) {
   for (const auto& [note, names] : found) notes.push_back(fmt::format("{}{}", fmt::join(names, ", "), note));
   if (const auto surface = surface_motion(comparison.scene, comparison.answers);
       surface && surface->error_percent)
-    notes.push_back(fmt::format(
-        "surface: over time the springs' is {:.4g} % of the finite elements' displacement from theirs, {:.4g} "
-        "mm at most",
-        *surface->error_percent, *std::max_element(surface->largest.begin(), surface->largest.end())));
+    notes.push_back(fmt::format("surface: over time the springs' is {:.4g} % of the finite elements' "
+                                "displacement from theirs, {:.4g} mm at most",
+                                *surface->error_percent,
+                                *std::max_element(surface->largest.begin(), surface->largest.end())));
   return notes;
 }
 

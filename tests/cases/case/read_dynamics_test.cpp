@@ -208,6 +208,20 @@ TEST_CASE("a support has a motion that begins where the body is, and does not ju
                      {"", "", 25, "moved[0].region", {"must be 0", "\"rest\""}});
 }
 
+TEST_CASE("in motion the surface that a case names is a measure, and there is none without it") {
+  const TemporaryFolder folder;
+  const std::string surface = "[surface]\nfile = '" + folder.write("skin.stl", "") + "'\n",
+                    expected = "[[expect]]\nmeasure = 'surface'\nerror_percent = [0, 40]\n"
+                               "reference = 'regression'\nreason = 'a test'\n";
+  const Case c = read_text(dynamic_case + surface + expected);
+  REQUIRE(c.expectations.size() == 1);
+  CHECK(c.expectations[0].measure == surface_measure);
+  check_case_refused(dynamic_case + expected, {"", "", 43, "expect[0].measure", {"\"drop\""}});
+  check_case_refused(good_case + surface + expected, {"", "", 40, "expect[1].measure", {"\"alpha_1\""}});
+  check_case_refused(replaced(dynamic_case, "'drop'", "'surface'") + surface,
+                     {"", "", 37, "measure[0].name", {"another name"}});
+}
+
 TEST_CASE("what has no meaning in a static case, or none in a dynamic one, is refused") {
   const std::string density = "poissons_ratio = 0.35\ndensity = 1000";
   check_mistakes({
