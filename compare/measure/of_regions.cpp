@@ -2,6 +2,7 @@
 
 #include "cases/mesh/sharing.hpp"
 #include "compare/measure/tensor.hpp"
+#include "mechanics/larger.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -57,7 +58,7 @@ double of_region(const cases::Measure& measure, const cases::Scene& scene, const
     if (!region.has(c)) continue;
     values.push_back(component_of(of_cells[c - here.begin], measure.tensor_component));
     weights.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
-    if (!(values.back() <= largest)) largest = values.back(); // keeps what is not a number
+    largest = mechanics::larger(largest, values.back());
     sum += weights.back() * values.back();
     weight += weights.back();
   }
@@ -95,10 +96,8 @@ double largest_curvature(const cases::Measure& measure, const cases::Scene& scen
                                                     ? solution.sharing->at(n, solution.displacement)
                                                     : solution.displacement[n]));
     }
-    for (std::size_t i = 2; i < deformed.size(); ++i) {
-      const double here = curvature(deformed[i - 2], deformed[i - 1], deformed[i]);
-      if (!(here <= largest)) largest = here;
-    }
+    for (std::size_t i = 2; i < deformed.size(); ++i)
+      largest = mechanics::larger(largest, curvature(deformed[i - 2], deformed[i - 1], deformed[i]));
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
+#include "mechanics/larger.hpp"
 #include "msm/fields.hpp"
 #include "msm/motion.hpp"
 #include "msm/moving_springs.hpp"
@@ -286,7 +287,7 @@ void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, i
   double largest_squared = 0, sum = 0;
   for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
     const double squared = (solution.displacement[n] - newton.solution.displacement[n]).squaredNorm();
-    if (!(squared <= largest_squared)) largest_squared = squared;
+    largest_squared = mechanics::larger(largest_squared, squared);
     sum += squared;
   }
   from.largest = std::sqrt(largest_squared);

@@ -2,6 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/mesh/sharing.hpp"
+#include "mechanics/larger.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -9,10 +10,7 @@
 
 using namespace springproof;
 
-/// The larger of two numbers, and NaN if one is. (std::max drops a NaN, and with it the failure.)
-inline double larger(double a, double b) {
-  return std::isnan(a) || a > b ? a : b;
-}
+using springproof::mechanics::larger;
 
 /// Largest absolute entry, and NaN if one is. (Eigen's maxCoeff() may drop it.)
 template<class Derived>

@@ -262,9 +262,13 @@ TEST_CASE("a statistic of cells is of those with a face in the region, weighted 
   CHECK(value(Statistic::mean, "z-") == Approx(2.5).epsilon(rounding));
   CHECK(value(Statistic::deviation, "z-") == Approx(std::sqrt(1.25)).epsilon(rounding));
   CHECK(value(Statistic::mean, "") == Approx(4.5).epsilon(rounding));
-  solution.fields->strain[7][0] = std::numeric_limits<double>::quiet_NaN();
-  for (const Statistic statistic : {Statistic::largest, Statistic::mean, Statistic::deviation})
-    CHECK(std::isnan(value(statistic, "")));
+  for (const std::size_t cell : {0, 7}) { // the first, which others follow, and the last
+    const double strain_of_cell = solution.fields->strain[cell][0];
+    solution.fields->strain[cell][0] = std::numeric_limits<double>::quiet_NaN();
+    for (const Statistic statistic : {Statistic::largest, Statistic::mean, Statistic::deviation})
+      CHECK(std::isnan(value(statistic, "")));
+    solution.fields->strain[cell][0] = strain_of_cell;
+  }
 }
 
 TEST_CASE("the curvature of a line that is bent to a circle is the inverse of its radius") {
@@ -284,4 +288,9 @@ TEST_CASE("the curvature of a line that is bent to a circle is the inverse of it
   curvature.region = region("z+");
   CHECK(compare::evaluate(curvature, scene, bent) == 0);
   CHECK(compare::unit_of(curvature) == "1/mm");
+  auto broken = bent; // on the first of three lines
+  broken.displacement[cases::index(cases::select_node(scene.mesh, region("x- y- z+")))].z() =
+      std::numeric_limits<double>::quiet_NaN();
+  curvature.axis = cases::Axis::x;
+  CHECK(std::isnan(compare::evaluate(curvature, scene, broken)));
 }
