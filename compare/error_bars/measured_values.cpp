@@ -17,10 +17,10 @@ void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, con
   const auto error_of = [&](const Answer& answer,
                             const std::optional<double>& of_side) -> std::optional<double> {
     if (!of_side) return std::nullopt;
-    if (!is_field_norm(measure.kind))
-      return error_percent(limit.value, *of_side, zero_of(measure, scene, answers.fem.solution));
+    const double zero = zero_of(measure, scene, answers.fem.solution);
+    if (!is_field_norm(measure.kind)) return error_percent(limit.value, *of_side, zero);
     return field_error_percent(measure.kind, scene.mesh, study.field->value, answer.solution.displacement,
-                               answer.solution.sharing.get());
+                               zero, answer.solution.sharing.get());
   };
   value.error_percent = error_of(answers.msm, value.msm);
   value.fem_error_percent = error_of(answers.fem, value.fem);

@@ -6,6 +6,7 @@
 #include "compare/measure/tensor.hpp"
 #include "mechanics/dynamics/scheme.hpp"
 #include "mechanics/hexahedron.hpp"
+#include "mechanics/larger.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,6 +22,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double degrees_per_radian = 57.295779513082320877;
+constexpr double relative_zero = 1e-8; ///< of a size, and less: a solve leaves 1e-9 of its forces
 
 double component_of(const Vector3d& vector, cases::Component component) {
   return component == cases::Component::norm ? vector.norm() : vector[static_cast<int>(component)];
@@ -150,6 +152,39 @@ double volume(const cases::Solution& solution) {
   return solution.sharing ? solution.sharing->sum(here) : here;
 }
 
+/// Of the values that a measure has at single times, whatever number of their course the case asks for.
+double zero_of_values(const cases::Measure& measure, const cases::Scene& scene,
+                      const cases::Solution& solution) {
+  const auto size = [&] {
+    Eigen::AlignedBox3d body;
+    for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
+    return body.sizes().norm();
+  };
+  switch (measure.kind) {
+  case MeasureKind::coordinate:
+    return relative_zero * size();
+  case MeasureKind::displacement:
+  case MeasureKind::displacement_field_l2:
+  case MeasureKind::displacement_field_max:
+    return zero_of_displacements(scene, solution);
+  case MeasureKind::tilt:
+  case MeasureKind::twist:
+    return degrees_per_radian * zero_of_displacements(scene, solution) / size();
+  case MeasureKind::reaction:
+    return relative_zero * sum_of_reactions(scene, solution);
+  case MeasureKind::stress:
+    return relative_zero * largest_norm(solution.fields->stress, solution);
+  case MeasureKind::strain:
+    return relative_zero * largest_norm(solution.fields->strain, solution);
+  case MeasureKind::curvature:
+    return zero_of_displacements(scene, solution) / (size() * size());
+  case MeasureKind::volume:
+  case MeasureKind::strain_energy:
+    break; // a volume is not zero, nor is the energy of what is deformed
+  }
+  return 0;
+}
+
 } // namespace
 
 bool is_field_norm(MeasureKind kind) {
@@ -209,10 +244,11 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
 TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
                      const cases::Solution& solution) {
   const cases::Trajectory& seen = *solution.trajectory;
-  if (measure.kind == MeasureKind::volume) return {seen.time, seen.volume};
-  if (is_field_norm(measure.kind)) return {{seen.time.back()}, {evaluate(measure, scene, solution)}};
+  const double zero = zero_of_values(measure, scene, solution);
+  if (measure.kind == MeasureKind::volume) return {seen.time, seen.volume, zero};
+  if (is_field_norm(measure.kind)) return {{seen.time.back()}, {evaluate(measure, scene, solution)}, zero};
   const NodeMeasure of_nodes(measure, scene);
-  TimeSeries series{seen.time, {}};
+  TimeSeries series{seen.time, {}, zero};
   for (std::size_t step = 0; step < seen.time.size(); ++step)
     series.value.push_back(of_nodes.at([&](int node) -> Vector3d {
       const auto place = std::lower_bound(seen.nodes.begin(), seen.nodes.end(), node) - seen.nodes.begin();
@@ -254,19 +290,20 @@ bool is_trajectory_norm(const cases::Measure& measure) {
 
 std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh& mesh,
                                           const std::vector<Vector3d>& reference,
-                                          const std::vector<Vector3d>& other, const cases::Sharing* sharing) {
+                                          const std::vector<Vector3d>& other, double zero,
+                                          const cases::Sharing* sharing) {
   std::vector<Vector3d> difference;
   for (std::size_t n = 0; n < reference.size(); ++n) difference.push_back(other[n] - reference[n]);
   const double size = field_norm(kind, mesh, reference, sharing),
                distance = field_norm(kind, mesh, difference, sharing);
-  return error_percent(size, size + distance, 0); // distance/size, with its care for a zero field
+  return error_percent(size, size + distance, zero); // distance/size, with its care for a zero field
 }
 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
   if (is_field_norm(measure.kind))
     return field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement,
-                               fem.sharing.get());
+                               zero_of(measure, scene, fem), fem.sharing.get());
   if (is_trajectory_norm(measure) && fem.trajectory && msm.trajectory)
     return trajectory_error_percent(series_of(measure, scene, fem), series_of(measure, scene, msm));
   const auto of_fem = value_of(measure, scene, fem), of_msm = value_of(measure, scene, msm);
@@ -274,35 +311,23 @@ std::optional<double> measure_error_percent(const cases::Measure& measure, const
   return error_percent(*of_fem, *of_msm, zero_of(measure, scene, fem));
 }
 
+double zero_of_displacements(const cases::Scene& scene, const cases::Solution& solution) {
+  const auto largest_of = [&](const std::vector<Vector3d>& field, const cases::Sharing* sharing) {
+    return field_norm(MeasureKind::displacement_field_max, scene.mesh, field, sharing);
+  };
+  double largest = largest_of(solution.displacement, solution.sharing.get());
+  if (const auto& motion = solution.trajectory) { // which every rank has as a whole
+    largest = mechanics::larger(largest, largest_of(motion->displacement, nullptr));
+    for (const auto& body : motion->bodies)
+      largest = mechanics::larger(largest, largest_of(body.displacement, nullptr));
+  }
+  return relative_zero * largest;
+}
+
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
-  constexpr double rounding = 1e-8;
   if (!can_evaluate(measure, fem)) return 0; // one that failed beside meshes that have a limit
   if (measure.over_time && has_own_unit(*measure.over_time)) return 0;
-  Eigen::AlignedBox3d body;
-  for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
-  const double size = body.sizes().norm(), moved = field_norm(MeasureKind::displacement_field_max, scene.mesh,
-                                                              fem.displacement, fem.sharing.get());
-  switch (measure.kind) {
-  case MeasureKind::coordinate:
-    return rounding * size;
-  case MeasureKind::displacement:
-    return rounding * moved;
-  case MeasureKind::tilt:
-  case MeasureKind::twist:
-    return rounding * degrees_per_radian * moved / size;
-  case MeasureKind::reaction:
-    return rounding * sum_of_reactions(scene, fem);
-  case MeasureKind::stress:
-    return rounding * largest_norm(fem.fields->stress, fem);
-  case MeasureKind::strain:
-    return rounding * largest_norm(fem.fields->strain, fem);
-  case MeasureKind::curvature:
-    return rounding * moved / (size * size);
-  // volumes are not zero, nor is the energy of what is deformed; a norm of the field is it where all
-  // displacements are
-  default:
-    return 0;
-  }
+  return zero_of_values(measure, scene, fem);
 }
 
 std::string unit_of(const cases::Measure& measure) {

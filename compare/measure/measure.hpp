@@ -20,7 +20,7 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
 /// Whether a solution has what a measure is of: a displacement alone, another program's for one, has no
 /// fields.
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution);
-/// A measure of a motion at the start and after every step, in the unit of its values.
+/// A measure of a motion at the start and after every step, in the unit of its values, with its zero.
 /// @param solution  with its trajectory; a measure of which is_field_norm() holds is of the end alone
 TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
                      const cases::Solution& solution);
@@ -53,9 +53,10 @@ double field_norm(cases::MeasureKind kind, const cases::HexMesh& mesh,
                   const std::vector<Eigen::Vector3d>& field, const cases::Sharing* sharing = nullptr);
 
 /// Error of a displacement in a field's norm, percent of the reference's; never negative.
+/// @param zero  up to which size the reference's norm is zero
 std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::HexMesh& mesh,
                                           const std::vector<Eigen::Vector3d>& reference,
-                                          const std::vector<Eigen::Vector3d>& other,
+                                          const std::vector<Eigen::Vector3d>& other, double zero,
                                           const cases::Sharing* sharing = nullptr);
 
 /// Error of the springs in a measure, percent: field_error_percent() of a field norm,
@@ -72,10 +73,14 @@ bool is_trajectory_norm(const cases::Measure& measure);
 /// "mm", "deg", "mm3", "N", "N mm", "MPa", or "1" of a strain; of numbers over time also "s", "Hz", "%".
 std::string unit_of(const cases::Measure& measure);
 
-/// Up to which size a value of a measure is zero but for rounding, in its unit: 1e-8 of the body's largest
-/// displacement in the finite elements' solution, for an angle over the body's size, for a coordinate of the
-/// size, for a reaction of the sum of all nodes' reactions, for stress and strain of the body's largest. A
-/// solve leaves 1e-9 of its forces.
+/// Up to which size a displacement is zero but for rounding, mm: 1e-8 of the body's largest one, of a motion
+/// of the largest at any time that it has kept. A solve leaves 1e-9 of its forces.
+double zero_of_displacements(const cases::Scene& scene, const cases::Solution& solution);
+
+/// Up to which size a value of a measure is zero but for rounding, in its unit: that of displacements in the
+/// finite elements' solution, for an angle over the body's size, 1e-8 of the size for a coordinate, of the
+/// sum of all nodes' reactions for a reaction, of the body's largest for stress and strain. A time, a
+/// frequency and a ratio have none.
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem);
 
 /// r = (msm - fem)/fem x 100 %, as in the thesis; nothing when fem is zero, or next to msm, or either is not

@@ -1,5 +1,7 @@
 #include "compare/measure/over_time.hpp"
 
+#include "compare/measure/measure.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -65,9 +67,9 @@ Extreme peak_of(const TimeSeries& series) {
   return vertex(series, i);
 }
 
-/// From here on a way is rounding, of what moved by so much: a solve leaves 1e-9 of its forces.
+/// Up to here a way is rounding, of what moved by so much: a solve leaves 1e-9 of its forces.
 double rounding_of(const TimeSeries& series) {
-  return 1e-9 * std::abs(series.value[furthest(series)] - series.value.front());
+  return std::max(series.zero, 1e-9 * std::abs(series.value[furthest(series)] - series.value.front()));
 }
 
 bool are_finite(const std::vector<double>& values) {
@@ -85,7 +87,7 @@ std::vector<Extreme> extremes(const TimeSeries& series) {
   std::vector<Extreme> found;
   if (series.value.size() < 3) return found;
   const auto [lowest, highest] = std::minmax_element(series.value.begin(), series.value.end());
-  const double noise = 0.05 * (*highest - *lowest);
+  const double noise = std::max(0.05 * (*highest - *lowest), series.zero);
   if (!(noise > 0)) return found;
   // The candidates since the last turning point, and which way the series goes: 0 until it has gone anywhere.
   std::size_t low = 0, high = 0;
@@ -131,7 +133,8 @@ std::string why_without_number(cases::OverTime what, const TimeSeries& series) {
     return "a value of its course is not a finite number";
   switch (what) {
   case OverTime::peak_time:
-    return rounding_of(series) > 0 ? "" : "it does not move";
+    return std::abs(peak_of(series).value - series.value.front()) > rounding_of(series) ? ""
+                                                                                        : "it does not move";
   case OverTime::overshoot: {
     const double way = settled_value(series) - series.value.front();
     return std::abs(way) > rounding_of(series) ? "" : "it settles where it began";
@@ -181,11 +184,12 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
 
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other) {
   assert(reference.time == other.time);
-  const double size = root_mean_square(reference.time, reference.value);
-  if (!(size > 0) || !are_finite(reference.value) || !are_finite(other.value)) return std::nullopt;
+  if (!are_finite(reference.value) || !are_finite(other.value)) return std::nullopt;
   std::vector<double> difference = other.value;
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.value[i];
-  return 100 * root_mean_square(reference.time, difference) / size;
+  const double size = root_mean_square(reference.time, reference.value),
+               distance = root_mean_square(reference.time, difference);
+  return error_percent(size, size + distance, reference.zero); // distance/size, with its care for zeros
 }
 
 std::string unit_over_time(cases::OverTime what, const std::string& unit) {

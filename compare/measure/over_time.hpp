@@ -12,6 +12,7 @@ namespace springproof::compare {
 struct TimeSeries {
   std::vector<double> time;  ///< s, ascending
   std::vector<double> value; ///< as many, in the measure's unit
+  double zero = 0;           ///< up to which size a value, or a change of it, is zero but for rounding
 };
 
 /// A turning point of a series: a maximum or a minimum, of the parabola through three values.
@@ -20,7 +21,7 @@ struct Extreme {
 };
 
 /// The turning points between the ends of a series, which maxima and minima take turns in. What goes back by
-/// no more than 5 % of the whole range is noise.
+/// no more than 5 % of the whole range, or by no more than the series' zero, is noise.
 std::vector<Extreme> extremes(const TimeSeries& series);
 
 /// A decaying oscillation about a value.
@@ -48,7 +49,8 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
 std::string why_without_number(cases::OverTime what, const TimeSeries& series);
 
 /// Root mean square of the difference of two series of equal times over that of the reference, percent;
-/// nothing when the reference is zero throughout, or a value is not finite.
+/// nothing when error_percent() has none (the reference is zero but for rounding, or next to the difference),
+/// or a value is not finite.
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other);
 
 /// Whether it has another unit than the measure: a time, a frequency, a ratio.

@@ -1,9 +1,9 @@
 #include "compare/measure/surface_motion.hpp"
 
 #include "compare/measure/landmarks.hpp"
-#include "compare/measure/over_time.hpp"
+#include "compare/measure/measure.hpp"
+#include "mechanics/larger.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace springproof::compare {
@@ -26,7 +26,7 @@ std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Ans
       of_fem += reference.squaredNorm();
       of_msm += other.squaredNorm();
       of_difference += apart;
-      largest = apart <= largest ? largest : apart; // a NaN stays
+      largest = mechanics::larger(largest, apart);
     }
     motion.time.push_back(fem->time[cases::index(fem->bodies[body].step)]);
     motion.fem.push_back(std::sqrt(of_fem / n));
@@ -36,7 +36,8 @@ std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Ans
   }
   const auto size = value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.fem});
   const auto apart = value_over_time(cases::OverTime::trajectory_l2, {motion.time, motion.difference});
-  if (size && apart && *size > 0) motion.error_percent = 100 * *apart / *size;
+  const double zero = zero_of_displacements(scene, answers.fem.solution);
+  if (size && apart) motion.error_percent = error_percent(*size, *size + *apart, zero); // apart/size
   return motion;
 }
 

@@ -17,7 +17,7 @@ struct SurfaceMotion {
 
 /// Of the surface that a dynamic case names ([surface]), at the times of its written bodies, with
 /// dynamics.write_every; vertices count alike. Nothing where the case names no surface, or a model did not
-/// move to the end; no error where the finite elements rest.
+/// move to the end; no error where the finite elements' surface rests but for rounding.
 /// @throws cases::InputError if the surface cannot be bound to the cells
 std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Answers& answers);
 

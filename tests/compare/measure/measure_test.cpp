@@ -10,6 +10,7 @@
 using namespace springproof;
 
 using cases::MeasureKind;
+using cases::OverTime;
 using Eigen::Vector3d;
 
 namespace {
@@ -48,6 +49,21 @@ cases::Measure measure(MeasureKind kind) {
   result.name = "m";
   result.kind = kind;
   return result;
+}
+
+/// A motion of a measure's node, mm once a second; the others rest. All of it is kept of the two ends.
+cases::Solution in_time(const cases::Scene& scene, const cases::Measure& measure,
+                        const std::vector<Vector3d>& course) {
+  cases::Solution solution = moved(scene, [](const Vector3d& x) { return x; });
+  const int node = cases::select_node(scene.mesh, measure.node);
+  cases::Trajectory& motion = solution.trajectory.emplace();
+  motion.nodes = {node};
+  motion.displacement = course;
+  for (std::size_t i = 0; i < course.size(); ++i) motion.time.push_back(static_cast<double>(i));
+  motion.bodies.push_back({0, solution.displacement});
+  solution.displacement[cases::index(node)] = course.back();
+  motion.bodies.push_back({static_cast<int>(course.size()) - 1, solution.displacement});
+  return solution;
 }
 
 constexpr double rounding = 1e-12; ///< relative to numbers of order 1 to 100
@@ -293,4 +309,72 @@ TEST_CASE("the curvature of a line that is bent to a circle is the inverse of it
       std::numeric_limits<double>::quiet_NaN();
   curvature.axis = cases::Axis::x;
   CHECK(std::isnan(compare::evaluate(curvature, scene, broken)));
+}
+
+TEST_CASE("the end of a motion that has come to rest has no percentage: zero is by the largest displacement "
+          "on the way") {
+  const cases::Scene scene = cube();
+  cases::Measure end = measure(MeasureKind::displacement);
+  end.node = region("z+ x+ y+");
+  end.component = cases::Component::z;
+  end.over_time = OverTime::end;
+  const auto ends_at = [&](double z) {
+    return in_time(scene, end, {{0, 0, 0}, {0, 0, 1}, {0, 0, -0.5}, {0, 0, z}});
+  };
+  const cases::Measure l2 = measure(MeasureKind::displacement_field_l2);
+  for (const cases::Measure& of_end : {end, l2}) {
+    CHECK_FALSE(compare::measure_error_percent(of_end, scene, ends_at(1e-12), ends_at(3e-9)));
+    CHECK_FALSE(compare::measure_error_percent(of_end, scene, ends_at(0), ends_at(0)));
+    CHECK(compare::measure_error_percent(of_end, scene, ends_at(1e-4), ends_at(2e-4)).value() ==
+          Approx(100).epsilon(1e-9)); // rounding of 1e-16 mm in 1e-4
+  }
+}
+
+TEST_CASE("what rounding leaves of a course that is zero has no error, swings or turns") {
+  const cases::Scene scene = cube();
+  cases::Measure across = measure(MeasureKind::displacement);
+  across.node = region("z+ x+ y+");
+  across.component = cases::Component::x;
+  const auto trembling = [&](double size, double way) {
+    std::vector<Vector3d> course; // four swings of ten steps each
+    for (int i = 0; i <= 40; ++i) course.emplace_back(size * std::sin(2 * M_PI * i / 10), 0, way * i / 40);
+    return in_time(scene, across, course);
+  };
+  const auto value = [&](OverTime what, const cases::Solution& solution) {
+    across.over_time = what;
+    return compare::value_of(across, scene, solution);
+  };
+  const auto error = [&](OverTime what, const cases::Solution& fem, const cases::Solution& msm) {
+    across.over_time = what;
+    return compare::measure_error_percent(across, scene, fem, msm);
+  };
+  const cases::Solution fem = trembling(9e-16, 1), msm = trembling(-2e-15, 1);
+  for (const OverTime what :
+       {OverTime::frequency, OverTime::damping_ratio, OverTime::peak_time, OverTime::overshoot})
+    CHECK_FALSE(value(what, fem));
+  for (const OverTime what : {OverTime::trajectory_l2, OverTime::peak, OverTime::settled, OverTime::end}) {
+    CHECK(value(what, fem));
+    CHECK_FALSE(error(what, fem, msm));
+  }
+  // The same numbers of a body that moves by no more are a motion.
+  const cases::Solution small = trembling(9e-16, 0);
+  CHECK(value(OverTime::frequency, small));
+  CHECK(error(OverTime::trajectory_l2, small, msm));
+  // Where the watched node rests, what is kept of the others tells how far the body moves.
+  cases::Solution elsewhere = small;
+  elsewhere.trajectory->bodies.front().displacement.front() = {0, 1, 0};
+  CHECK_FALSE(value(OverTime::frequency, elsewhere));
+  CHECK_FALSE(error(OverTime::trajectory_l2, elsewhere, msm));
+}
+
+TEST_CASE("the error of a course one of whose values is not a number is none") {
+  const cases::Scene scene = cube();
+  cases::Measure course = measure(MeasureKind::displacement);
+  course.node = region("z+ x+ y+");
+  course.over_time = OverTime::trajectory_l2;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const cases::Solution good = in_time(scene, course, {{0, 0, 0}, {0, 0, 1}}),
+                        bad = in_time(scene, course, {{0, 0, nan}, {0, 0, 1}});
+  CHECK_FALSE(compare::measure_error_percent(course, scene, good, bad));
+  CHECK_FALSE(compare::measure_error_percent(course, scene, bad, good));
 }
