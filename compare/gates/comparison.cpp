@@ -16,6 +16,7 @@ Comparison comparison_of(cases::Scene scene, Answers answers) {
   comparison.measures = measure(scene, answers, study);
   comparison.gates = judge(scene, answers, comparison.measures, study);
   comparison.landmarks = landmark_distances(scene, answers);
+  comparison.surface_motion = surface_motion(scene, answers);
   comparison.scene = std::move(scene);
   comparison.answers = std::move(answers);
   return comparison;

@@ -2,6 +2,7 @@
 
 #include "compare/gates/judge.hpp"
 #include "compare/measure/landmarks.hpp"
+#include "compare/measure/surface_motion.hpp"
 
 namespace springproof::compare {
 
@@ -11,9 +12,10 @@ struct Comparison {
   cases::Scene scene; ///< as the case file has it; what "auto" was found to mean is with the answers
   Answers answers;
   std::vector<MeasuredValue> measures;
-  std::vector<Gate> gates;                 ///< one per expectation
-  std::optional<MeshStudy> mesh_study;     ///< absent when the case has accuracy = "none"
-  std::vector<LandmarkDistance> landmarks; ///< one per landmark
+  std::vector<Gate> gates;                     ///< one per expectation
+  std::optional<MeshStudy> mesh_study;         ///< absent when the case has accuracy = "none"
+  std::vector<LandmarkDistance> landmarks;     ///< one per landmark
+  std::optional<SurfaceMotion> surface_motion; ///< of a dynamic case with a [surface]
 
   /// What a converged side must not be unless its case accepts that: with inverted cells, or in an unstable
   /// equilibrium.

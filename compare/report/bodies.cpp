@@ -75,9 +75,8 @@ Json measures_to_json(const std::vector<MeasuredValue>& measures) {
 } // namespace
 
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay) {
-  const auto& [scene, answers, measures, gates, study, landmarks] = comparison;
-  BodyView view{id, std::move(overlay), "", scene.definition.description, "", measures};
-  for (const Answer* side : {&answers.fem, &answers.msm})
+  BodyView view{id, std::move(overlay), "", comparison.scene.definition.description, "", comparison.measures};
+  for (const Answer* side : {&comparison.answers.fem, &comparison.answers.msm})
     if (side->solution.status == cases::Status::failed) view.failures.push_back(side->solution.message);
   return view;
 }

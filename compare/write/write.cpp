@@ -310,7 +310,7 @@ Json case_to_json(const Comparison& comparison) {
 }
 
 void write_text(std::ostream& out, const Comparison& comparison) {
-  const auto& [scene, answers, measures, gates, mesh_study, landmarks] = comparison;
+  const auto& [scene, answers, measures, gates, mesh_study, landmarks, surface] = comparison;
   const cases::Case& definition = scene.definition;
   print(out, "{}: {}\n", definition.name, definition.description);
   write_loads(out, scene);
@@ -389,7 +389,7 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons) {
   csv.row("case", "measure", "unit", "fem", "msm", "error_percent", "fem_status", "msm_status",
           "fem_discretisation_error_percent", "peer", "reference", "fem_limit", "fem_limit_uncertainty",
           "error_uncertainty_percent", "error_same_mesh_percent");
-  for (const auto& [scene, answers, measures, gates, study, landmarks] : comparisons)
+  for (const auto& [scene, answers, measures, gates, study, landmarks, surface] : comparisons)
     for (const MeasuredValue& m : measures) {
       const std::optional<Limit>& limit = m.fem_limit;
       const StudiedMeasure* studied = study ? find_named(study->measures, m.name) : nullptr;

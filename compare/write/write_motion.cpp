@@ -1,7 +1,6 @@
 #include "compare/write/write_motion.hpp"
 
 #include "compare/measure/measure.hpp"
-#include "compare/measure/surface_motion.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/escape.hpp"
@@ -108,7 +107,7 @@ nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
         {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
   nlohmann::ordered_json document{
       {"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
-  if (const auto surface = surface_motion(comparison.scene, comparison.answers))
+  if (const auto& surface = comparison.surface_motion)
     document["surface"] = {{"time", surface->time},
                            {"fem", surface->fem},
                            {"msm", surface->msm},
@@ -141,10 +140,10 @@ std::vector<std::string> notes_on_motion(const Comparison& comparison) {
   }
   std::vector<std::string> notes;
   for (const auto& [note, names] : found) notes.push_back(fmt::format("{}{}", fmt::join(names, ", "), note));
-  if (const auto surface = surface_motion(comparison.scene, comparison.answers);
-      surface && surface->error_percent)
+  if (const auto& surface = comparison.surface_motion; surface && surface->error_percent)
     notes.push_back(fmt::format("surface: over time the springs' is {:.4g} % of the finite elements' "
-                                "displacement from theirs, {:.4g} mm at most",
+                                "displacement from theirs, {:.4g} "
+                                "mm at most",
                                 *surface->error_percent,
                                 *std::max_element(surface->largest.begin(), surface->largest.end())));
   return notes;

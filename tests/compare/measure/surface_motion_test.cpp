@@ -1,8 +1,11 @@
 #include "compare/measure/surface_motion.hpp"
 
+#include "compare/write/write_motion.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 using namespace springproof;
 
@@ -74,4 +77,18 @@ TEST_CASE("a surface that rests but for rounding while the body moves has no err
   fem.nodes = {0};
   fem.displacement = {{0, 0, 0}, {0, 0, 1}}; // between the bodies that are kept
   CHECK_FALSE(compare::surface_motion(scene, answers)->error_percent);
+}
+
+TEST_CASE("what is written of surfaces in motion is what the comparison has found of them") {
+  cases::Scene scene = bar_with_skin();
+  compare::Answers answers;
+  answers.fem = pushed(scene, {0, 0, 2});
+  answers.msm = pushed(scene, {0, 0.2, 2});
+  compare::Comparison comparison = compare::comparison_of(std::move(scene), std::move(answers));
+  REQUIRE(comparison.surface_motion);
+  comparison.surface_motion->error_percent = 42; // as nothing would find it anew
+  CHECK(compare::motion_to_json(comparison)["surface"]["error_percent"] == 42);
+  const std::vector<std::string> notes = compare::notes_on_motion(comparison);
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes.front(), Catch::Contains("42 %"));
 }
