@@ -1,6 +1,7 @@
 #include "compare/write/grid_fields.hpp"
 
 #include "cases/mesh/sharing.hpp"
+#include "cases/scene/histories.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/tensor.hpp"
@@ -71,7 +72,7 @@ void add_errors(cases::GridFields& all, const cases::HexMesh& mesh, const cases:
 }
 
 void add_case(cases::GridFields& all, const cases::Scene& scene, const cases::Share& here) {
-  if (!scene.loads.empty()) {
+  if (!scene.loads.empty() && !cases::has_load_histories(scene)) {
     std::vector<Vector3d> force(here.nodes.size(), Vector3d::Zero());
     for (const auto& [node, value] : cases::applied_forces(scene))
       if (here.nodes.has(cases::index(node))) force[cases::index(node) - here.nodes.begin] += value;

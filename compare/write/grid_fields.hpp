@@ -12,9 +12,9 @@ namespace springproof::compare {
 ///             (logarithmic), strain_energy_density (N mm per mm³ at rest).
 /// Of both: difference (vector, springs less finite elements, mm), error (its length, mm), relative_error
 /// (over the finite elements' largest displacement) and von_mises_difference (MPa). Of the case:
-/// applied_force (N, at nodes, full load), material (number of the cell's [[region_material]], 0: the body's
-/// own). Stress, strain and reactions are there when the solutions have fields, stress and energy when their
-/// springs belong to cells.
+/// applied_force (N, at nodes, full load; not where a load follows a history), material (number of the cell's
+/// [[region_material]], 0: the body's own). Stress, strain and reactions are there when the solutions have
+/// fields, stress and energy when their springs belong to cells.
 ///
 /// Where ranks share the answers, of the nodes and cells that are here; the names are the same on every rank.
 /// Collective.

@@ -1,6 +1,7 @@
 #include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
+#include "cases/scene/histories.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -111,11 +112,11 @@ std::string with_bar(const std::optional<double>& value, const char* format,
   return number(value, format) + (bar ? fmt::format(" +- {:.2g}", *bar) : "");
 }
 
-/// The applied force as a whole, and the areas that loads and motions act on: a patch has those of its faces,
-/// not of its circle.
+/// The applied force as a whole, unless a load follows a history, and the areas that loads and motions act
+/// on: a patch has those of its faces, not of its circle.
 void write_loads(std::ostream& out, const cases::Scene& scene) {
   std::vector<std::string> all;
-  if (!scene.loads.empty()) {
+  if (!scene.loads.empty() && !cases::has_load_histories(scene)) {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     for (const auto& [node, of_node] : cases::applied_forces(scene)) force += of_node;
     all.push_back(fmt::format("applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z()));

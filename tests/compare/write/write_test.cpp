@@ -119,6 +119,23 @@ TEST_CASE("the text says what force is applied and on what area") {
   CHECK_THAT(out.str(), Catch::Contains("  applied force (0, 0.25, -4) N; load[0] on 1 mm2\n"));
 }
 
+TEST_CASE("forces that follow a history are not added up as if their factors were 1") {
+  compare::Comparison comparison = one_cell_comparison();
+  cases::Load load;
+  load.region.name = "z+";
+  load.kind = cases::LoadKind::traction;
+  load.value = {0, 0, -4};
+  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
+  load.history.points = {{0, 0}, {1, 0.5}};
+  comparison.scene.loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
+  std::ostringstream out, vtu;
+  compare::write_text(out, comparison);
+  CHECK_THAT(out.str(), !Catch::Contains("applied force"));
+  CHECK_THAT(out.str(), Catch::Contains("  load[0] on 1 mm2; load[1] on 1 mm2\n"));
+  compare::write_vtu(vtu, comparison);
+  CHECK(vtu.str().find("applied_force") == std::string::npos);
+}
+
 TEST_CASE("springs are lines with their stretch and tension, where they are ours") {
   compare::Comparison comparison = one_cell_comparison();
   CHECK_FALSE(compare::has_drawn_springs(comparison)); // nobody has designed them
