@@ -147,15 +147,17 @@ int run(const RunOptions& options) {
       throw cases::InputError(question.scene.definition.file +
                               ": --converge-time: the case has no [dynamics]");
   std::vector<Comparison> done;
-  std::vector<std::vector<TimeError>> time_studies; ///< as many, if asked for
+  std::vector<TimeStudy> time_studies; ///< as many, if asked for
   bool failed = false;
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
     failed = failed || !done.back().is_sound();
-    if (options.converges_time)
+    if (options.converges_time) {
       time_studies.push_back(study_time(done.back().scene, done.back().answers, question.request, solve_fem));
+      failed = failed || !time_studies.back().failures.empty();
+    }
     if (!options.json && mpi_rank() == 0) write_text(std::cout, done.back());
     if (!options.json && mpi_rank() == 0 && options.converges_time)
       write_time_study_text(std::cout, time_studies.back());

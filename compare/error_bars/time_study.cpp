@@ -1,5 +1,6 @@
 #include "compare/error_bars/time_study.hpp"
 
+#include "cases/scene/histories.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/provenance/print.hpp"
 #include "mechanics/dynamics/scheme.hpp"
@@ -19,13 +20,12 @@ cases::Scene with_half_the_step(cases::Scene scene) {
   return scene;
 }
 
-std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases::Scene& scene,
+std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases::Scene& scene, int order,
                                       const Answer& whole, const Answer& half) {
   if (!whole.converged() || !half.converged()) return std::nullopt;
   const auto value = value_of(measure, scene, whole.solution),
              with_half = value_of(measure, scene, half.solution);
   if (!value || !with_half) return std::nullopt;
-  const int order = mechanics::order_of(scene.definition.dynamics->scheme);
   const double extrapolated = *with_half + (*with_half - *value) / (std::pow(2, order) - 1);
   return HalvedStep{*value, *with_half, extrapolated,
                     error_percent(extrapolated, *value, zero_of(measure, scene, whole.solution))};
@@ -40,10 +40,19 @@ nlohmann::ordered_json halved_to_json(const std::optional<HalvedStep>& halved) {
                                                   : nlohmann::ordered_json()}};
 }
 
+std::vector<std::string> failures_of(const Answers& halves) {
+  std::vector<std::string> found;
+  for (const auto& [side, answer] : {std::pair("fem", &halves.fem), std::pair("msm", &halves.msm)})
+    if (const cases::Solution& solution = answer->solution; solution.status == cases::Status::failed)
+      found.push_back(fmt::format("{} with half the step, at {:.4g} of the time: {}", side,
+                                  solution.load_reached, solution.message));
+  return found;
+}
+
 } // namespace
 
-std::vector<TimeError> study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
-                                  SolveFem solve_fem) {
+TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
+                     SolveFem solve_fem) {
   if (!scene.definition.dynamics)
     throw cases::InputError(scene.definition.file +
                             ": --converge-time halves the steps of [dynamics], which is "
@@ -52,31 +61,40 @@ std::vector<TimeError> study_time(const cases::Scene& scene, const Answers& answ
   single.meshes = 0;
   single.peer.clear();
   const Answers halves = solve(with_half_the_step(scene), single, solve_fem);
-  std::vector<TimeError> study;
+  TimeStudy study;
+  study.has_jumps = cases::jumps_on_the_way(scene);
+  study.order = study.has_jumps ? 1 : mechanics::order_of(scene.definition.dynamics->scheme);
+  study.failures = failures_of(halves);
   for (const cases::Measure& measure : scene.definition.measures)
-    study.push_back({measure.name, unit_of(measure), halved_step(measure, scene, answers.fem, halves.fem),
-                     halved_step(measure, scene, answers.msm, halves.msm)});
+    study.errors.push_back({measure.name, unit_of(measure),
+                            halved_step(measure, scene, study.order, answers.fem, halves.fem),
+                            halved_step(measure, scene, study.order, answers.msm, halves.msm)});
   return study;
 }
 
-void write_time_study_text(std::ostream& out, const std::vector<TimeError>& study) {
+void write_time_study_text(std::ostream& out, const TimeStudy& study) {
   const auto text = [](const std::optional<HalvedStep>& halved) {
     return halved && halved->error_percent ? fmt::format("{:+.2g}", *halved->error_percent)
                                            : std::string("-");
   };
-  print(out, "  {:<24} {:>14} {:>14}\n", "error of the steps, %", "fem", "msm");
-  for (const TimeError& error : study)
+  print(out, "  {:<24} {:>14} {:>14}{}\n", "error of the steps, %", "fem", "msm",
+        study.has_jumps ? "   (order 1: a load jumps on the way)" : "");
+  for (const TimeError& error : study.errors)
     print(out, "  {:<24} {:>14} {:>14}\n", error.measure, text(error.fem), text(error.msm));
+  for (const std::string& failure : study.failures) print(out, "  FAILED: {}\n", failure);
 }
 
-nlohmann::ordered_json time_study_to_json(const std::vector<TimeError>& study) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const TimeError& error : study)
-    all.push_back({{"measure", error.measure},
-                   {"unit", error.unit},
-                   {"fem", halved_to_json(error.fem)},
-                   {"msm", halved_to_json(error.msm)}});
-  return all;
+nlohmann::ordered_json time_study_to_json(const TimeStudy& study) {
+  nlohmann::ordered_json measures = nlohmann::ordered_json::array();
+  for (const TimeError& error : study.errors)
+    measures.push_back({{"measure", error.measure},
+                        {"unit", error.unit},
+                        {"fem", halved_to_json(error.fem)},
+                        {"msm", halved_to_json(error.msm)}});
+  return {{"order", study.order},
+          {"load_jumps", study.has_jumps},
+          {"failures", study.failures},
+          {"measures", measures}};
 }
 
 } // namespace springproof::compare
