@@ -7,8 +7,8 @@
 #include "fem_reference/moving_equations.hpp"
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
+#include "tests/support/largest.hpp"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -77,7 +77,7 @@ cases::Solution equilibrium(cases::Scene scene) {
 
 double largest_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double largest = 0;
-  for (std::size_t p = 0; p < a.size(); ++p) largest = std::max(largest, (a[p] - b[p]).norm());
+  for (std::size_t p = 0; p < a.size(); ++p) largest = larger(largest, (a[p] - b[p]).norm());
   return largest;
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("damped finite elements come to rest in their static equilibrium", "[v
                                          Vector3d(1, 0, -1), steps(cases::Scheme::implicit_euler, 0.05, 10));
       const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
       double size = 0;
-      for (const Vector3d& u : still.displacement) size = std::max(size, u.norm());
+      for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
       CHECK(size > 0.1);
       CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
     }
@@ -144,7 +144,7 @@ TEST_CASE("finite elements that start in equilibrium stay where they are", "[ver
                 steps(cases::Scheme::newmark, 0.001, 0.02, cases::MotionStart::equilibrium));
     const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
     double size = 0;
-    for (const Vector3d& u : still.displacement) size = std::max(size, u.norm());
+    for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
     CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
   }
 }
@@ -156,7 +156,7 @@ TEST_CASE("finite elements follow a step far beyond their period to where static
                                        steps(cases::Scheme::implicit_euler, 1000, 3000));
     const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
     double size = 0;
-    for (const Vector3d& u : still.displacement) size = std::max(size, u.norm());
+    for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
     CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
   }
 }
@@ -291,7 +291,7 @@ TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark
   double largest = 0;
   for (int n = 1; n <= 10000; ++n) {
     integrator.advance(n * 0.001);
-    if (n % 100 == 0) largest = std::max(largest, std::abs(energy() / at_start - 1));
+    if (n % 100 == 0) largest = larger(largest, std::abs(energy() / at_start - 1));
   }
   CHECK(largest <= 1e-9);
 }

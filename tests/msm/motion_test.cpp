@@ -6,6 +6,7 @@
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -73,7 +74,7 @@ cases::Solution equilibrium(cases::Scene scene) {
 
 double largest_difference(const msm::Points& a, const msm::Points& b) {
   double largest = 0;
-  for (std::size_t p = 0; p < a.size(); ++p) largest = std::max(largest, (a[p] - b[p]).norm());
+  for (std::size_t p = 0; p < a.size(); ++p) largest = larger(largest, (a[p] - b[p]).norm());
   return largest;
 }
 

@@ -1,6 +1,7 @@
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "msm/model.hpp"
 #include "tests/msm/moving_bodies.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -29,8 +30,8 @@ msm::Points equilibrium(cases::Scene scene, const std::vector<msm::CellStiffness
 double difference(const msm::Points& a, const msm::Points& b) {
   double largest = 0, size = 0;
   for (std::size_t p = 0; p < a.size(); ++p) {
-    largest = std::max(largest, (a[p] - b[p]).norm());
-    size = std::max(size, b[p].norm());
+    largest = larger(largest, (a[p] - b[p]).norm());
+    size = larger(size, b[p].norm());
   }
   return largest / size;
 }

@@ -5,6 +5,7 @@
 #include "msm/direct/moving_lattice.hpp"
 #include "msm/motion.hpp"
 #include "tests/msm/moving_bodies.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -28,8 +29,8 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   for (std::size_t s = 0; s < a.trajectory->bodies.size(); ++s) {
     const auto &of_a = a.trajectory->bodies[s].displacement, &of_b = b.trajectory->bodies[s].displacement;
     for (std::size_t p = 0; p < of_a.size(); ++p) {
-      largest = std::max(largest, (of_a[p] - of_b[p]).norm());
-      size = std::max(size, of_a[p].norm());
+      largest = larger(largest, (of_a[p] - of_b[p]).norm());
+      size = larger(size, of_a[p].norm());
     }
   }
   CHECK(size > 0.01); // mm: it moves
@@ -100,8 +101,8 @@ TEST_CASE("a motion on a grid starts in the equilibrium of its loads") {
   const auto& bodies = motion.trajectory->bodies;
   double largest = 0, moved = 0;
   for (std::size_t p = 0; p < bodies.front().displacement.size(); ++p) {
-    largest = std::max(largest, bodies.front().displacement[p].norm());
-    moved = std::max(moved, (bodies.back().displacement[p] - bodies.front().displacement[p]).norm());
+    largest = larger(largest, bodies.front().displacement[p].norm());
+    moved = larger(moved, (bodies.back().displacement[p] - bodies.front().displacement[p]).norm());
   }
   CHECK(largest > 0.01);
   CHECK(moved <= 1e-6 * largest);
