@@ -1,13 +1,10 @@
 #include "compare/interact/replay.hpp"
 
-#include "compare/interact/recording.hpp"
+#include "compare/interact/read_recording.hpp"
 #include "compare/measure/landmarks.hpp"
 #include "mechanics/surface/patch.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace springproof::compare {
 
@@ -15,79 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t most_holds = 10'000, most_loaded = 1'000'000; ///< places, and their nodes in all
-
-struct PullRow {
-  long step;
-  Vector3d centre; ///< mm
-  double radius;   ///< mm
-  Vector3d force;  ///< N
-};
-
-/// A place that was held, from its first step on, one force (N) a step.
-struct Hold {
-  Vector3d centre;
-  double radius;
-  long first_step;
-  std::vector<Vector3d> force;
-};
-
-std::vector<double> nine_numbers(const std::string& line) {
-  constexpr double largest = 1e9;
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    double value = 0;
-    const auto [stop, error] = std::from_chars(line.data() + begin, line.data() + end, value);
-    if (error != std::errc() || stop != line.data() + end || !(std::abs(value) <= largest)) return {};
-    numbers.push_back(value);
-    begin = end + 1;
-  }
-  return numbers.size() == 9 ? numbers : std::vector<double>{};
-}
-
-std::vector<PullRow> rows_of(const std::string& text, const std::string& path, double step) {
-  std::istringstream stream(text);
-  std::vector<PullRow> rows;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    const auto refuse = [&](const std::string& problem) {
-      throw cases::InputError(fmt::format("{}:{}: {}", path, number, problem));
-    };
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (++number == 1) {
-      if (line != recording_header) refuse("must be the header " + recording_header);
-      continue;
-    }
-    if (line.empty()) continue;
-    const std::vector<double> n = nine_numbers(line);
-    if (n.empty()) refuse(fmt::format("must be nine numbers up to 1e9 between commas: {}", recording_header));
-    const bool is_next =
-        n[0] == std::floor(n[0]) && n[0] > (rows.empty() ? 0 : static_cast<double>(rows.back().step));
-    if (!is_next) refuse("step must be a whole number above 0 and above that of the line before");
-    if (!(std::abs(n[1] - n[0] * step) <= 1e-6 * n[1]))
-      refuse(fmt::format("time is {:.10g} s, must be {:.10g} s at step {:.0f} of dynamics.step = {:.10g} s",
-                         n[1], n[0] * step, n[0], step));
-    if (!(n[5] >= 0)) refuse("radius must be 0 or above (mm)");
-    if (rows.size() == most_recorded)
-      refuse(fmt::format("a recording may have {} steps with a pull", most_recorded));
-    rows.push_back({static_cast<long>(n[0]), {n[2], n[3], n[4]}, n[5], {n[6], n[7], n[8]}});
-  }
-  if (rows.empty()) throw cases::InputError(path + ": has no pull");
-  return rows;
-}
-
-std::vector<Hold> holds_of(const std::vector<PullRow>& rows) {
-  std::vector<Hold> holds;
-  for (const PullRow& row : rows) {
-    const bool goes_on = !holds.empty() && holds.back().centre == row.centre &&
-                         holds.back().radius == row.radius &&
-                         row.step == holds.back().first_step + static_cast<long>(holds.back().force.size());
-    if (!goes_on) holds.push_back({row.centre, row.radius, row.step, {}});
-    holds.back().force.push_back(row.force);
-  }
-  return holds;
-}
+constexpr std::size_t most_loaded = 1'000'000; ///< nodes of all places
 
 /// A component of a hold's force, N: constant in each step, with jumps just after the steps' ends, which some
 /// schemes look at.
@@ -109,14 +34,7 @@ cases::History history_of(const Hold& hold, int axis, double step) {
 cases::Scene with_recording(cases::Scene scene, const std::string& text, const std::string& path) {
   const auto& dynamics = scene.definition.dynamics;
   if (!dynamics) throw cases::InputError(scene.definition.file + ": has no [dynamics] to replay pulls in");
-  const std::vector<PullRow> rows = rows_of(text, path, dynamics->step);
-  if (const double last = static_cast<double>(rows.back().step) * dynamics->step;
-      last > dynamics->end * (1 + 1e-9))
-    throw cases::InputError(fmt::format(
-        "{}: ends at {:.10g} s: dynamics.end is {:.10g} s, must not be before", path, last, dynamics->end));
-  const std::vector<Hold> holds = holds_of(rows);
-  if (holds.size() > most_holds)
-    throw cases::InputError(fmt::format("{}: has {} places, may have {}", path, holds.size(), most_holds));
+  const std::vector<Hold> holds = read_recording(text, path, dynamics->step, dynamics->end);
   const mechanics::EmbeddedSurface surface = embedded_surface(scene);
   // A load of the case on a plane of symmetry is the whole body's; a pull is of the part that was pulled.
   const auto share = cases::modelled_share(scene);

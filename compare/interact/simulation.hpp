@@ -2,6 +2,7 @@
 
 #include "compare/interact/messages.hpp"
 #include "compare/interact/pulled_body.hpp"
+#include "compare/interact/read_recording.hpp"
 
 #include <atomic>
 #include <condition_variable>
@@ -17,8 +18,6 @@ struct RecordedPull {
   int vertex;            ///< of the surface
   Eigen::Vector3d force; ///< N
 };
-
-constexpr std::size_t most_recorded = 200'000; ///< steps with a pull, and those of a replay
 
 struct SimulationSummary {
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull

@@ -1,7 +1,8 @@
-// The readers of comma-separated values as a target for libFuzzer: displacements, measured curves and spring
-// networks.
+// The readers of comma-separated values as a target for libFuzzer: displacements, measured curves, spring
+// networks and recordings of pulls.
 
 #include "cases/scene/network.hpp"
+#include "compare/interact/read_recording.hpp"
 #include "msm/design/uniaxial.hpp"
 #include "tests/fuzz/displacements.hpp"
 
@@ -32,6 +33,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       PROMISE(std::isfinite(spring.stiffness) && spring.stiffness >= 0); // what is below 1e-308 is 0
       PROMISE(!spring.rest_length || (std::isfinite(*spring.rest_length) && *spring.rest_length > 0));
       PROMISE(!spring.exponent || std::abs(*spring.exponent) <= 20);
+    }
+  } catch (const cases::InputError&) {
+    // the same
+  }
+  try {
+    constexpr double step = 0.01, end = 10;
+    long last = 0;
+    for (const compare::Hold& hold :
+         compare::read_recording({reinterpret_cast<const char*>(bytes), size}, "pulls", step, end)) {
+      PROMISE(hold.centre.allFinite() && hold.radius >= 0 && !hold.force.empty());
+      for (const Eigen::Vector3d& force : hold.force) PROMISE(force.allFinite());
+      PROMISE(hold.first_step > last);
+      last = hold.first_step + static_cast<long>(hold.force.size()) - 1;
+      PROMISE(static_cast<double>(last) * step <= end * (1 + 1e-9));
     }
   } catch (const cases::InputError&) {
     // the same

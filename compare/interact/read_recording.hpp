@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace springproof::compare {
+
+/// Of a recording of pulls: a row per step in which something was pulled. The step is counted from 1, its end
+/// is at the time (s); the place is the part of the surface within a sphere, of which are told the centre and
+/// the radius at rest (mm); the force in N.
+inline const std::string recording_header = "step,time,x,y,z,radius,fx,fy,fz";
+constexpr std::size_t most_recorded = 200'000; ///< steps with a pull
+
+/// A place that was held, from its first step on, one force (N) a step.
+struct Hold {
+  Eigen::Vector3d centre; ///< mm
+  double radius;          ///< mm
+  long first_step;
+  std::vector<Eigen::Vector3d> force;
+};
+
+/// @param text  CSV     @param path  for messages     @param step, end  of the case, s
+/// @return at least one, in the order of their steps
+/// @throws cases::InputError with the line, when it is no recording of the case's step, or ends after the
+/// case
+std::vector<Hold> read_recording(const std::string& text, const std::string& path, double step, double end);
+
+} // namespace springproof::compare
