@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/solution.hpp"
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/lattice.hpp"
 

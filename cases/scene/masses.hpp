@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 
 /// What has mass in a scene: kg/m³, kg and m/s² of the case become t/mm³, t and mm/s² here, and nowhere else.
 namespace springproof::cases {

@@ -5,6 +5,7 @@
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/cut.hpp"
+#include "cases/scene/loads.hpp"
 #include "cases/scene/regions.hpp"
 #include "cases/scene/surface.hpp"
 
@@ -65,58 +66,6 @@ void resolve_materials(Scene& scene) {
                        region.group.empty()
                            ? "no cell has its centre in the box"
                            : fmt::format("'{}' is no group of cells of this body", region.group));
-  }
-}
-
-/// Calls action(face, point, shape values, area weight) at the 2x2 Gauss points of the bilinear faces of a
-/// selection; exact for what is at most cubic in each direction: shape functions times a linear traction on a
-/// planar face.
-template<class Action>
-void integrate(const HexMesh& mesh, const Selection& selection, const Action& action) {
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-  for (const auto& face : selection.faces)
-    for (double s : gauss)
-      for (double t : gauss) {
-        const auto vertex = [&](std::size_t v) -> Vector3d { return mesh.nodes[index(face[v])]; };
-        const std::array<double, 4> shape{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
-        const Vector3d along_s = (1 - t) * (vertex(1) - vertex(0)) + t * (vertex(2) - vertex(3));
-        const Vector3d along_t = (1 - s) * (vertex(3) - vertex(0)) + s * (vertex(2) - vertex(1));
-        Vector3d point = Vector3d::Zero();
-        for (std::size_t v = 0; v < 4; ++v) point += shape[v] * vertex(v);
-        action(face, point, shape, along_s.cross(along_t).norm() / 4);
-      }
-}
-
-/// Forces on the nodes of loads' regions, which add up.
-class Forces {
- public:
-  explicit Forces(const std::vector<Scene::AppliedLoad>& loads) {
-    std::vector<int> nodes;
-    for (const Scene::AppliedLoad& applied : loads) {
-      const Selection& selection = applied.selection;
-      nodes.insert(nodes.end(), selection.nodes.begin(), selection.nodes.end());
-      for (const auto& face : selection.faces) nodes.insert(nodes.end(), face.begin(), face.end());
-    }
-    make_set(nodes);
-    for (const int node : nodes) forces.push_back({node, Vector3d::Zero()});
-  }
-  void add(int node, const Vector3d& force) {
-    const auto is_before = [](const NodeVector& at, int number) { return at.node < number; };
-    std::lower_bound(forces.begin(), forces.end(), node, is_before)->value += force;
-  }
-  std::vector<NodeVector> forces;
-};
-
-void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads, Forces& forces) {
-  const auto share = modelled_share(scene);
-  for (const auto& [selection, load, part] : loads) {
-    if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
-    double divisor = load.kind == LoadKind::total_force ? 0 : 1;
-    if (divisor == 0)
-      for (int node : selection.nodes) divisor += share(node);
-    for (std::size_t n = 0; n < selection.nodes.size(); ++n)
-      forces.add(selection.nodes[n],
-                 load.value * (share(selection.nodes[n]) * (part.empty() ? 1 : part[n]) / divisor));
   }
 }
 
@@ -395,77 +344,6 @@ std::vector<bool> constrained_dofs(const Scene& scene) {
       for (std::size_t a = 0; a < 3; ++a)
         if (fixed.components[a]) is_constrained[3 * index(node) + a] = true;
   return is_constrained;
-}
-
-std::function<double(int node)> modelled_share(const Scene& scene) {
-  std::vector<std::vector<int>> planes;
-  for (const Fixed& plane : scene.definition.symmetry)
-    planes.push_back(sorted(select(scene.mesh, plane.region).nodes));
-  return [planes](int node) {
-    double share = 1;
-    for (const std::vector<int>& nodes : planes)
-      if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
-    return share;
-  };
-}
-
-std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
-  Forces all(scene.loads);
-  add_point_forces(scene, scene.loads, all);
-  return all.forces;
-}
-
-Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& point, double polar_moment) {
-  if (applied.load.kind == LoadKind::traction) return applied.load.value;
-  return applied.load.moment / polar_moment * applied.load.axis.cross(point - applied.load.centre);
-}
-
-double area(const HexMesh& mesh, const Selection& selection) {
-  double sum = 0;
-  integrate(mesh, selection,
-            [&](const auto&, const Vector3d&, const auto&, double weight) { sum += weight; });
-  return sum;
-}
-
-double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {
-  double moment = 0;
-  integrate(mesh, applied.selection, [&](const auto&, const Vector3d& point, const auto&, double weight) {
-    moment += weight * applied.load.axis.cross(point - applied.load.centre).squaredNorm();
-  });
-  return moment;
-}
-
-std::vector<NodeVector> loaded_nodes(const Scene& scene) {
-  return loaded_nodes(scene, scene.loads);
-}
-
-std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads) {
-  Forces all(loads);
-  add_point_forces(scene, loads, all);
-  for (const Scene::AppliedLoad& applied : loads) {
-    if (!acts_on_area(applied.load.kind)) continue;
-    const double moment = applied.load.kind == LoadKind::torque ? polar_moment(scene.mesh, applied) : 0;
-    integrate(scene.mesh, applied.selection,
-              [&](const auto& face, const Vector3d& point, const auto& shape, double weight) {
-                const Vector3d force = weight * surface_traction(applied, point, moment);
-                for (std::size_t v = 0; v < 4; ++v) all.add(face[v], shape[v] * force);
-              });
-  }
-  return all.forces;
-}
-
-std::vector<Vector3d> on_all_nodes(const std::vector<NodeVector>& some, std::size_t n) {
-  std::vector<Vector3d> all(n, Vector3d::Zero());
-  for (const auto& [node, value] : some) all[index(node)] = value;
-  return all;
-}
-
-std::vector<Vector3d> nodal_forces(const Scene& scene) {
-  return on_all_nodes(loaded_nodes(scene), scene.mesh.nodes.size());
-}
-
-std::vector<Vector3d> point_forces(const Scene& scene) {
-  return on_all_nodes(nodes_with_point_forces(scene), scene.mesh.nodes.size());
 }
 
 } // namespace springproof::cases

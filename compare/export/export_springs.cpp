@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/installation.hpp"
+#include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"

@@ -1,5 +1,6 @@
 #include "compare/interact/replay.hpp"
 
+#include "cases/scene/loads.hpp"
 #include "compare/interact/read_recording.hpp"
 #include "compare/measure/landmarks.hpp"
 #include "mechanics/surface/patch.hpp"

@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/scene/histories.hpp"
+#include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <array>
 

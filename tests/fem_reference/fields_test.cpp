@@ -1,5 +1,6 @@
 #include "fem_reference/element_fields.hpp"
 
+#include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"

@@ -1,6 +1,6 @@
 #include "cases/mesh/read_mesh.hpp"
 
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cases/scene/scene.hpp"
+
+#include <functional>
+
+/// Loads of a scene as forces on its nodes.
+namespace springproof::cases {
+
+/// Part of a node's load or added mass that the modelled part of a symmetric scene carries, as a function of
+/// the node: halved by each symmetry plane through it.
+std::function<double(int node)> modelled_share(const Scene& scene);
+
+/// A force (N) or a displacement (mm) of one node.
+struct NodeVector {
+  int node;
+  Eigen::Vector3d value;
+};
+
+/// All loads as forces on the nodes that loads act on, N, in ascending order: point forces as they are (a
+/// node on symmetry planes carries the modelled part alone: half, a quarter, an eighth), tractions and
+/// torques integrated with bilinear shape functions on the rest faces. Gravity is none of them: models have
+/// masses of their own.
+std::vector<NodeVector> loaded_nodes(const Scene& scene);
+/// The same of some of the scene's loads alone.
+std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads);
+
+/// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.
+double area(const HexMesh& mesh, const Selection& selection);
+
+/// The point forces (nodal_force, total_force) alone.
+std::vector<NodeVector> nodes_with_point_forces(const Scene& scene);
+
+/// One vector for each of n nodes, zero where there is none.
+std::vector<Eigen::Vector3d> on_all_nodes(const std::vector<NodeVector>& some, std::size_t n);
+
+/// The same for all nodes of the mesh.
+std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
+std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
+
+/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest.
+/// @param polar_moment  of the region's faces about a torque's axis: see polar_moment()
+Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point,
+                                 double polar_moment);
+
+/// Integral of r² over the load's rest faces (mm⁴), r the distance from the torque's axis, exact for bilinear
+/// planar faces.
+double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied);
+
+} // namespace springproof::cases
