@@ -99,7 +99,7 @@ void Simulation::run() {
   const auto length = std::chrono::duration_cast<SteadyClock::duration>(
       std::chrono::duration<double>(scene_.definition.dynamics->step));
   constexpr auto most_behind =
-      std::chrono::milliseconds(100); // what is slower than that is not caught up with
+      std::chrono::milliseconds(250); // what is slower than that is not caught up with
   auto due = SteadyClock::now(), second = due;
   long steps_at_second = 0;
   for (std::vector<PageMessage> messages;;) {

@@ -52,7 +52,8 @@ void write_script(std::ostream& out, const std::string& name, const std::string&
 /// @param part  ending of the pictures' names
 void run_gnuplot(const std::string& folder, const std::string& name, const std::string& part) {
   const std::string script = name + ".gp";
-  const auto end = call_program({{"gnuplot", "-d", "-e", "part = " + literal(part), "./" + script}, folder, {}});
+  const auto end =
+      call_program({{"gnuplot", "-d", "-e", "part = " + literal(part), "./" + script}, folder, {}});
   if (!end) throw cases::InputError("gnuplot, which draws the figures, is not installed");
   if (end->status != 0)
     throw cases::InputError(fmt::format("{}/{}: gnuplot failed: {}", folder, script, end->said));

@@ -9,14 +9,14 @@ namespace springproof::compare {
 namespace {
 
 std::string cell_text(const msm::CellTerms& terms) {
-  const std::array<std::string, 3> kinds{"edges", "face diagonals", "internal diagonals"};
+  const std::array<std::string, 3> kind_names{"edges", "face diagonals", "internal diagonals"};
   std::map<std::pair<int, std::string>, int> n_of; // springs of one kind and stiffness, as printed
   std::vector<std::string> parts;
   for (const msm::CellSpring& spring : terms.springs)
     ++n_of[{msm::n_axes(spring), fmt::format("{:.4g} N/m", 1e3 * spring.stiffness)}];
   for (const auto& [spring, n] : n_of)
     parts.push_back(
-        fmt::format("{} {} of {}", n, kinds[static_cast<std::size_t>(spring.first - 1)], spring.second));
+        fmt::format("{} {} of {}", n, kind_names[static_cast<std::size_t>(spring.first - 1)], spring.second));
   if (!terms.tetrahedra.empty())
     parts.push_back(fmt::format("{} tetrahedra of biquadratic springs", terms.tetrahedra.size()));
   if (terms.volume != 0) parts.push_back(fmt::format("k_v = {:.4g} MPa", terms.volume));

@@ -38,7 +38,7 @@ ScaledDisplacement scaled(const Vector3d& point, const Vector3d& normal, double 
 TEST_CASE("a scaled displacement is none up to the zone, whole beyond it, and linear between") {
   Moved motion;
   motion.displacement = {-3, 0, 1};
-  motion.scaled = scaled({0, 0, 2}, {0, 0, 1}, 4);
+  motion.scaled.emplace(scaled({0, 0, 2}, {0, 0, 1}, 4));
   CHECK(moved_by(motion, {7, 8, -5}, 1) == Vector3d(0, 0, 0));
   CHECK(moved_by(motion, {7, 8, 2}, 1) == Vector3d(0, 0, 0));
   CHECK(moved_by(motion, {7, 8, 3}, 1) == 0.25 * motion.displacement);
