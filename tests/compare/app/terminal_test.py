@@ -37,7 +37,7 @@ assert coloured.replace("\033[32m", "").replace("\033[0m", "") == piped, coloure
 assert on_a_terminal(GATE, NO_COLOR="1")[1] == piped == on_a_terminal(GATE, TERM="dumb")[1]
 assert "\033" not in piped
 cube = f"{SOURCE}/cases/thesis/linear_elastic/cube_shear_small.toml"
-status, coloured, _ = on_a_terminal(["run", "--only", "msm", "--set", "measure[0].toward='y'", cube])
+status, coloured, _ = on_a_terminal(["run", "--set", "measure[0].toward='y'", cube])
 assert "\033[31mMISSED\033[0m" in coloured, coloured
 assert "\033" not in on_a_terminal(["run", "--only", "msm", "--json", cube])[1]
 

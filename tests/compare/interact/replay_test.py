@@ -19,7 +19,7 @@ def write_case(source, folder):
                        for i, (x, y, z) in enumerate(CORNERS) for axis in "xyz")
     text = source.read_text().replace("end = 1", "end = 0.3\nwrite_every = 1").replace("[[measure]]", '[surface]\nfile = "top.stl"\n\n[[measure]]')
     (folder / "case.toml").write_text(text + measures)
-    rows = [f"{step},{step * 0.01:.17g},0,0,60,3,{0.02 * step:.17g},0,{0.01 * math.sin(step):.17g}" for step in range(3, 26)]
+    rows = [f"{step},{step * 0.01:.17g},0,0,60,3,{0.002 * step:.17g},0,{0.001 * math.sin(step):.17g}" for step in range(3, 26)]
     (folder / "pulls.csv").write_text("step,time,x,y,z,radius,fx,fy,fz\n" + "\n".join(rows) + "\n")
 
 
