@@ -315,12 +315,11 @@ double zero_of_displacements(const cases::Scene& scene, const cases::Solution& s
   const auto largest_of = [&](const std::vector<Vector3d>& field, const cases::Sharing* sharing) {
     return field_norm(MeasureKind::displacement_field_max, scene.mesh, field, sharing);
   };
-  double largest = largest_of(solution.displacement, solution.sharing.get());
-  if (const auto& motion = solution.trajectory) { // which every rank has as a whole
-    largest = mechanics::larger(largest, largest_of(motion->displacement, nullptr));
-    for (const auto& body : motion->bodies)
-      largest = mechanics::larger(largest, largest_of(body.displacement, nullptr));
-  }
+  const auto& motion = solution.trajectory; // every rank has all of it, and its end is one of its bodies
+  if (!motion) return relative_zero * largest_of(solution.displacement, solution.sharing.get());
+  double largest = largest_of(motion->displacement, nullptr);
+  for (const auto& body : motion->bodies)
+    largest = mechanics::larger(largest, largest_of(body.displacement, nullptr));
   return relative_zero * largest;
 }
 
