@@ -128,7 +128,7 @@ void add_interact_command(CLI::App& program, Action& chosen) {
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command->add_option("--stiffness", options->stiffness, "of the spring that pulls, N/m, at most")
+  command->add_option("--stiffness", options->stiffness, "of the spring that pulls, N/m")
       ->check(CLI::Range(1e-6, 1e9))
       ->capture_default_str();
   command->add_option("--spheres", options->n_spheres, "that cover the surface, to take hold of")
