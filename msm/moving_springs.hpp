@@ -64,12 +64,14 @@ class MovingSprings : public mechanics::DynamicProblem {
   void external_force(double time, Vector& force) override;
   /// Takes hold of the body, until let_go().
   Pull& hold(Pull pull) {
-    has_pull_changed(); // what is known of the one before
-    return pull_.emplace(std::move(pull));
+    pull_.emplace(std::move(pull));
+    has_pull_changed();
+    return *pull_;
   }
   void let_go() {
-    if (pull_) has_pull_changed();
+    if (!pull_) return;
     pull_.reset();
+    has_pull_changed();
   }
   /// Residuals are relative to what has pulled in any step, too: of that a step tells where it has ended,
   /// none forgets all. (Before its end a stiff spring has forces that mean nothing.)
@@ -115,6 +117,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   const Entries& entries() const { return entries_; }
   const mechanics::StepTerms& terms() const { return *terms_; }
   const std::optional<Pull>& pull() const { return pull_; }
+  /// What was known of the one before is no longer so.
   virtual void has_pull_changed() {}
   /// Of mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }

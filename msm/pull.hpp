@@ -9,6 +9,8 @@
 namespace springproof::msm {
 
 using mechanics::Vector;
+template<class Real>
+using VectorIn = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
 /// A spring between a place of a body and one outside of it: force = stiffness (target - place(u)), on the
 /// nodes that the place is a weighted mean of, by their weights. Displacements are vectors of a motion.
@@ -29,7 +31,8 @@ class Pull {
 
   double stiffness() const { return stiffness_; }
   /// Displacement of the place, mm.
-  Eigen::Vector3d place(const Vector& displacement) const;
+  template<class Real>
+  Eigen::Vector3d place(const VectorIn<Real>& displacement) const;
   Eigen::Vector3d force(const Vector& displacement) const {
     return stiffness_ * (target_ - place(displacement));
   }
@@ -43,10 +46,16 @@ class Pull {
   /// Norm of these forces, N.
   double size(const Vector& displacement) const;
   /// Its tangent, of rank three: to += stiffness weights (weights . direction).
-  void add_product(const Vector& direction, Vector& to) const { add(stiffness_ * place(direction), to); }
+  template<class Real>
+  void add_product(const VectorIn<Real>& direction, VectorIn<Real>& to) const {
+    add(stiffness_ * place(direction), to);
+  }
 
   /// to += force on free degrees of freedom, by the weights.
-  void add(const Eigen::Vector3d& force, Vector& to) const;
+  template<class Real>
+  void add(const Eigen::Vector3d& force, VectorIn<Real>& to) const;
+
+  const Entries& entries() const { return entries_; }
 
  private:
   Entries entries_;
@@ -57,22 +66,23 @@ class Pull {
 /// The inverse of a matrix with the tangent of a pull added, from the inverse without it (Woodbury's
 /// formula):
 ///   (A + k W W^T)^-1 r = z - Y (1/k + W^T Y)^-1 W^T z,  z = A^-1 r,  Y = A^-1 W.
+template<class Real>
 class WithPull {
  public:
   /// @param invert  (right side, solution) by A, which is symmetric and positive definite
   /// @param size    of a vector
   void prepare(const Pull& pull, Eigen::Index size,
-               const std::function<void(const Vector&, Vector&)>& invert);
+               const std::function<void(const VectorIn<Real>&, VectorIn<Real>&)>& invert);
   /// Whether the pull makes its place more than twice as stiff; what it does else, conjugate gradients find.
   bool matters() const { return matters_; }
   /// @param solution  by A, becomes that with the pull
-  void correct(const Pull& pull, Vector& solution) const;
+  void correct(const Pull& pull, VectorIn<Real>& solution) const;
 
  private:
-  std::array<Vector, 3> columns_;                     ///< Y
+  std::array<VectorIn<Real>, 3> columns_;             ///< Y
   Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero(); ///< of 1/k + W^T Y
   bool matters_ = false;
-  Vector unit_;
+  VectorIn<Real> unit_;
 };
 
 } // namespace springproof::msm

@@ -7,28 +7,31 @@
 namespace springproof::mechanics::grid {
 
 /// What an iterative linear solver found.
-struct LinearSolution {
-  Field<double> solution;
+template<class Real>
+struct LinearSolutionIn {
+  Field<Real> solution;
   int iterations = 0;
   bool converged = false;
   bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
-  Field<double> direction{};           ///< that has met it
+  Field<Real> direction{};             ///< that has met it
 };
+using LinearSolution = LinearSolutionIn<double>;
 
 /// Fields of conjugate gradients, kept from one solution to the next: nothing is allocated then.
+template<class Real>
 struct KeptFields {
-  Field<double> residual, preconditioned, product, direction;
+  Field<Real> residual, preconditioned, product, direction;
 };
 
 /// Preconditioned conjugate gradients for operator * solution = right_side, until the residual is at most
 /// `target`. The preconditioner is symmetric but for the rounding of single precision; Polak and Ribiere's
 /// formula does not mind.
 /// @param apply, precondition  (in, out)
-/// @param dot                  (a, b), over the nodes of the whole grid
-template<class Operator, class Preconditioner, class Dot>
+/// @param dot                  (a, b), over the nodes of the whole grid, in double precision
+template<class Real, class Operator, class Preconditioner, class Dot>
 void conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
-                         const Field<double>& right_side, double target, int max_iterations, const Dot& dot,
-                         int n_threads, KeptFields& kept, LinearSolution& result) {
+                         const Field<Real>& right_side, double target, int max_iterations, const Dot& dot,
+                         int n_threads, KeptFields<Real>& kept, LinearSolutionIn<Real>& result) {
   const std::ptrdiff_t n = right_side.size();
   result.iterations = 0;
   result.met_negative_curvature = false;
@@ -36,10 +39,10 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
   result.converged = dot(right_side, right_side) <= target * target;
   if (result.converged) return;
   // Lambdas capture these, not bindings (clang 14).
-  Field<double>&residual = kept.residual, &preconditioned = kept.preconditioned, &product = kept.product,
+  Field<Real>&residual = kept.residual, &preconditioned = kept.preconditioned, &product = kept.product,
   &direction = kept.direction;
   residual = right_side;
-  for (Field<double>* field : {&preconditioned, &product})
+  for (Field<Real>* field : {&preconditioned, &product})
     if (field->size() != n) field->setZero(n);
   precondition(residual, preconditioned);
   direction = preconditioned;
@@ -52,8 +55,8 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
     if (result.met_negative_curvature) result.direction = direction;
     if (!(curvature > 0) || !(slope > 0)) return;
     const double length = slope / curvature;
-    add(result.solution, length, direction, n_threads);
-    add(residual, -length, product, n_threads);
+    add(result.solution, static_cast<Real>(length), direction, n_threads);
+    add(residual, static_cast<Real>(-length), product, n_threads);
     result.converged = dot(residual, residual) <= target * target;
     if (result.converged) return;
     const double crossed = dot(residual, preconditioned);
@@ -61,7 +64,8 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
     const double now = dot(residual, preconditioned), keep = (now - crossed) / slope;
     slope = now;
     for_each_piece(n, n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t length_) {
-      scale_and_add(direction.data() + first, keep, preconditioned.data() + first, length_);
+      scale_and_add(direction.data() + first, static_cast<Real>(keep), preconditioned.data() + first,
+                    length_);
     });
   }
 }
@@ -70,7 +74,7 @@ template<class Operator, class Preconditioner, class Dot>
 LinearSolution conjugate_gradients(const Operator& apply, const Preconditioner& precondition,
                                    const Field<double>& right_side, double target, int max_iterations,
                                    const Dot& dot, int n_threads) {
-  KeptFields kept;
+  KeptFields<double> kept;
   LinearSolution result;
   conjugate_gradients(apply, precondition, right_side, target, max_iterations, dot, n_threads, kept, result);
   return result;

@@ -30,6 +30,10 @@ SPRINGPROOF_CLONES void scale_and_add(double* __restrict a, double factor, const
                                       std::ptrdiff_t n) {
   for (std::ptrdiff_t i = 0; i < n; ++i) a[i] = b[i] + factor * a[i];
 }
+SPRINGPROOF_CLONES void scale_and_add(float* __restrict a, float factor, const float* __restrict b,
+                                      std::ptrdiff_t n) {
+  for (std::ptrdiff_t i = 0; i < n; ++i) a[i] = b[i] + factor * a[i];
+}
 
 SPRINGPROOF_CLONES double dot(const double* __restrict a, const double* __restrict b, std::ptrdiff_t n) {
   constexpr int lanes = 16; // sums of their own: packs of any width add the same way

@@ -16,6 +16,7 @@ void add_product(float* a, const float* b, const float* c, std::ptrdiff_t n);
 
 /// a = b + factor * a
 void scale_and_add(double* a, double factor, const double* b, std::ptrdiff_t n);
+void scale_and_add(float* a, float factor, const float* b, std::ptrdiff_t n);
 
 double dot(const double* a, const double* b, std::ptrdiff_t n);
 

@@ -112,7 +112,7 @@ class MovingLattice : public MovingSprings {
   Matrix damping_;                  ///< by stiffness, of all entries of a vector
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
   Factorisation factorisation_;
-  WithPull with_pull_;
+  WithPull<double> with_pull_;
 
   double reaction(const Vector& at) override { return springs_.reaction(at); }
   bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }

@@ -2,6 +2,7 @@
 
 #include "mechanics/grid/conjugate_gradients.hpp"
 #include "msm/grid/held_factor.hpp"
+#include "msm/grid/real_time_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ class MovingGrid : public MovingSprings {
   void set_step(const mechanics::StepTerms& terms) override {
     MovingSprings::set_step(terms);
     linear_iterations_ = 0;
-    is_prepared_ = false;
+    is_prepared_ = is_set_ = false;
     n_alike_ = last_.are_of(terms) ? n_alike_ + 1 : 1;
     last_ = {terms.mass, terms.damping};
     if (of_factor_ && of_factor_->are_of(terms)) ++n_with_factor_;
@@ -123,6 +124,7 @@ class MovingGrid : public MovingSprings {
   void has_pull_changed() override {
     factor_with_pull_.reset();
     cycle_with_pull_.reset();
+    if (real_time_) real_time_->set_pull(pull());
   }
 
  private:
@@ -141,7 +143,7 @@ class MovingGrid : public MovingSprings {
   Field<double> rest_;
   Vector damped_;
   Field<double> at_, in_, out_; ///< room for vectors as fields
-  mechanics::grid::KeptFields kept_;
+  mechanics::grid::KeptFields<double> kept_;
   mechanics::grid::LinearSolution found_;
   int linear_iterations_ = 0; ///< in this step
 
@@ -155,13 +157,16 @@ class MovingGrid : public MovingSprings {
   std::deque<Body> bodies_;            ///< of the cycle
   std::optional<Multigrid> multigrid_; ///< of bodies_, and of these:
   Factors of_multigrid_;
+  double scale_ = 1;                        ///< of the cycle
+  std::optional<RealTimeSolver> real_time_; ///< of the same
+  bool is_set_ = false;                     ///< it knows this step
   double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
   bool is_slow_ = true;       ///< it is to be prepared
   bool has_failed_ = false;
   bool is_prepared_ = false; ///< in this step
 
   /// Preconditioners with what pulls, where they are known for it.
-  std::optional<WithPull> factor_with_pull_, cycle_with_pull_;
+  std::optional<WithPull<double>> factor_with_pull_, cycle_with_pull_;
 
   void spring_residual(const Vector& at, mechanics::Expect expect, Vector& residual) override {
     const Field<double>& place = vectors_.to_field(at, at_);
@@ -193,11 +198,13 @@ class MovingGrid : public MovingSprings {
     add_damping(terms().damping, v, product);
   }
 
-  /// @param precondition  for multiply()     @param with_pull  the same with what pulls, where it is known
+  /// @param precondition  for multiply() times `scale`
+  /// @param with_pull     the same with what pulls, where it is known
   void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations,
-             const std::function<void(const Vector&, Vector&)>& precondition,
-             std::optional<WithPull>& with_pull) {
-    if (pull() && !with_pull) with_pull.emplace().prepare(*pull(), at.size(), precondition);
+             double scale, const std::function<void(const Vector&, Vector&)>& precondition,
+             std::optional<WithPull<double>>& with_pull) {
+    if (pull() && !with_pull)
+      with_pull.emplace().prepare({pull()->entries(), scale * pull()->stiffness()}, at.size(), precondition);
     const Field<double>& place = vectors_.to_field(at, at_);
     mechanics::grid::conjugate_gradients(
         [&](const Vector& v, Vector& product) {
@@ -210,6 +217,10 @@ class MovingGrid : public MovingSprings {
         },
         right_side, forcing * norm(body_, right_side, n_threads_), most_iterations,
         [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_, kept_, found_);
+    count_iterations();
+  }
+
+  void count_iterations() {
     work_.linear_iterations += found_.iterations;
     linear_iterations_ += found_.iterations;
   }
@@ -238,7 +249,7 @@ class MovingGrid : public MovingSprings {
 
   bool goes_by_factor(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     solve(
-        at, residual, forcing, clamp, most_iterations(most_with_factor),
+        at, residual, forcing, clamp, most_iterations(most_with_factor), 1,
         [&](const Vector& v, Vector& out) { factor_->apply(v, out); }, factor_with_pull_);
     const bool is_done =
         found_.converged || found_.met_negative_curvature || terms().enough_linear_iterations.has_value();
@@ -253,13 +264,17 @@ class MovingGrid : public MovingSprings {
     const Body all = damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_;
     bodies_ = coarsenings(all);
     multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
-    multigrid_->set_diagonal(scale_of(all) * vectors_.to_field(diagonal(), in_));
+    scale_ = scale_of(all);
+    multigrid_->set_diagonal(scale_ * vectors_.to_field(diagonal(), in_));
     is_slow_ = true;
+    real_time_.reset();
+    is_set_ = false;
   }
 
   void linearise(const Vector& at) {
     multigrid_->linearise(vectors_.to_field(at, at_));
     if (cycle_with_pull_ && cycle_with_pull_->matters()) cycle_with_pull_.reset();
+    if (real_time_) real_time_->has_cycle_changed();
   }
 
   void solve_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
@@ -267,7 +282,7 @@ class MovingGrid : public MovingSprings {
       const Field<double>& right_side = vectors_.to_field(v, in_);
       vectors_.from_field([&](Field<double>& field) { multigrid_->apply(right_side, field); }, out_, out);
     };
-    solve(at, residual, forcing, clamp, most_iterations(max_iterations), cycle, cycle_with_pull_);
+    solve(at, residual, forcing, clamp, max_iterations, scale_, cycle, cycle_with_pull_);
   }
 
   /// As far as the step's iterations go.
@@ -276,11 +291,26 @@ class MovingGrid : public MovingSprings {
     const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
     if (is_anew) linearise(at);
     is_prepared_ = is_prepared_ || is_anew;
-    solve_by_cycles(at, residual, forcing, clamp);
+    solve_in_real_time(at, residual, forcing, clamp);
     const double slowness = found_.iterations / -std::log(forcing);
     if (is_anew) usual_slowness_ = slowness;
     is_slow_ = slowness > 2 * usual_slowness_ + 1;
     return found_.converged;
+  }
+
+  void solve_in_real_time(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
+    if (!real_time_) {
+      real_time_.emplace(body_, vectors_, scale_, damping_body_, n_threads_);
+      real_time_->set_pull(pull());
+    }
+    if (!is_set_) real_time_->set_step(diagonal(), terms().damping);
+    is_set_ = true;
+    const auto& found = real_time_->solve(at, clamp, residual, norm(body_, residual, n_threads_), forcing,
+                                          most_iterations(max_iterations), *multigrid_, found_.solution);
+    found_.iterations = found.iterations;
+    found_.converged = found.converged;
+    found_.met_negative_curvature = found.met_negative_curvature;
+    count_iterations();
   }
 
   /// To the end, with a cycle that is prepared anew where it has become slow.

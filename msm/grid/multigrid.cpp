@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace springproof::msm::grid {
 
@@ -49,9 +50,14 @@ std::deque<Body> coarsenings(const Body& finest) {
       break;
   // A preconditioner may have any scale. This one keeps single precision in range, and changes no other
   // digit.
-  const int exponent = exponent_of_stiffness(finest);
-  for (Body& body : bodies) for_each_stiffness(body, [&](double& k) { k = std::ldexp(k, -exponent); });
+  const double scale = scale_of(finest);
+  for (Body& body : bodies) body = scaled(std::move(body), scale);
   return bodies;
+}
+
+Body scaled(Body body, double factor) {
+  for_each_stiffness(body, [&](double& k) { k *= factor; });
+  return body;
 }
 
 Multigrid::Level::Level(const Body& of, int n_threads)
@@ -226,16 +232,24 @@ void Multigrid::cycle(std::size_t l) {
   smooth(level, false);
 }
 
+void Multigrid::whole_cycle() {
+  cycle(0);
+  // Every rank has coarse levels of its own, which another kind of machine rounds differently.
+  update_ghosts(levels_.front().body, levels_.front().solution);
+}
+
 void Multigrid::apply(const Field<double>& right_side, Field<double>& solution) {
   Level& level = levels_.front();
-  const auto whole_cycle = [&] {
-    cycle(0);
-    // Every rank has coarse levels of its own, which another kind of machine rounds differently.
-    update_ghosts(level.body, level.solution);
-  };
-  mechanics::grid::apply_in_single_precision(right_side, norm(level.body, right_side, n_threads_),
-                                             level.residual, level.solution, solution, whole_cycle,
-                                             n_threads_);
+  mechanics::grid::apply_in_single_precision(
+      right_side, norm(level.body, right_side, n_threads_), level.residual, level.solution, solution,
+      [&] { whole_cycle(); }, n_threads_);
+}
+
+void Multigrid::apply(const Field<float>& right_side, Field<float>& solution) {
+  Level& level = levels_.front();
+  level.residual = right_side;
+  whole_cycle();
+  level.solution.swap(solution); // a cycle begins with none
 }
 
 } // namespace springproof::msm::grid

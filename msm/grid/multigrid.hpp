@@ -17,6 +17,9 @@ std::deque<Body> coarsenings(const Body& finest);
 /// One over that power of two.
 double scale_of(const Body& finest);
 
+/// A body whose stiffnesses are those of another times a factor.
+Body scaled(Body body, double factor);
+
 /// What a cycle smooths with in equilibrium: the lowest motions of a body take most of the iterations.
 constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
 /// And in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
@@ -43,6 +46,8 @@ class Multigrid {
 
   /// solution = cycle(right_side), both of the finest body.
   void apply(const Field<double>& right_side, Field<double>& solution);
+  /// The same of a right side that leaves single precision in range, near 1 in norm.
+  void apply(const Field<float>& right_side, Field<float>& solution);
 
  private:
   struct Level {
@@ -76,6 +81,7 @@ class Multigrid {
   void correct(Level& level, bool keeps_residual);
   void smooth(Level& level, bool keeps_residual);
   void cycle(std::size_t l);
+  void whole_cycle();
 };
 
 } // namespace springproof::msm::grid

@@ -23,23 +23,31 @@ NodeVectors::NodeVectors(const Body& body, bool are_fields)
 const Field<double>& NodeVectors::to_field(const Field<double>& vector, Field<double>& room) const {
   if (are_fields()) return vector;
   if (room.size() != size_of_field_) room.setZero(size_of_field_);
-  for (int c = 0; c < 3; ++c) {
-    const double* const from = vector.data() + c * n_;
-    double* const to = room.data() + c * size_of_array_;
-    for (const Run& run : runs_)
-      for (std::ptrdiff_t i = 0; i < run.length; ++i) to[run.in_field + i] = from[run.in_vector + i];
-  }
+  for_each_run([&](std::ptrdiff_t in_field, std::ptrdiff_t in_vector, std::ptrdiff_t n) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) room[in_field + i] = vector[in_vector + i];
+  });
   return room;
+}
+
+void NodeVectors::to_field(const Field<double>& vector, double factor, Field<float>& field) const {
+  if (field.size() != size_of_field_) field.setZero(size_of_field_);
+  for_each_run([&](std::ptrdiff_t in_field, std::ptrdiff_t in_vector, std::ptrdiff_t n) {
+    field.segment(in_field, n) = (factor * vector.segment(in_vector, n)).cast<float>();
+  });
+}
+
+void NodeVectors::from_field(const Field<float>& field, double factor, Field<double>& vector) const {
+  vector.resize(size());
+  for_each_run([&](std::ptrdiff_t in_field, std::ptrdiff_t in_vector, std::ptrdiff_t n) {
+    vector.segment(in_vector, n) = factor * field.segment(in_field, n).cast<double>();
+  });
 }
 
 void NodeVectors::gather(const Field<double>& field, Field<double>& vector) const {
   vector.resize(size());
-  for (int c = 0; c < 3; ++c) {
-    const double* const from = field.data() + c * size_of_array_;
-    double* const to = vector.data() + c * n_;
-    for (const Run& run : runs_)
-      for (std::ptrdiff_t i = 0; i < run.length; ++i) to[run.in_vector + i] = from[run.in_field + i];
-  }
+  for_each_run([&](std::ptrdiff_t in_field, std::ptrdiff_t in_vector, std::ptrdiff_t n) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) vector[in_vector + i] = field[in_field + i];
+  });
 }
 
 Field<double> NodeVectors::from_field(const Field<double>& field) const {
@@ -57,6 +65,15 @@ Eigen::Index NodeVectors::entry(std::ptrdiff_t of_field) const {
   if (run == runs_.begin() || at >= std::prev(run)->in_field + std::prev(run)->length) return -1;
   --run;
   return c * n_ + run->in_vector + (at - run->in_field);
+}
+
+std::ptrdiff_t NodeVectors::in_field(Eigen::Index of_vector) const {
+  if (are_fields()) return of_vector;
+  const std::ptrdiff_t c = of_vector / n_, at = of_vector % n_;
+  const auto run =
+      std::prev(std::upper_bound(runs_.begin(), runs_.end(), at,
+                                 [](std::ptrdiff_t place, const Run& of) { return place < of.in_vector; }));
+  return c * size_of_array_ + run->in_field + (at - run->in_vector);
 }
 
 } // namespace springproof::msm::grid

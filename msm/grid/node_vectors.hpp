@@ -32,8 +32,14 @@ class NodeVectors {
     gather(room, vector);
   }
   Field<double> from_field(const Field<double>& field) const;
+  /// field = factor * vector, in single precision; where it has no cell it stays as it is, or 0.
+  void to_field(const Field<double>& vector, double factor, Field<float>& field) const;
+  /// vector = factor * field
+  void from_field(const Field<float>& field, double factor, Field<double>& vector) const;
   /// Of an entry of a field in a vector; -1: it has none.
   Eigen::Index entry(std::ptrdiff_t of_field) const;
+  /// Of an entry of a vector in a field.
+  std::ptrdiff_t in_field(Eigen::Index of_vector) const;
 
  private:
   /// Nodes that follow each other in a row.
@@ -44,6 +50,14 @@ class NodeVectors {
   std::ptrdiff_t size_of_array_, size_of_field_, n_;
 
   NodeVectors(const Body& body, bool are_fields);
+  /// Calls action(place in a field, place in a vector, length) for what follows each other in both.
+  template<class Action>
+  void for_each_run(const Action& action) const {
+    for (int c = 0; c < 3; ++c)
+      for (const Run& run : runs_)
+        action(c * size_of_array_ + run.in_field, c * n_ + run.in_vector, run.length);
+    if (are_fields()) action(std::ptrdiff_t{0}, std::ptrdiff_t{0}, size_of_field_);
+  }
   void gather(const Field<double>& field, Field<double>& vector) const;
 };
 

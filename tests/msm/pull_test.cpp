@@ -71,11 +71,11 @@ TEST_CASE("the inverse with a pull is that of the matrix with its tangent", "[un
     Eigen::MatrixXd with = matrix;
     for (int column = 0; column < n; ++column) {
       Vector product = Vector::Zero(n);
-      pull.add_product(Vector::Unit(n, column), product);
+      pull.add_product(Vector(Vector::Unit(n, column)), product);
       with.col(column) += product;
     }
     const Eigen::LLT<Eigen::MatrixXd> without(matrix);
-    msm::WithPull inverse;
+    msm::WithPull<double> inverse;
     inverse.prepare(pull, n, [&](const Vector& right, Vector& solution) { solution = without.solve(right); });
     const Vector right = Vector::Random(n), expected = with.llt().solve(right);
     Vector solution = without.solve(right);

@@ -53,6 +53,7 @@ TEST_CASE("vectors of a body's nodes and its fields say the same") {
     if (entry < 0) continue;
     ++times_found[static_cast<std::size_t>(entry)];
     CHECK(vector[entry] == static_cast<double>(e));
+    CHECK(vectors.in_field(entry) == e);
   }
   CHECK(std::count(times_found.begin(), times_found.end(), 1) == vectors.size());
 

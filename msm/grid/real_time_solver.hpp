@@ -1,0 +1,59 @@
+#pragma once
+
+#include "mechanics/grid/conjugate_gradients.hpp"
+#include "msm/grid/multigrid.hpp"
+#include "msm/grid/node_vectors.hpp"
+#include "msm/pull.hpp"
+
+namespace springproof::msm::grid {
+
+/// Conjugate gradients for the equation of a step in real time, in single precision: its few iterations leave
+/// far more of the residual than rounding does. Stiffness is scaled and a right side divided by its norm, so
+/// that both may be of any size.
+class RealTimeSolver {
+ public:
+  /// @param vectors  of the motion, of the body; must outlive this
+  /// @param scale    of stiffness, as of the cycles that solve() is given: scale_of()
+  /// @param damping  springs whose tangent at rest is damping by stiffness
+  RealTimeSolver(const Body& body, const NodeVectors& vectors, double scale,
+                 const std::optional<Body>& damping, int n_threads);
+  RealTimeSolver(const RealTimeSolver&) = delete; // its springs refer to its bodies
+
+  /// @param diagonal  mass and damping by mass in a step's equation, N/mm; 0 on constrained entries
+  /// @param damping   factor of damping by stiffness in it
+  void set_step(const Vector& diagonal, double damping);
+  /// What pulls from now on.
+  void set_pull(const std::optional<Pull>& pull);
+  /// The cycle of solve() is another one from now on.
+  void has_cycle_changed();
+
+  /// solution = (tangent + damping + diagonal + pull)^-1 right_side, as far as it is asked for.
+  /// @param at       displacement, mm
+  /// @param size     norm of the right side
+  /// @param forcing  residual to be left, over that
+  /// @param cycle    approximate inverse, of the same scale and without the pull
+  /// @return what it took, until the next call; its own solution is scaled
+  const mechanics::grid::LinearSolutionIn<float>& solve(const Vector& at, Clamp clamp,
+                                                        const Vector& right_side, double size, double forcing,
+                                                        int most_iterations, Multigrid& cycle,
+                                                        Vector& solution);
+
+ private:
+  const NodeVectors& vectors_;
+  double scale_;
+  int n_threads_;
+  Body body_;
+  std::optional<Body> damping_body_;
+  SpringField<float> springs_;
+  std::optional<SpringField<float>> damping_;
+  float damping_factor_ = 0;
+  Field<float> diagonal_, at_, rest_, right_side_, damped_;
+  mechanics::grid::KeptFields<float> kept_;
+  mechanics::grid::LinearSolutionIn<float> found_;
+  std::optional<Pull> pull_; ///< scaled, at entries of a field
+  std::optional<WithPull<float>> with_pull_;
+
+  void multiply(Clamp clamp, const Field<float>& direction, Field<float>& product);
+};
+
+} // namespace springproof::msm::grid
