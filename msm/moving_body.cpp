@@ -73,7 +73,7 @@ Points MovingBody::to_points(const Vector& vector) const {
   return points;
 }
 
-Pull& MovingBody::hold(const std::vector<mechanics::NodeWeight>& place, double stiffness) {
+Pull& MovingBody::hold(const std::vector<cases::NodeWeight>& place, double stiffness) {
   Pull::Entries entries;
   for (const auto& [node, weight] : place)
     for (std::size_t c = 0; c < 3; ++c)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/surface/patch.hpp"
+#include "cases/mesh/cell_point.hpp"
 #include "msm/grid/grid_system.hpp"
 #include "msm/grid/node_vectors.hpp"
 #include "msm/model.hpp"
@@ -33,7 +33,7 @@ class MovingBody {
   Eigen::Vector3d at_node(const Vector& vector, int node) const;
   /// Takes hold of the weighted mean of some nodes, see MovingSprings::hold().
   /// @param stiffness  N/mm
-  Pull& hold(const std::vector<mechanics::NodeWeight>& place, double stiffness);
+  Pull& hold(const std::vector<cases::NodeWeight>& place, double stiffness);
 
  private:
   Problem problem_;

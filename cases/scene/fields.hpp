@@ -107,7 +107,9 @@ void serialize(Archive& archive, springproof::cases::Case& definition) {
 
 SPRINGPROOF_FIELDS(springproof::cases::Scene::ConstrainedNodes, selection, components)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::MovedNodes, selection, motion)
-SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load, part)
+SPRINGPROOF_FIELDS(springproof::cases::CellPoint, cell, at, beyond)
+SPRINGPROOF_FIELDS(springproof::cases::WeightedPoint, point, weight)
+SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load, part, points)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedMass, selection, added)
 SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
 SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,

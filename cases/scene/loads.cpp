@@ -53,7 +53,7 @@ class Forces {
 
 void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads, Forces& forces) {
   const auto share = modelled_share(scene);
-  for (const auto& [selection, load, part] : loads) {
+  for (const auto& [selection, load, part, points] : loads) {
     if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
     double divisor = load.kind == LoadKind::total_force ? 0 : 1;
     if (divisor == 0)
@@ -76,6 +76,16 @@ std::function<double(int node)> modelled_share(const Scene& scene) {
       if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
     return share;
   };
+}
+
+void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
+                   const std::function<double(int node)>& share) {
+  patch.selection = {};
+  patch.part.clear();
+  for (const auto& [node, weight] : on_nodes(patch.points, mesh)) {
+    patch.selection.nodes.push_back(node);
+    patch.part.push_back(weight / share(node)); // which the load's sum multiplies by
+  }
 }
 
 std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {

@@ -11,6 +11,12 @@ namespace springproof::cases {
 /// the node: halved by each symmetry plane through it.
 std::function<double(int node)> modelled_share(const Scene& scene);
 
+/// Makes nodes and parts of a patch's load from its points: a nodal force that is shared by their weights,
+/// and is all of it on the modelled part of a symmetric scene.
+/// @param mesh  that the points are of     @param share  modelled_share() of the scene
+void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
+                   const std::function<double(int node)>& share);
+
 /// A force (N) or a displacement (mm) of one node.
 struct NodeVector {
   int node;

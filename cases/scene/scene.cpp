@@ -322,7 +322,14 @@ Scene refine(const Scene& scene, int n) {
     fine.material_of_cell.insert(fine.material_of_cell.end(), 8, material);
   resolve_supports(fine);
   hold_rigid_nodes(fine);
+  const auto share = modelled_share(fine);
   for (const Scene::AppliedLoad& applied : scene.loads) {
+    if (!applied.points.empty()) {
+      Scene::AppliedLoad& patch = fine.loads.emplace_back(applied);
+      for (WeightedPoint& at : patch.points) at.point = refine(at.point);
+      give_to_nodes(patch, fine.mesh, share);
+      continue;
+    }
     const Region& region = applied.load.region;
     const LoadKind kind = applied.load.kind;
     const bool stays =

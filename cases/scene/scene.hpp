@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 #include "cases/scene/network.hpp"
 
@@ -20,6 +21,8 @@ struct Scene {
     Selection selection;
     Load load;
     std::vector<double> part{}; ///< of a nodal_force, for each of the selection's nodes; empty: all of it
+    /// Of a nodal_force on a patch of a surface, which nodes and parts are made from: see give_to_nodes()
+    std::vector<WeightedPoint> points{};
   };
   struct AppliedMass {
     Selection selection;
@@ -57,7 +60,8 @@ bool is_rigid(const Scene& scene, std::size_t cell);
 /// @throws InputError with the place in the case file
 Scene make_scene(const Case& definition);
 
-/// The same scene on the mesh refined n times. Nodal forces stay on the nodes of the body's own mesh.
+/// The same scene on the mesh refined n times. Nodal forces stay on the nodes of the body's own mesh; those
+/// of patches stay at their points, and go to the nodes of the fine cells there.
 Scene refine(const Scene& scene, int n);
 
 /// Whether degree of freedom 3*node + component is constrained, for every node of the mesh.

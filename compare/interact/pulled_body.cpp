@@ -81,9 +81,9 @@ std::optional<int> PulledBody::grab(const mechanics::Ray& ray) {
   const auto sphere = mechanics::pick(spheres_, positions, ray);
   if (!sphere) return std::nullopt;
   held_ = spheres_.vertices[*sphere];
-  pull_ = &body_->hold(
-      mechanics::patch_within(surface_, surface_.rest.vertices[cases::index(*held_)], spheres_.radius),
-      settings_.stiffness);
+  const auto patch =
+      mechanics::patch_within(surface_, surface_.rest.vertices[cases::index(*held_)], spheres_.radius);
+  pull_ = &body_->hold(cases::on_nodes(patch, scene_.mesh), settings_.stiffness);
   grabbed_at_ = target_ = pull_->place(motion_->now().displacement);
   return held_;
 }

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t most_loaded = 1'000'000; ///< nodes of all places
+constexpr std::size_t most_loaded = 1'000'000; ///< vertices of the surface and nodes, of all places
 
 /// A component of a hold's force, N: constant in each step, with jumps just after the steps' ends, which some
 /// schemes look at.
@@ -41,28 +41,24 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
   const auto share = cases::modelled_share(scene);
   std::size_t n_loaded = 0;
   for (const Hold& hold : holds) {
-    const std::vector<mechanics::NodeWeight> place =
-        mechanics::patch_within(surface, hold.centre, hold.radius);
-    if (place.empty())
+    cases::Scene::AppliedLoad patch;
+    patch.points = mechanics::patch_within(surface, hold.centre, hold.radius);
+    if (patch.points.empty())
       throw cases::InputError(
           fmt::format("{}: step {}: no vertex of the case's surface lies within {:.6g} mm of "
                       "({:.6g}, {:.6g}, {:.6g}): it is of another body",
                       path, hold.first_step, hold.radius, hold.centre.x(), hold.centre.y(), hold.centre.z()));
-    n_loaded += place.size();
+    cases::give_to_nodes(patch, scene.mesh, share);
+    n_loaded += patch.points.size() + patch.selection.nodes.size();
     if (n_loaded > most_loaded)
       throw cases::InputError(
-          fmt::format("{}: pulls {} nodes in all, may pull {}: fewer places or smaller ones", path, n_loaded,
-                      most_loaded));
+          fmt::format("{}: pulls {} nodes and vertices in all, may pull {}: fewer places or smaller ones",
+                      path, n_loaded, most_loaded));
+    patch.load.kind = cases::LoadKind::nodal_force;
     for (int axis = 0; axis < 3; ++axis) {
-      cases::Scene::AppliedLoad applied;
-      for (const auto& [node, weight] : place) {
-        applied.selection.nodes.push_back(node);
-        applied.part.push_back(weight / share(node));
-      }
-      applied.load.kind = cases::LoadKind::nodal_force;
-      applied.load.value = Vector3d::Unit(axis); // N, times the factor
-      applied.load.history = history_of(hold, axis, dynamics->step);
-      scene.loads.push_back(std::move(applied));
+      patch.load.value = Vector3d::Unit(axis); // N, times the factor
+      patch.load.history = history_of(hold, axis, dynamics->step);
+      scene.loads.push_back(patch);
     }
   }
   return scene;

@@ -14,16 +14,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The shape functions at a point of the unit cube, and to first order from there to a place that the cube's
-/// map does not take it to.
-std::array<double, 8> weights_at(const Vector3d& place, const HexahedronVertices& vertices,
-                                 const Vector3d& at) {
-  std::array<double, 8> weights = shape_values(at);
-  const Vector3d missing = place - image(vertices, at);
-  const Eigen::Matrix<double, 3, 8> gradients = shape_gradients(at);
-  const Vector3d step = jacobian(vertices, at).partialPivLu().solve(missing);
-  for (int v = 0; v < 8; ++v) weights[cases::index(v)] += gradients.col(v).dot(step);
-  return weights;
+/// From a point of the unit cube, to first order, to a place that the cube's map does not take it to.
+Vector3d step_to(const Vector3d& place, const HexahedronVertices& vertices, const Vector3d& at) {
+  return jacobian(vertices, at).partialPivLu().solve(place - image(vertices, at));
 }
 
 } // namespace
@@ -37,7 +30,8 @@ EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh) {
     // VTK finds the cell and its nearest point to some digits; what these lack, the first order adds.
     const Vector3d at = cases::place_in_cell(vertices, nearest).value_or(Vector3d::Constant(0.5));
     const Vector3d inside = at.cwiseMax(0).cwiseMin(1);
-    embedded.vertices.push_back({mesh.cells[cell], weights_at(surface.vertices[v], vertices, inside)});
+    const cases::CellPoint place{cell, inside, step_to(surface.vertices[v], vertices, inside)};
+    embedded.vertices.push_back({mesh.cells[cell], cases::weights_at(place), place});
     for (const double weight : embedded.vertices.back().weights)
       if (!std::isfinite(weight))
         throw std::runtime_error("the cell nearest to vertex " + std::to_string(v) +

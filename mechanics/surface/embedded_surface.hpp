@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 
 namespace springproof::mechanics {
@@ -8,6 +9,7 @@ namespace springproof::mechanics {
 struct EmbeddedPoint {
   std::array<int, 8> nodes;
   std::array<double, 8> weights; ///< add up to 1; negative ones outside of the cell
+  cases::CellPoint place;        ///< what the weights are of
 };
 
 /// A surface that a body takes along.

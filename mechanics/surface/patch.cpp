@@ -4,8 +4,8 @@
 
 namespace springproof::mechanics {
 
-std::vector<NodeWeight> patch_within(const EmbeddedSurface& surface, const Eigen::Vector3d& centre,
-                                     double radius) {
+std::vector<cases::WeightedPoint> patch_within(const EmbeddedSurface& surface, const Eigen::Vector3d& centre,
+                                               double radius) {
   const auto& positions = surface.rest.vertices;
   const double reach = radius + 1e-9 * (1 + centre.norm()); // what a recording rounds
   std::map<int, double> area;                               // mm², of vertices in the sphere
@@ -21,16 +21,11 @@ std::vector<NodeWeight> patch_within(const EmbeddedSurface& surface, const Eigen
         whole += third;
       }
   }
-  std::map<int, double> weight; // of nodes
-  for (const auto& [vertex, share] : area) {
-    const double part = whole > 0 ? share / whole : 1 / static_cast<double>(area.size());
-    const EmbeddedPoint& point = surface.vertices[cases::index(vertex)];
-    for (std::size_t n = 0; n < point.nodes.size(); ++n) weight[point.nodes[n]] += part * point.weights[n];
-  }
-  std::vector<NodeWeight> weights;
-  for (const auto& [node, share] : weight)
-    if (share != 0) weights.push_back({node, share});
-  return weights;
+  std::vector<cases::WeightedPoint> points;
+  for (const auto& [vertex, share] : area)
+    points.push_back({surface.vertices[cases::index(vertex)].place,
+                      whole > 0 ? share / whole : 1 / static_cast<double>(area.size())});
+  return points;
 }
 
 } // namespace springproof::mechanics

@@ -15,7 +15,7 @@ namespace moving_bodies {
 namespace {
 
 /// A place with a node on the moved end, by weights of both signs.
-std::vector<mechanics::NodeWeight> place_of(const cases::Scene& scene) {
+std::vector<cases::NodeWeight> place_of(const cases::Scene& scene) {
   const auto node = [&](const Vector3d& at) {
     for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n)
       if ((scene.mesh.nodes[n] - at).norm() < 1e-9) return static_cast<int>(n);

@@ -50,7 +50,7 @@ TEST_CASE("a scaled displacement is none up to the zone, whole beyond it, and li
 TEST_CASE("a scaled turn goes round the axis by a part of its angle") {
   Moved motion;
   motion.angle = 90;
-  motion.scaled = scaled({0, 0, 0}, {0, 0, 1}, 2);
+  motion.scaled.emplace(scaled({0, 0, 0}, {0, 0, 1}, 2));
   const Vector3d half = moved_by(motion, {1, 0, 1}, 1);                            // 45 degrees
   CHECK((half - Vector3d(std::sqrt(0.5) - 1, std::sqrt(0.5), 0)).norm() <= 1e-15); // rounding
 }

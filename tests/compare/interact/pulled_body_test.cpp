@@ -79,8 +79,9 @@ TEST_CASE("a body that is pulled comes to the static equilibrium of the spring's
 
     cases::Scene loaded = scene; // the same force, by the weights of its place
     loaded.loads.clear();
-    for (const auto& [node, weight] : mechanics::patch_within(
-             body.surface(), body.surface().rest.vertices[cases::index(*held)], body.spheres().radius)) {
+    const auto patch = mechanics::patch_within(
+        body.surface(), body.surface().rest.vertices[cases::index(*held)], body.spheres().radius);
+    for (const auto& [node, weight] : cases::on_nodes(patch, scene.mesh)) {
       cases::Load load;
       load.kind = cases::LoadKind::nodal_force;
       load.value = weight * body.force();

@@ -13,12 +13,13 @@ mechanics::EmbeddedSurface surface_of(const cases::HexMesh& mesh) {
   return mechanics::embed(cases::outer_surface(mesh), mesh);
 }
 
-/// Sum over nodes of weight times a function of their place.
+/// Sum over the nodes of a patch of weight times a function of their place.
 template<class Function>
-double mean(const std::vector<mechanics::NodeWeight>& weights, const cases::HexMesh& mesh,
+double mean(const std::vector<cases::WeightedPoint>& patch, const cases::HexMesh& mesh,
             const Function& function) {
   double sum = 0;
-  for (const auto& [node, weight] : weights) sum += weight * function(mesh.nodes[cases::index(node)]);
+  for (const auto& [node, weight] : cases::on_nodes(patch, mesh))
+    sum += weight * function(mesh.nodes[cases::index(node)]);
   return sum;
 }
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cases/mesh/hex_mesh.hpp"
+
+namespace springproof::cases {
+
+/// A point that a body takes along by one of its cells.
+struct CellPoint {
+  std::size_t cell;
+  Eigen::Vector3d at;     ///< in the cell's unit cube: the point, or the nearest place of the body
+  Eigen::Vector3d beyond; ///< from there to the point, in the cube's coordinates to first order
+};
+
+/// Weights of the cell's nodes in the point's displacement u = sum_v w_v u_v: the trilinear shape functions
+/// at a point of the cell; outside, with the first order that leads there, so that a linear displacement is
+/// reproduced and weights grow with the distance and no faster. They add up to 1.
+std::array<double, 8> weights_at(const CellPoint& point);
+
+/// The same point by the cell of refine(mesh) that has its place: there the unit cube is half as large.
+CellPoint refine(const CellPoint& point);
+
+struct WeightedPoint {
+  CellPoint point;
+  double weight;
+};
+
+struct NodeWeight {
+  int node;
+  double weight;
+};
+
+/// A weighted sum over points as one over the nodes of their cells.
+/// @return in ascending order of nodes, without weights of 0
+std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const HexMesh& mesh);
+
+} // namespace springproof::cases
