@@ -1,10 +1,11 @@
-"""How far the finite elements' motions in two folders of `run --replay --out` are apart, on cells of two sizes of the same body.
+"""How far both models' motions in a folder of `run --replay --out` are from finite elements on finer cells of the same body, and from their limit.
 
-usage: motions_apart.py COARSE_FOLDER FINE_FOLDER PULLS
+usage: motions_apart.py FOLDER FINE_FOLDER [FINER_FOLDER] PULLS
 
-Percent of the fine one's displacement, root mean square over time and the nodes of the body's own outer faces, both motions being written
-there: of all these nodes, and of those that are ever further from the places that PULLS, the recording, pulls at. Only Python's standard
-library is used.
+Percent of the reference's displacement, root mean square over time and the nodes of the body's own outer faces, all motions being written
+there: of all these nodes, of those in the spheres that PULLS, the recording, pulls at, and of those that are ever further from all spheres.
+The reference are the finite elements of the finest folder; with three folders also their limit, extrapolated from the last two as of second
+order, u + (u - u_before)/3, cells being half as large from folder to folder. Only Python's standard library is used.
 """
 
 import csv
@@ -49,9 +50,10 @@ def nodes_of_surface(frame):
     return sorted({node for side, n in sides.items() if n == 1 for node in side})
 
 
-def places_of(recording):
+def spheres_of(recording):
+    """Centres and radii, mm."""
     with open(recording, newline="") as file:
-        return sorted({tuple(float(row[axis]) for axis in "xyz") for row in csv.DictReader(file)})
+        return sorted({(tuple(float(row[axis]) for axis in "xyz"), float(row["radius"])) for row in csv.DictReader(file)})
 
 
 def over_time(squares):
@@ -59,23 +61,45 @@ def over_time(squares):
     return math.sqrt((sum(squares) - (squares[0] + squares[-1]) / 2) / (len(squares) - 1))
 
 
+def to_limit(before, last):
+    return [u + (u - v) / 3 for u, v in zip(last, before)]
+
+
+def squared_distances(some, others, nodes):
+    """Of every node, at every step."""
+    return {node: [math.dist(a[node], b[node]) ** 2 for a, b in zip(some, others)] for node in nodes}
+
+
+def root_mean_square(squares, nodes):
+    return over_time([sum(step) / len(nodes) for step in zip(*(squares[node] for node in nodes))])
+
+
 def main():
-    coarse, fine = (frames(folder) for folder in sys.argv[1:3])
-    assert len(coarse) == len(fine) > 1, "the motions have other steps"
-    rest = coarse[0].vectors("rest position")
-    assert rest == fine[0].vectors("rest position"), "the bodies are not the same"
-    surface = nodes_of_surface(coarse[0])
-    distance = {node: min(math.dist(rest[node], place) for place in places_of(sys.argv[3])) for node in surface}
-    apart, size = ({node: [] for node in surface} for _ in range(2))
-    for of_coarse, of_fine in zip(coarse, fine):
-        a, b = (frame.vectors("fem_displacement") for frame in (of_coarse, of_fine))
-        for node in surface:
-            apart[node].append(math.dist(a[node], b[node]) ** 2)
-            size[node].append(math.hypot(*b[node]) ** 2)
+    *folders, recording = sys.argv[1:]
+    series = [frames(folder) for folder in folders]
+    assert len({len(motion) for motion in series}) == 1 and len(series[0]) > 1, "the motions have other steps"
+    rest = series[0][0].vectors("rest position")
+    assert all(rest == motion[0].vectors("rest position") for motion in series), "the bodies are not the same"
+    surface = nodes_of_surface(series[0][0])
+    spheres = spheres_of(recording)
+    distance = {node: min(math.dist(rest[node], centre) - radius for centre, radius in spheres) for node in surface}
+    parts = {"of the surface": surface, "in the spheres": [node for node in surface if distance[node] <= 0]}
     for cells in range(5):
-        chosen = [node for node in surface if distance[node] >= cells * EDGE]
-        difference, whole = (over_time([sum(step) / len(chosen) for step in zip(*(of[node] for node in chosen))]) for of in (apart, size))
-        print(f"{len(chosen)} nodes, {cells * EDGE:g} mm and more from what is pulled: {100 * difference / whole:.1f} % of {whole:.3f} mm")
+        parts[f"{cells * EDGE:g} mm and more from the spheres"] = [node for node in surface if distance[node] > cells * EDGE]
+
+    fem = [[frame.vectors("fem_displacement") for frame in motion] for motion in series]
+    msm = [frame.vectors("msm_displacement") for frame in series[0]]
+    references = {folders[-1]: fem[-1]}
+    if len(folders) == 3:
+        references["the limit"] = [[to_limit(u, v) for u, v in zip(before, last)] for before, last in zip(fem[1], fem[2])]
+    at_rest = [[(0.0, 0.0, 0.0)] * len(rest)] * len(msm)
+    for name, reference in references.items():
+        squares = [squared_distances(motion, reference, surface) for motion in (fem[0], msm, at_rest)]
+        print(f"from {name}, in percent of its displacement:")
+        for place, nodes in parts.items():
+            if nodes:
+                elements, springs, whole = (root_mean_square(of, nodes) for of in squares)
+                print(f"  {len(nodes)} nodes {place}: finite elements {100 * elements / whole:.1f}, springs {100 * springs / whole:.1f}, of {whole:.3f} mm")
 
 
 if __name__ == "__main__":
