@@ -77,9 +77,10 @@ TEST_CASE(
     "[verification]") {
   const std::string rows = "1,0.1,40,20,40,15,0.01,0,0.002\n2,0.2,40,20,40,15,0.01,0,0.002\n";
   cases::Scene scene = with_recording(block(), recording_header + "\n" + rows, "pulls.csv");
-  // Second order has 4; this place, 3.95. Spheres of less than a cell are not resolved by the coarse mesh.
+  // Second order has 4; this place has 3.95, in a sphere of 18 mm 3.3. One of 10 mm, a cell's edge, is too
+  // small for the coarse mesh to have an order.
   CHECK(ratio_of_changes(scene) >= 3);
-  // The same forces left on the nodes of the body's own cells: displacements grow with each halving, as 1/h.
+  // The same forces left on the nodes of the body's own cells: each halving changes more than the one before.
   for (cases::Scene::AppliedLoad& load : scene.loads) load.points.clear();
-  CHECK(ratio_of_changes(scene) < 1.2);
+  CHECK(ratio_of_changes(scene) < 1);
 }
