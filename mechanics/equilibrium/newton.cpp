@@ -101,10 +101,6 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     }
     norm_before = norm;
     forcing = std::clamp(forcing, std::min(0.1, 0.3 * settings_.tolerance / norm), 0.1);
-    // Where time is short, less will do: what is left for terms that are not linear is a third of what is
-    // asked for.
-    if (settings_.enough_newton_per_step)
-      forcing = std::max(forcing, std::min(0.7 * settings_.tolerance / norm, 0.7));
     check_limits();
     ++result_.newton_iterations;
     if (!take_step(at, forcing, load_factor, fallback))
