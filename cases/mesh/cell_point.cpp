@@ -2,6 +2,8 @@
 
 #include "mechanics/hexahedron.hpp"
 
+#include <map>
+
 namespace springproof::cases {
 
 std::array<double, 8> weights_at(const CellPoint& point) {
