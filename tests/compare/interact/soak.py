@@ -79,7 +79,7 @@ def soak(program, seconds, reach):
         time.sleep(0.03)
     page.close()
     warm = [kb for at, kb in memory if at > 0.2 * seconds]
-    return {"seconds": seconds, "grabs": puller.n_grabs, "frames": n_frames, "frames_with_inverted_cells": n_inverted,
+    return {"seconds": seconds, "masses": page.description["masses"], "grabs": puller.n_grabs, "frames": n_frames, "frames_with_inverted_cells": n_inverted,
             "largest_displacement_mm": largest, "memory_kb_after_a_fifth": warm[0], "memory_kb_at_the_end": warm[-1]}
 
 
@@ -101,7 +101,8 @@ def main():
     assert summary["frames"]["with_inverted_cells"] == seen["frames_with_inverted_cells"], (seen, summary)
     growth = seen["memory_kb_at_the_end"] - seen["memory_kb_after_a_fifth"]
     recorded = 100 * summary["pulled_steps"] / 1024  # kB: a row of the recording is 40 bytes, and vectors double
-    assert growth < 4096 + recorded, seen  # of a heap's pages
+    # Pages of the heap; and half a kilobyte a mass, as a preconditioner that is made anew where a step is halved may not fit in where the last one was.
+    assert growth < 4096 + 0.5 * seen["masses"] + recorded, seen
 
 
 if __name__ == "__main__":
