@@ -1,7 +1,6 @@
 #include "msm/grid/merged_multigrid.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "msm/spring.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -15,9 +14,6 @@ using cases::index;
 
 constexpr int n_nodes_factorised = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 constexpr int n_dense_nodes = 600; ///< where cells can be merged no further; of more, the smoother must do
-
-constexpr int n_pairs = 6;
-constexpr int first_of_pair[n_pairs] = {0, 1, 2, 1, 0, 0}, second_of_pair[n_pairs] = {0, 1, 2, 2, 2, 1};
 
 constexpr std::ptrdiff_t nodes_at_once = 512, cells_at_once = 32; ///< pieces that threads share
 
@@ -36,43 +32,11 @@ void for_each_node(std::ptrdiff_t n, int n_threads, const Action& action) {
   for_each(n, nodes_at_once, n_threads, action);
 }
 
-/// The springs between vertices v and w of a cell.
-double stiffness_between(const CellSprings& cell, int v, int w) {
-  const int step = v ^ w;
-  switch (step) {
-  case 1:
-    return cell.edge[0];
-  case 2:
-    return cell.edge[1];
-  case 4:
-    return cell.edge[2];
-  case 6:
-    return cell.face_diagonal[0];
-  case 5:
-    return cell.face_diagonal[1];
-  case 3:
-    return cell.face_diagonal[2];
-  default:
-    return cell.internal_diagonal;
-  }
-}
-
-std::optional<double> exponent_between(const std::optional<Exponents>& exponents, int v, int w) {
-  if (!exponents) return std::nullopt;
-  const int step = v ^ w, n_axes = (step & 1) + ((step >> 1) & 1) + (step >> 2);
-  return n_axes == 1   ? exponents->edge
-         : n_axes == 2 ? exponents->face_diagonal
-                       : exponents->internal_diagonal;
-}
-
 } // namespace
 
 MergedMultigrid::MergedMultigrid(const Body& finest, const mechanics::grid::Chebyshev& smoother,
                                  int n_threads)
-    : finest_(finest), smoother_(smoother), n_threads_(n_threads) {
-  for (int step = 0; step < 8; ++step)
-    rest_length_[index(step)] =
-        Eigen::Vector3d(step & 1, (step >> 1) & 1, step >> 2).cwiseProduct(finest.spacing).norm();
+    : finest_(finest), cell_tangent_(finest), smoother_(smoother), n_threads_(n_threads) {
   const Layout& layout = finest.layout;
   std::vector<bool> is_constrained(index(3 * layout.size));
   for (const std::ptrdiff_t entry : finest.constrained) is_constrained[index(entry)] = true;
@@ -160,47 +124,14 @@ void MergedMultigrid::prepare(Level& level) const {
 }
 
 /// The clamped tangent of a cell of the finest body.
-MergedMultigrid::CellMatrix MergedMultigrid::stiffness_of(std::size_t cell,
-                                                          const Field<float>& displacement) const {
+CellMatrix MergedMultigrid::stiffness_of(std::size_t cell, const Field<float>& displacement) const {
   const auto& [i, j, k] = cells_.places[cell];
-  const CellSprings& springs = finest_.cell(i, j, k);
-  CellPositions x;
+  CellPositions moved;
   for (int v = 0; v < 8; ++v)
     for (int c = 0; c < 3; ++c)
-      x[index(v)][c] =
-          ((v >> c) & 1) * finest_.spacing[c] +
-          static_cast<double>(
-              displacement[entry_[index(cells_.nodes[cell][index(v)])] + c * finest_.layout.size]);
-  CellMatrix sum;
-  for (Corners& pair : sum) pair.setZero();
-  const auto add = [&](int v, int w, const Eigen::Matrix3d& block) {
-    for (int p = 0; p < n_pairs; ++p)
-      sum[index(p)](v, w) += static_cast<float>(block(first_of_pair[p], second_of_pair[p]));
-  };
-  for (int v = 0; v < 8; ++v)
-    for (int w = v + 1; w < 8; ++w) {
-      const double stiffness = stiffness_between(springs, v, w);
-      if (stiffness == 0) continue;
-      const Eigen::Vector3d d = x[index(w)] - x[index(v)];
-      const double rest = rest_length_[index(v ^ w)];
-      // Points that coincide have no direction: such a spring is left out of a preconditioner.
-      if (!(d.squaredNorm() > 1e-12 * rest * rest)) continue;
-      const Eigen::Matrix3d block = spring_stiffness(
-          d, {stiffness, rest, exponent_between(finest_.exponents, v, w)}, TransverseTerm::clamped);
-      add(v, v, block);
-      add(w, w, block);
-      add(v, w, -block);
-      add(w, v, -block);
-    }
-  if (springs.volume == 0) return sum;
-  const double rest_volume = finest_.spacing.prod();
-  const auto gradient = trilinear_volume_gradient(x);
-  // As the kernels have it: of a ratio of 0.1 at least, of logarithmic terms.
-  const double slope = springs.volume / rest_volume *
-                       (finest_.exponents ? 1 / std::max(0.1, trilinear_volume(x) / rest_volume) : 1.0);
-  for (int v = 0; v < 8; ++v)
-    for (int w = 0; w < 8; ++w) add(v, w, slope * gradient[index(v)] * gradient[index(w)].transpose());
-  return sum;
+      moved[index(v)][c] = static_cast<double>(
+          displacement[entry_[index(cells_.nodes[cell][index(v)])] + c * finest_.layout.size]);
+  return cell_tangent_.at(finest_.cell(i, j, k), moved);
 }
 
 /// A node's share of what is added to the diagonal.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanics/grid/smoother.hpp"
-#include "msm/grid/body.hpp"
+#include "msm/grid/cell_tangent.hpp"
 #include "msm/grid/merged_cells.hpp"
 
 #include <Eigen/Cholesky>
@@ -27,9 +27,6 @@ class MergedMultigrid {
   void correct(const Field<float>& residual, Field<float>& correction);
 
  private:
-  using Corners = Eigen::Matrix<float, 8, 8>;
-  /// A cell's stiffness, by pairs of components: xx, yy, zz, yz, xz, xy.
-  using CellMatrix = std::array<Corners, 6>;
   using Nodes = Eigen::Matrix<float, 4, Eigen::Dynamic>; ///< a vector at every node, and 0
   using Block = std::array<Eigen::Vector4f, 3>;          ///< columns of a 3x3 matrix, each with a 0
   struct Level {
@@ -45,9 +42,9 @@ class MergedMultigrid {
   };
 
   const Body& finest_;
+  CellTangent cell_tangent_; ///< of the finest body
   mechanics::grid::Chebyshev smoother_;
   int n_threads_;
-  std::array<double, 8> rest_length_;        ///< of a cell's springs, mm, by the axes along which they lead
   Cells cells_;                              ///< of the finest body, without those that are held as a whole
   std::vector<std::ptrdiff_t> entry_;        ///< of every node, along x
   std::vector<std::array<bool, 3>> is_held_; ///< every node's components
