@@ -111,4 +111,25 @@ TEST_CASE("after the first steps on a grid a step allocates nothing") {
       }
 }
 
+TEST_CASE("after the first steps in real time of a body too large for a factor a step allocates nothing") {
+  const double step = 0.005;
+  const cases::Dynamics dynamics = steps(cases::Scheme::implicit_euler, step, 1);
+  for (const double stiffness_damping : {0., 0.002}) {
+    CAPTURE(stiffness_damping);
+    const Moving body(block(dynamics, {1000., 2, stiffness_damping}, true, 15), hybrid_springs);
+    REQUIRE(body.grid.n_unknowns > 10'000);
+    mechanics::TimeIntegrator motion(*body.motion, dynamics.scheme, {0, body.rest(), body.rest(), {}},
+                                     mechanics::in_real_time(5));
+    allocated_by(motion, 1, 3, step);
+    CHECK(allocated_by(motion, 4, 10, step) == 0);
+    CHECK(body.motion->work().linear_iterations > 10);
+    const Eigen::Index n = body.vectors.size() / 3, node = n - 5;
+    msm::Pull::Entries entries;
+    for (int c = 0; c < 3; ++c) entries[cases::index(c)] = {{node + c * n, 1, true}};
+    msm::Pull& pull = body.motion->hold({std::move(entries), 0.5});
+    allocated_by(motion, 11, 13, step, &pull);
+    CHECK(allocated_by(motion, 14, 20, step, &pull) == 0);
+  }
+}
+
 } // namespace moving_bodies
