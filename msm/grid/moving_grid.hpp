@@ -8,8 +8,9 @@ namespace springproof::msm::grid {
 
 /// The motion of a lattice on a grid of cells without a matrix: conjugate gradients on the tangent, mass and
 /// damping together. Small bodies have the factor of their first step as preconditioner; large ones, and
-/// those that moved too far from it, a multigrid cycle that is prepared anew where it has become slow. After
-/// the first steps it allocates nothing; the motion does not depend on the number of threads.
+/// those that moved too far from it, a multigrid cycle that is prepared anew where it has become slow; steps
+/// in real time by cycles are in single precision (RealTimeSolver). After the first steps it allocates
+/// nothing; the motion does not depend on the number of threads.
 /// @param vectors    of the motion, of grid.body; must outlive what is returned, as must grid and statics
 /// @param statics    equations of `grid`
 /// @param inertia    whose damping is not looked at
