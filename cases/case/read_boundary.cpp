@@ -1,6 +1,7 @@
 #include "cases/case/read_boundary.hpp"
 
 #include "cases/case/read_dynamics.hpp"
+#include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,19 +133,22 @@ ScaledDisplacement read_scaled(Table& table) {
 }
 
 /// How the region moves: where its motion fades out, and in how many steps of the load.
-void read_way(Table& table, Moved& moved, bool is_dynamic) {
+void read_way(Table& table, Moved& moved, const std::optional<Dynamics>& dynamics) {
   table.know({"scaled_displacement", "steps"});
-  table.refuse_unless(!is_dynamic, {"steps"}, "left out in a dynamic case, whose steps are those of time");
+  table.refuse_unless(!dynamics, {"steps"}, "left out in a dynamic case, whose steps are those of time");
   moved.steps = table.optional("steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
   if (!table.has("scaled_displacement")) return;
   moved.scaled = table.section("scaled_displacement", read_scaled);
-  const double nearer = -moved.displacement.dot(moved.scaled->normal);
+  const auto [least, most] =
+      dynamics ? factors_between(moved.history, 0, dynamics->end) : std::array<double, 2>{0, 1};
+  const double nearer_at_full = -moved.displacement.dot(moved.scaled->normal),
+               nearer = std::max(least * nearer_at_full, most * nearer_at_full);
   if (!(nearer < moved.scaled->length))
     throw InputError(
         moved.scaled->where,
         fmt::format("length is {} mm, must be more than the {} mm by which the displacement shortens "
-                    "the zone",
-                    moved.scaled->length, nearer));
+                    "the zone{}",
+                    moved.scaled->length, nearer, dynamics ? " at some time of its history" : ""));
 }
 
 Moved read_moved(Table& table, const Case& definition) {
@@ -169,7 +173,7 @@ Moved read_moved(Table& table, const Case& definition) {
         entry.refuse("0 in the components that are not moved");
     table.know({"angle"});
   }
-  read_way(table, moved, definition.dynamics.has_value());
+  read_way(table, moved, definition.dynamics);
   return moved;
 }
 

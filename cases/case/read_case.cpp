@@ -5,6 +5,7 @@
 #include "cases/case/read_dynamics.hpp"
 #include "cases/case/read_materials.hpp"
 #include "cases/case/read_models.hpp"
+#include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -224,11 +225,12 @@ void check_accuracy(Table& root, const Case& definition) {
 void check_turns(const Case& definition) {
   if (definition.fem.formulation != Formulation::small_strain) return;
   for (const Moved& moved : definition.moved)
-    if (!(std::abs(moved.angle) <= largest_turn_of_small_strain))
+    if (const double degrees = std::abs(moved.angle) * largest_factor(moved, definition.dynamics);
+        !(degrees <= largest_turn_of_small_strain))
       throw InputError(moved.region.where,
                        fmt::format("is turned by {} degrees, must be at most {} beside fem.formulation = "
                                    "\"small_strain\", which knows nothing of the way there",
-                                   moved.angle, largest_turn_of_small_strain));
+                                   degrees, largest_turn_of_small_strain));
 }
 
 Case read_definition(Table& root, const std::string& path) {

@@ -1,5 +1,7 @@
 #include "cases/case/read_dynamics.hpp"
 
+#include "cases/case/turns_in_time.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,7 +10,6 @@ namespace springproof::cases {
 
 namespace {
 
-constexpr double most_time_steps = 1e7;
 const std::string is_static = "left out without [dynamics]: a static case has no time";
 
 TimeScheme read_scheme(Table& table) {
@@ -174,6 +175,7 @@ void check_dynamics(Table& root, const Case& definition) {
   if (!definition.dynamics) return;
   for (std::size_t i = 0; i < definition.moved.size(); ++i)
     check_motion(definition.moved[i], definition.dynamics->start, i);
+  check_turns_in_time(definition);
   if (definition.fem.has_auto_formulation)
     throw InputError(definition.fem.where, "formulation must not be \"auto\" beside [dynamics]: whether the "
                                            "strains are small is known at the end alone");

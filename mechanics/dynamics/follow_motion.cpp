@@ -1,6 +1,7 @@
 #include "mechanics/dynamics/follow_motion.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/turns_in_time.hpp"
 #include "cases/scene/in_time.hpp"
 
 #include <utility>
@@ -44,6 +45,7 @@ class Record {
 
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings) {
+  cases::check_turns_in_time(scene.definition); // a study may have taken other steps than the case's
   const cases::Dynamics& dynamics = *scene.definition.dynamics;
   Record record(scene, body);
   Vector at_rest = Vector::Zero(start.size());

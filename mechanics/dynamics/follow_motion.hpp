@@ -21,6 +21,7 @@ struct FollowedMotion {
 };
 
 /// Moves a body through the time of its case's [dynamics], from a displacement without velocity.
+/// @throws cases::InputError where a region turns too far in a step (cases::check_turns_in_time())
 /// @throws cases::SolveError, whose load reached is the part of the time, when a step's equation is not
 /// solved, halved as it is
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,

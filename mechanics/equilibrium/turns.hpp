@@ -4,8 +4,7 @@
 
 namespace springproof::mechanics {
 
-/// Settings with load steps in which no support turns by more than 30 degrees. Where a turned support ends
-/// says nothing of whole turns: only small steps lead the body around with it.
+/// Settings with load steps in which no support turns by more than cases::largest_turn_of_step.
 /// @param degrees   that a support turns by at load factor 1
 /// @param settings  with the load factors from and to
 /// @param at_least  load steps from load factor 0 to 1
