@@ -8,6 +8,7 @@
 #include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -19,12 +20,16 @@ namespace {
 std::string read_case_name(const Entry& entry) {
   const std::string name = read_text(entry);
   constexpr std::size_t longest = 200; // of a file's name 255 bytes are allowed, endings included
+  const auto is_of_word = [](char c) {
+    return c < 0 || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
   const bool is_clean = name.size() <= longest && name.find_first_of("/\\\"") == std::string::npos &&
-                        name.front() != '.' &&
+                        is_of_word(name.front()) && name.back() != ' ' && name.back() != '.' &&
                         std::none_of(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; });
   if (!is_clean)
-    entry.refuse("a name without /, \\, quotes, line breaks, and a leading dot, of 200 bytes at most: it "
-                 "names files of results");
+    entry.refuse(
+        "a name that begins with a letter, a digit or _, ends with neither a blank nor a point, has no "
+        "/, \\, quotes or line breaks, and 200 bytes at most: it names files of results");
   return name;
 }
 

@@ -197,7 +197,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
       "that it holds already are not solved again");
   CLI::Option* report = command->add_flag("--report", options->report,
                                           "a page of each case, CASE.html, and its bodies drawn, "
-                                          "CASE_bodies.png and .svg, in the folder of --out; with "
+                                          "CASE_bodies/bodies.png and .svg, in the folder of --out; with "
                                           "--designs they are on it");
   report->needs(out);
   command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");

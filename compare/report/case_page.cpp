@@ -1,6 +1,7 @@
 #include "compare/report/case_page.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/skin.hpp"
@@ -69,7 +70,10 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
 void write_case_page(const std::string& folder, const Comparison& comparison, const Ranking* ranking,
                      const std::vector<std::string>& commands) {
   const std::string& name = comparison.scene.definition.name;
-  plot_bodies(folder, name + "_bodies", {overlay_of(comparison, name)}, 1, 700);
+  const std::string drawn =
+      name + "_bodies"; // a folder, so that no file that gnuplot names has a case's name
+  claim_subfolder(folder, drawn);
+  plot_bodies(folder + "/" + drawn, "bodies", {overlay_of(comparison, name)}, 1, 700);
   write_page(folder + "/" + name + ".html", name + ": springs against finite elements",
              case_page_to_json(comparison, ranking, commands));
 }

@@ -9,8 +9,8 @@
 namespace springproof::compare {
 
 /// FOLDER/CASE.html: what came of one case on a page of its own (page.hpp): the verdict, measures with their
-/// uncertainty, both bodies, designs when they were ranked, commands and versions. Beside it CASE_bodies.png
-/// and .svg, the bodies drawn. All of the answers must be here.
+/// uncertainty, both bodies, designs when they were ranked, commands and versions. Beside it
+/// CASE_bodies/bodies.png and .svg, the bodies drawn. All of the answers must be here.
 /// @param ranking   of the same case; null: none
 /// @param commands  that make the page, as typed
 /// @throws InputError if something cannot be read or written

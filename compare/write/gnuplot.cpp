@@ -14,10 +14,12 @@ namespace springproof::compare {
 
 namespace {
 
-/// gnuplot interprets nothing between single quotes; a quote is doubled there, and a line break would end it.
+/// gnuplot interprets nothing between single quotes, and a line break would end it. A quote is a text of its
+/// own by its number, joined to the others: gnuplot takes two at the beginning of a text for all of it, and
+/// looks for macros behind one between double quotes.
 std::string literal(const std::string& text) {
   std::string result = "'";
-  for (const char c : one_line(text)) result += c == '\'' ? "''" : std::string(1, c);
+  for (const char c : one_line(text)) result += c == '\'' ? "'.\"\\047\".'" : std::string(1, c);
   return result + "'";
 }
 

@@ -198,7 +198,7 @@ def open_the_page():
     """The case's page, with its designs, as wide and narrow screens show it by day and by night."""
     springproof("run", "liver.toml", "--converge=3", "--out", "out", "--report", "--designs", "hybrid,matched")
     page = FOLDER / "out" / "liver.html"
-    assert (FOLDER / "out" / "liver_bodies.png").stat().st_size > 1000
+    assert (FOLDER / "out" / "liver_bodies" / "bodies.png").stat().st_size > 1000
     if not find_chromium():
         return
     for width in (1400, 400):

@@ -100,7 +100,25 @@ TEST_CASE("texts of a case are data of its page: none becomes markup or script")
   CHECK(data["heading"] == definition.name);
   CHECK(data["subheading"] == definition.description);
   CHECK(data["case"]["measures"][0]["name"] == "<b>alpha</b>");
-  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies.png"), Contains("PNG"));
-  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies.svg"),
+  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies/bodies.png"), Contains("PNG"));
+  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies/bodies.svg"),
              Contains("a&lt;b") && !Contains("a<b"));
+}
+
+// What gnuplot is told of a stranger are texts of titles: every script of compare/write/plots was looked
+// through, with the words of ccx, valgrind, worker processes and confined readers. Files that gnuplot opens
+// have names of ours (draw()'s callers), in the case's folder.
+TEST_CASE("a case's name is no name of a file of gnuplot's: no pipe, no block of data, no special file") {
+  cases::Case definition = small_cube();
+  definition.name = GENERATE("<touch P;cat x", "|touch P", "$DATA", "''", "+", "-e x", "`touch P`", "@x");
+  const TemporaryFolder folder;
+  const std::string out = folder.path.string();
+  compare::write_case_page(out, compare::compare_case(definition, {cases::Side::msm}), nullptr, {});
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path))
+    CHECK(entry.path().filename() != "P");
+  CHECK_THAT(compare::read_file(out + "/" + definition.name + "_bodies/bodies.png"), Contains("PNG"));
+  const std::string script = compare::read_file(out + "/" + definition.name + "_bodies/bodies.gp");
+  const std::size_t titles = script.find("array titles[1] = ['"), end = script.find('\n', titles);
+  REQUIRE(titles != std::string::npos);
+  CHECK_THAT(script.substr(0, titles) + script.substr(end), !Contains(definition.name + "_bodies"));
 }

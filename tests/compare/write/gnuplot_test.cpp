@@ -35,8 +35,9 @@ void draw_sweep(const TemporaryFolder& folder, const std::string& headline) {
 
 TEST_CASE("a text in a plot is drawn as it stands, whatever gnuplot would make of it") {
   const TemporaryFolder folder;
-  const std::string headline = GENERATE("Young's cube \\ {x_1} @y #z", "\"`touch P`\" $DATA << E",
-                                        "x'; system 'touch P'; set title '", "x\nsystem 'touch P'\n");
+  const std::string headline =
+      GENERATE("Young's cube \\ {x_1} @y #z", "\"`touch P`\" $DATA << E", "x'; system 'touch P'; set title '",
+               "x\nsystem 'touch P'\n", "'; system 'touch P'; x = '", "''; system 'touch P'", "'''");
   draw_sweep(folder, headline);
   CHECK_FALSE(fs::exists(folder.path / "P"));
   const std::string svg = compare::read_file((folder.path / "plot.svg").string());
