@@ -15,7 +15,7 @@ struct NetworkSpring {
 
 /// Lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes), stiffness in
 /// N/m, and perhaps rest length in mm and exponent of the power-log law; a field of these two may be empty.
-/// Empty lines and those that begin with # or a letter are skipped.
+/// Empty lines, those that begin with #, and a heading (the first line alone may be one) are skipped.
 /// @param text  the file's content    @param name  of the file, for messages    @param n_nodes  of the mesh
 /// @throws InputError with the line and the field
 std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,

@@ -1,12 +1,12 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/rows.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -45,7 +45,7 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
       const std::size_t at = offset_of(text, old.ends_where[e]);
       std::string number = text.substr(at, text.find_first_of(" \t\r\n,]#", at) - at);
       number.erase(std::remove(number.begin(), number.end(), '_'), number.end()); // TOML's, in long numbers
-      if (number.empty() || std::strtod(number.c_str(), nullptr) != old.interval[e])
+      if (cases::number_in<double>(number) != old.interval[e])
         throw cases::InputError(old.ends_where[e],
                                 "no interval stands here any more, so that it cannot be blessed");
       ends[at] = written(interval[e], interval[1] - interval[0]);

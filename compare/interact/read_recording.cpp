@@ -1,11 +1,10 @@
 #include "compare/interact/read_recording.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/rows.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace springproof::compare {
 
@@ -22,47 +21,44 @@ struct PullRow {
   Vector3d force;  ///< N
 };
 
-std::vector<double> nine_numbers(const std::string& line) {
+std::vector<double> nine_numbers(const cases::TextRow& row) {
   constexpr double largest = 1e9;
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    double value = 0;
-    const auto [stop, error] = std::from_chars(line.data() + begin, line.data() + end, value);
-    if (error != std::errc() || stop != line.data() + end || !(std::abs(value) <= largest)) return {};
-    numbers.push_back(value);
-    begin = end + 1;
+  for (const std::string_view field : row.fields) {
+    const auto value = cases::number_in<double>(field);
+    if (value && std::abs(*value) <= largest) numbers.push_back(*value);
   }
-  return numbers.size() == 9 ? numbers : std::vector<double>{};
+  return row.fields.size() == 9 && numbers.size() == 9 ? numbers : std::vector<double>{};
+}
+
+/// @param step  s
+PullRow pull_of(const cases::TextRow& row, double step, long last) {
+  const auto refuse = [&](const std::string& problem) { throw cases::InputError(row.place() + problem); };
+  const std::vector<double> n = nine_numbers(row);
+  if (n.empty()) refuse(fmt::format("must be nine numbers up to 1e9 between commas: {}", recording_header));
+  if (!(n[0] == std::floor(n[0]) && n[0] > static_cast<double>(last)))
+    refuse("step must be a whole number above 0 and above that of the line before");
+  if (!(std::abs(n[1] - n[0] * step) <= 1e-6 * n[1]))
+    refuse(fmt::format("time is {:.10g} s, must be {:.10g} s at step {:.0f} of dynamics.step = {:.10g} s",
+                       n[1], n[0] * step, n[0], step));
+  if (!(n[5] >= 0)) refuse("radius must be 0 or above (mm)");
+  return {static_cast<long>(n[0]), {n[2], n[3], n[4]}, n[5], {n[6], n[7], n[8]}};
 }
 
 std::vector<PullRow> rows_of(const std::string& text, const std::string& path, double step) {
-  std::istringstream stream(text);
   std::vector<PullRow> rows;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    const auto refuse = [&](const std::string& problem) {
-      throw cases::InputError(fmt::format("{}:{}: {}", path, number, problem));
-    };
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (++number == 1) {
-      if (line != recording_header) refuse("must be the header " + recording_header);
-      continue;
-    }
-    if (line.empty()) continue;
-    const std::vector<double> n = nine_numbers(line);
-    if (n.empty()) refuse(fmt::format("must be nine numbers up to 1e9 between commas: {}", recording_header));
-    const bool is_next =
-        n[0] == std::floor(n[0]) && n[0] > (rows.empty() ? 0 : static_cast<double>(rows.back().step));
-    if (!is_next) refuse("step must be a whole number above 0 and above that of the line before");
-    if (!(std::abs(n[1] - n[0] * step) <= 1e-6 * n[1]))
-      refuse(fmt::format("time is {:.10g} s, must be {:.10g} s at step {:.0f} of dynamics.step = {:.10g} s",
-                         n[1], n[0] * step, n[0], step));
-    if (!(n[5] >= 0)) refuse("radius must be 0 or above (mm)");
+  bool has_heading = false;
+  const auto check_heading = [&](const cases::TextRow& row) {
+    has_heading = row.line == recording_header;
+    if (!has_heading) throw cases::InputError(row.place() + "must be the header " + recording_header);
+  };
+  cases::read_rows(text, path, cases::Between::commas, check_heading, [&](const cases::TextRow& row) {
+    if (!has_heading) check_heading(row);
     if (rows.size() == most_recorded)
-      refuse(fmt::format("a recording may have {} steps with a pull", most_recorded));
-    rows.push_back({static_cast<long>(n[0]), {n[2], n[3], n[4]}, n[5], {n[6], n[7], n[8]}});
-  }
+      throw cases::InputError(
+          fmt::format("{}a recording may have {} steps with a pull", row.place(), most_recorded));
+    rows.push_back(pull_of(row, step, rows.empty() ? 0 : rows.back().step));
+  });
   if (rows.empty()) throw cases::InputError(path + ": has no pull");
   return rows;
 }

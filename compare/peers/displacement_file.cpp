@@ -1,16 +1,14 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/rows.hpp"
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/vtk.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
-#include <sstream>
 #include <utility>
 
 namespace springproof::compare {
@@ -21,18 +19,12 @@ namespace {
 
 const std::string header = "x,y,z,ux,uy,uz";
 
-/// The numbers of a line, or nothing if it is not six finite ones between commas.
-std::vector<double> numbers_of(const std::string& line) {
+/// The numbers of a row, or nothing if it is not six finite ones.
+std::vector<double> numbers_of(const cases::TextRow& row) {
   std::vector<double> values;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    double value = 0;
-    const auto [stop, error] = std::from_chars(line.data() + begin, line.data() + end, value);
-    if (error != std::errc() || stop != line.data() + end || !std::isfinite(value)) return {};
-    values.push_back(value);
-    begin = end + 1;
-  }
-  return values.size() == 6 ? values : std::vector<double>{};
+  for (const std::string_view field : row.fields)
+    if (const auto value = cases::number_in<double>(field)) values.push_back(*value);
+  return row.fields.size() == 6 && values.size() == 6 ? values : std::vector<double>{};
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& problem) {
@@ -67,27 +59,23 @@ std::string shown(const Vector3d& point) {
 } // namespace
 
 std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path) {
-  std::istringstream stream(text);
   std::vector<GivenDisplacement> nodes;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    const std::string where = fmt::format("{}:{}", path, ++number);
-    std::string plain;
-    std::copy_if(line.begin(), line.end(), std::back_inserter(plain),
-                 [](char c) { return c != ' ' && c != '\t' && c != '\r'; });
-    if (number == 1) {
-      if (plain != header)
-        throw cases::InputError(fmt::format("{}: is '{}', must be the header {} (mm)", where, plain, header));
-      continue;
-    }
-    if (plain.empty()) continue;
-    const std::vector<double> v = numbers_of(plain);
-    if (v.empty())
-      throw cases::InputError(fmt::format("{}: is '{}', must be six finite numbers between commas: {} (mm)",
-                                          where, plain, header));
-    nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, where});
-  }
-  if (number == 0) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
+  const auto refuse_row = [](const cases::TextRow& row, const char* problem) {
+    throw cases::InputError(
+        fmt::format("{}is '{}', must be {} {} (mm)", row.place(), row.line, problem, header));
+  };
+  bool has_heading = false;
+  const auto check_heading = [&](const cases::TextRow& row) {
+    has_heading = true;
+    if (fmt::format("{}", fmt::join(row.fields, ",")) != header) refuse_row(row, "the header");
+  };
+  cases::read_rows(text, path, cases::Between::commas, check_heading, [&](const cases::TextRow& row) {
+    if (!has_heading) refuse_row(row, "the header");
+    const std::vector<double> v = numbers_of(row);
+    if (v.empty()) refuse_row(row, "six finite numbers between commas:");
+    nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, fmt::format("{}:{}", path, row.number)});
+  });
+  if (!has_heading) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
   return nodes;
 }
 

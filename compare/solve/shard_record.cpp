@@ -1,6 +1,8 @@
 #include "compare/solve/shard_record.hpp"
 
-#include <charconv>
+#include "cases/case/rows.hpp"
+
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -23,14 +25,13 @@ int shard_number(const nlohmann::json& value) {
 } // namespace
 
 std::optional<Shard> shard_from(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard.index);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, shard.count);
-  if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
-  if (!exists(shard)) return std::nullopt;
-  return shard;
+  const std::size_t stroke = std::min(text.find('/'), text.size());
+  const std::string_view all = text;
+  const auto index = cases::number_in<int>(all.substr(0, stroke)),
+             count = cases::number_in<int>(all.substr(std::min(stroke + 1, all.size())));
+  if (!index || !count) return std::nullopt;
+  const Shard shard{*index, *count};
+  return exists(shard) ? std::optional(shard) : std::nullopt;
 }
 
 std::string text_of(const ShardRecord& record) {

@@ -1,11 +1,10 @@
 #include "compare/thesis/published.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/rows.hpp"
 #include "compare/provenance/machine.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -64,11 +63,8 @@ std::vector<PublishedFigure> read_published_figures() {
 
 double CsvRow::number(std::size_t field) const {
   const std::string& text = fields.at(field);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw cases::InputError(path + ": '" + text + "' is not a number");
-  return value;
+  if (const auto value = cases::number_in<double>(text)) return *value;
+  throw cases::InputError(path + ": '" + text + "' is not a number");
 }
 
 std::vector<CsvRow> read_csv(const std::string& path) {

@@ -1,31 +1,24 @@
 #include "msm/design/uniaxial.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/rows.hpp"
 #include "mechanics/laws/ogden.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace springproof::msm {
 
 namespace {
 
-/// Blank for a comment or a heading; otherwise the numbers of a line.
-std::vector<double> numbers_of(std::string line, const std::string& place) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == std::string::npos || line[first] == '#' ||
-      std::isalpha(static_cast<unsigned char>(line[first])))
-    return {};
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream text(line);
+std::vector<double> numbers_of(const cases::TextRow& row) {
   std::vector<double> numbers;
-  for (double number = 0; text >> number;) numbers.push_back(number);
-  text.clear();
-  std::string rest;
-  if (text >> rest) throw cases::InputError(place + "\"" + rest + "\" is not a number");
+  for (const std::string_view field : row.fields) {
+    const auto number = cases::number_in<double>(field);
+    if (!number) throw cases::InputError(fmt::format("{}\"{}\" is no finite number", row.place(), field));
+    numbers.push_back(*number);
+  }
   return numbers;
 }
 
@@ -33,8 +26,6 @@ void check_row(const std::vector<double>& row, const UniaxialCurve& curve, const
   if (row.size() != 2 && row.size() != 3)
     throw cases::InputError(fmt::format("{}{} columns; a curve has strain, stress and perhaps lateral strain",
                                         place, row.size()));
-  if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); }))
-    throw cases::InputError(place + "not a finite number");
   if (!curve.axial_strain.empty() && !(row[0] > curve.axial_strain.back()))
     throw cases::InputError(place + "the strains must increase from line to line");
 }
@@ -78,17 +69,15 @@ UniaxialCurve sample(const StressLaw& law, double poissons_ratio, const StrainRa
 
 UniaxialCurve read_curve(const std::string& text, const std::string& name) {
   UniaxialCurve curve;
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::string place = fmt::format("{}:{}: ", name, number);
-    const std::vector<double> row = numbers_of(line, place);
-    if (row.empty()) continue;
-    check_row(row, curve, place);
+  const auto add = [&](const cases::TextRow& line) {
+    const std::vector<double> row = numbers_of(line);
+    check_row(row, curve, line.place());
     curve.axial_strain.push_back(row[0]);
     curve.stress.push_back(row[1]);
     curve.lateral_strain.push_back(row.size() == 3 ? row[2] : -0.5 * row[0]);
-  }
+  };
+  cases::read_rows(
+      text, name, cases::Between::commas_or_blanks, [](const cases::TextRow&) {}, add);
   if (curve.axial_strain.size() < 2)
     throw cases::InputError(fmt::format("{}: a curve needs at least two strains, this one has {}", name,
                                         curve.axial_strain.size()));

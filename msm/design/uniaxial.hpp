@@ -33,8 +33,9 @@ StressLaw yeoh_law(const std::vector<double>& coefficients);
 /// range
 UniaxialCurve sample(const StressLaw& law, double poissons_ratio, const StrainRange& range);
 
-/// A measured curve: columns strain, stress [, lateral strain], commas or blanks, lines that start with # or
-/// a letter skipped. Without the third column the material is taken for incompressible.
+/// A measured curve: columns strain, stress [, lateral strain], commas or blanks; lines that begin with #
+/// and a heading (the first line alone may be one) are skipped. Without the third column the material is
+/// taken for incompressible.
 /// @param text  the file's content   @param name  of the file, for messages
 /// @throws InputError with the line: no numbers, a missing column, strains that do not increase, nothing but
 /// zeros

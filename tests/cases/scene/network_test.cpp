@@ -38,6 +38,14 @@ TEST_CASE("a mistake in a network is refused with its line and field") {
   refused("0,1,nan\n", "stiffness is nan");
   refused("0,1,1e999\n", "stiffness is 1e999");
   refused("0,1,1x\n", "stiffness is 1x");
+  refused("4294967296,1,1\n", "node a is 4294967296");
+  refused("99999999999999999999,1,1\n", "node a is 99999999999999999999");
+  refused("0,1,1,1e400\n", "rest length is 1e400");
+  refused("0,1,1,,1e400\n", "exponent is 1e400");
+  refused("0,1,1,,-1e-400\n", "exponent is -1e-400");
+  refused("x2,3,1\n", "node a is x2");
+  refused("node_a,node_b,stiffness\n", "node a is node_a");
+  CHECK_THROWS_WITH(read_network("x0,1,1\n", "n.csv", 8), Catch::Contains("n.csv:1: node a is x0"));
   refused("0,1,1,-2\n", "rest length is -2");
   refused("0,1,1,,21\n", "exponent is 21");
   CHECK_THROWS_WITH(read_network("# nothing\n", "n.csv", 8), Catch::Contains("at least one spring"));

@@ -54,6 +54,9 @@ TEST_CASE("a CSV that is none is refused with the line and what is allowed") {
       {"x,y,z,ux,uy,uz\n0,0,0,0,0,0\n0,0,0,0,0,nan\n", "a.csv:3"},
       {"x,y,z,ux,uy,uz\n0,0,0,0,0,1e999\n", "a.csv:2"},
       {"x,y,z,ux,uy,uz\n0,0,0,0,0,zero\n", "a.csv:2"},
+      {"x,y,z,ux,uy,uz\nx0,0,0,0,0,0\n", "a.csv:2"},
+      {"x,y,z,ux,uy,uz\n0,0,0,0,0,1 2\n", "a.csv:2"},
+      {"0,0,0,0,0,0\n", "a.csv:1: is '0,0,0,0,0,0', must be the header"},
       {"x,y,z,ux,uy,uz\n0,0,0,0,0,0,0\n", "a.csv:2"},
   }));
   CHECK_THROWS_WITH(read_displacement_csv(text, "a.csv"), Catch::Contains(message));

@@ -134,6 +134,9 @@ TEST_CASE("a broken measured curve is refused with its line") {
       {"0,0\n0.1,nan\n", "curve.csv:2"},
       {"0,0\n0.1\n", "curve.csv:2: 1 columns"},
       {"0,0\n0.1,0.2x\n", "curve.csv:2"},
+      {"0,0\n0.1,0.2,1e400\n", "curve.csv:2: \"1e400\""},
+      {"0,0\n0.1,0.2\nx0.2,0.3\n0.3,0.4\n", "curve.csv:3: \"x0.2\""},
+      {"strain,stress\n0,0\nstrain,stress\n0.1,0.2\n", "curve.csv:3: \"strain\""},
       {"0,0\n0.1,0\n", "every stress is zero"},
       {"0,0,0\n0.1,1,0\n", "every lateral strain is zero"},
   }));

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+/// Numbers and rows of numbers in texts of strangers.
+namespace springproof::cases {
+
+/// The number that all of a text is. Nothing for an empty text, for a rest behind the number, and for one
+/// that the type cannot hold: 4294967296 is no int, and 1e400, inf and nan are no double here.
+template<class Number>
+std::optional<Number> number_in(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+/// One row of a table; views of the text that it was read from.
+struct TextRow {
+  std::vector<std::string_view> fields; ///< without the blanks around them
+  std::string_view line;                ///< likewise
+  const std::string& name;              ///< of the file
+  int number;                           ///< of the line, from 1
+  std::string place() const { return name + ":" + std::to_string(number) + ": "; }
+};
+
+/// What divides a row: commas, or else (in a row without one) blanks.
+enum class Between { commas, commas_or_blanks };
+
+/// Reads a table row by row. Empty lines and those that begin with # are left out. The first of the others is
+/// a heading if it begins with a letter and has no number; no later one is.
+/// @param name  of the file, for messages   @return whether there was a heading
+bool read_rows(const std::string& text, const std::string& name, Between between,
+               const std::function<void(const TextRow&)>& heading,
+               const std::function<void(const TextRow&)>& row);
+
+} // namespace springproof::cases
