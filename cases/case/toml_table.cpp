@@ -1,12 +1,11 @@
 #include "cases/case/toml_table.hpp"
 
+#include "cases/case/input_file.hpp"
+
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -48,18 +47,6 @@ std::optional<double> finite_number(const toml::node* node) {
   if (!node || !node->is_number()) return std::nullopt;
   const double value = *node->value<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-std::string text_of(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  // A folder opens, but cannot be read.
-  if (!file || !(text << file.rdbuf())) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
-    throw InputError(Where{path, 0, 0, ""}, "cannot be read: " + reason);
-  }
-  return text.str();
 }
 
 /// toml++ makes a table of every part of a dotted key, and destroys nested tables by recursion.
@@ -264,7 +251,7 @@ toml::table parse_document(const std::string& text, const std::string& path) {
 
 toml::table parse_file(const std::string& path, const std::vector<std::string>& settings) {
   if (!is_line_of_text(path)) throw InputError("the name of a case file must be one line of UTF-8 text");
-  toml::table document = parse_document(text_of(path), path);
+  toml::table document = parse_document(read_text_file(path, largest_case), path);
   for (const std::string& setting : settings) apply_override(document, setting);
   return document;
 }

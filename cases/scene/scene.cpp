@@ -1,5 +1,6 @@
 #include "cases/scene/scene.hpp"
 
+#include "cases/case/input_file.hpp"
 #include "cases/mesh/cells_at.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
@@ -13,8 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 namespace springproof::cases {
 
@@ -263,11 +262,7 @@ namespace {
 void resolve_network(Scene& scene) {
   const auto& file = scene.definition.msm.network;
   if (!file) return;
-  std::ifstream stream(file->path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(file->where, "cannot be read: " + file->path);
-  scene.network = read_network(text.str(), file->path, scene.mesh.nodes.size());
+  scene.network = read_network(read_text_file(file->path), file->path, scene.mesh.nodes.size());
   for (const NetworkSpring& spring : scene.network)
     if (!spring.rest_length && scene.mesh.nodes[index(spring.a)] == scene.mesh.nodes[index(spring.b)])
       throw InputError(file->where, fmt::format("the spring between nodes {} and {}, which lie in one place, "

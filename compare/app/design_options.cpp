@@ -1,5 +1,6 @@
 #include "compare/app/design_options.hpp"
 
+#include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -71,7 +72,7 @@ void check_largest_strain(const DesignOptions& o) {
 }
 
 std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
-  if (!o.curve_file.empty()) return msm::read_curve(read_file(o.curve_file), o.curve_file);
+  if (!o.curve_file.empty()) return msm::read_curve(cases::read_text_file(o.curve_file), o.curve_file);
   if (o.yeoh.empty()) return std::nullopt;
   const double thesis_end = 0.4; // of its Ogden reference
   return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, o.largest_strain.value_or(thesis_end)});

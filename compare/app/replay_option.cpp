@@ -1,7 +1,7 @@
 #include "compare/app/replay_option.hpp"
 
+#include "cases/case/input_file.hpp"
 #include "compare/interact/replay.hpp"
-#include "compare/provenance/whole_file.hpp"
 
 namespace springproof::compare {
 
@@ -14,7 +14,7 @@ std::vector<Question> with_recording(std::vector<Question> questions, const std:
   if (recording.empty()) return questions;
   if (questions.size() != 1) throw cases::InputError("--replay: a recording is of one case");
   cases::Scene& scene = questions.front().scene;
-  scene = with_recording(std::move(scene), read_file(recording), recording);
+  scene = with_recording(std::move(scene), cases::read_text_file(recording), recording);
   return questions;
 }
 

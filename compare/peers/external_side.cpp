@@ -1,6 +1,7 @@
 #include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/mesh/read_vtk.hpp"
 #include "compare/provenance/print.hpp"
@@ -31,7 +32,8 @@ ResultFile read_result_file(const std::string& path) {
                     endings.front(), fmt::join(endings.begin() + 1, endings.end(), " ")));
   if (one_line(path) != path)
     throw cases::InputError(one_line(path) + ": the file's name must be one line of UTF-8 text");
-  return {read_file(path), ending == ".csv"};
+  const bool is_csv = ending == ".csv";
+  return {is_csv ? cases::read_text_file(path) : cases::read_bytes(path), is_csv};
 }
 
 cases::CellCloud cells_of(const std::string& text, const cases::HexMesh& mesh, const std::string& path) try {

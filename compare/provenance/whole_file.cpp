@@ -1,13 +1,13 @@
 #include "compare/provenance/whole_file.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/provenance/machine.hpp"
 
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -135,13 +135,7 @@ void check_named_file(const std::string& path) {
 }
 
 std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  try {
-    if (file) return {std::istreambuf_iterator<char>(file), {}};
-  } catch (const std::ios_base::failure&) {
-    // a folder opens, but it cannot be read
-  }
-  throw cases::InputError(path + ": cannot be read");
+  return cases::read_bytes(path);
 }
 
 void claim_folder(const std::string& folder) {

@@ -89,7 +89,7 @@ TEST_CASE("a pipe is written to, not replaced") {
   const std::string pipe = (folder.path / "pipe").string();
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   std::string received;
-  std::thread reader([&] { received = compare::read_file(pipe); });
+  std::thread reader([&] { received = content(pipe); });
   write_named_text(pipe, "through");
   reader.join();
   CHECK(received == "through");
