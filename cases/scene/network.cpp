@@ -2,6 +2,8 @@
 
 #include "cases/case/rows.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace springproof::cases {
@@ -67,6 +69,45 @@ std::vector<NetworkSpring> read_network(const std::string& text, const std::stri
       [&](const TextRow& row) { springs.push_back(spring_of({row}, n_nodes)); });
   if (springs.empty()) throw InputError(name + ": a network needs at least one spring");
   return springs;
+}
+
+std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
+                                   const std::function<Eigen::Vector3d(int)>& node) {
+  constexpr double far = 0.1; // of the distance
+  std::vector<std::array<int, 2>> pairs;
+  std::size_t n_far = 0;
+  double farthest = 0;
+  const NetworkSpring* worst = nullptr;
+  for (const NetworkSpring& spring : springs) {
+    pairs.push_back({std::min(spring.a, spring.b), std::max(spring.a, spring.b)});
+    if (!spring.rest_length) continue;
+    const double distance = (node(spring.a) - node(spring.b)).norm();
+    const double off = std::abs(*spring.rest_length - distance);
+    if (off <= far * distance) continue;
+    ++n_far;
+    if (worst == nullptr || off / distance > farthest) {
+      farthest = off / distance;
+      worst = &spring;
+    }
+  }
+  std::vector<std::string> doubts;
+  std::sort(pairs.begin(), pairs.end());
+  const auto first = std::adjacent_find(pairs.begin(), pairs.end());
+  if (first != pairs.end()) {
+    const std::array<int, 2> twice = *first;
+    const auto n = pairs.end() - std::unique(pairs.begin(), pairs.end());
+    doubts.push_back(
+        fmt::format("{} of {} springs join two nodes that another one joins already, nodes {} and {} for "
+                    "one: their forces add up",
+                    n, springs.size(), twice[0], twice[1]));
+  }
+  if (worst != nullptr)
+    doubts.push_back(
+        fmt::format("{} of {} springs have a rest length more than {:g} % from the distance of their nodes, "
+                    "that of nodes {} and {} {:.4g} mm for {:.4g} mm: the body is not at rest without loads",
+                    n_far, springs.size(), 100 * far, worst->a, worst->b, *worst->rest_length,
+                    (node(worst->a) - node(worst->b)).norm()));
+  return doubts;
 }
 
 } // namespace springproof::cases

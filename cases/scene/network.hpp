@@ -2,6 +2,8 @@
 
 #include "cases/case/case.hpp"
 
+#include <functional>
+
 /// A spring network of the user's own: `design = "network"`, `file = "NAME.csv"` in [msm].
 namespace springproof::cases {
 
@@ -20,5 +22,10 @@ struct NetworkSpring {
 /// @throws InputError with the line and the field
 std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,
                                         std::size_t n_nodes);
+
+/// What looks like a mistake of a network, with the number of springs: nodes that several springs join, and
+/// rest lengths more than 10 % from the distance of the nodes.
+std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
+                                   const std::function<Eigen::Vector3d(int)>& node);
 
 } // namespace springproof::cases

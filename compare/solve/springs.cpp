@@ -67,6 +67,7 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
   if (scene.definition.msm.design == cases::Design::network) {
     msm::DesignResult network;
     network.terms = msm::BodyTerms{};
+    network.warnings = cases::doubts_of(scene.network, [&](int n) { return Vector3d(scene.mesh.nodes[n]); });
     return network;
   }
   msm::DesignResult all = design_cell(scene, 0);

@@ -50,3 +50,19 @@ TEST_CASE("a mistake in a network is refused with its line and field") {
   refused("0,1,1,,21\n", "exponent is 21");
   CHECK_THROWS_WITH(read_network("# nothing\n", "n.csv", 8), Catch::Contains("at least one spring"));
 }
+
+TEST_CASE("springs that join the same nodes, and rest lengths far from the distance, are counted") {
+  const auto on_a_line = [](int n) { return Eigen::Vector3d(n, 0, 0); };
+  const auto doubts = [&](const std::string& text) {
+    return cases::doubts_of(read_network(text, "n.csv", 8), on_a_line);
+  };
+  CHECK(doubts("0,1,1\n1,2,1,1.09\n").empty());
+  const auto twice = doubts("0,1,1\n1,0,2\n3,2,1\n2,3,1\n2,3,1\n");
+  REQUIRE(twice.size() == 1);
+  CHECK_THAT(twice[0], Catch::StartsWith(
+                           "3 of 5 springs join two nodes that another one joins already, nodes 0 and 1"));
+  const auto far = doubts("0,1,1,1.2\n1,3,1,0.5\n4,5,1\n");
+  REQUIRE(far.size() == 1);
+  CHECK_THAT(far[0], Catch::StartsWith("2 of 3 springs have a rest length more than 10 %") &&
+                         Catch::Contains("nodes 1 and 3 0.5 mm for 2 mm"));
+}
