@@ -1,5 +1,6 @@
 #include "cases/case/read_case.hpp"
 
+#include "cases/case/letters.hpp"
 #include "cases/case/read_body.hpp"
 #include "cases/case/read_boundary.hpp"
 #include "cases/case/read_dynamics.hpp"
@@ -16,6 +17,10 @@ namespace springproof::cases {
 
 namespace {
 
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 /// Names label rows of reports and files of results.
 std::string read_case_name(const Entry& entry) {
   const std::string name = read_text(entry);
@@ -30,6 +35,11 @@ std::string read_case_name(const Entry& entry) {
     entry.refuse(
         "a name that begins with a letter, a digit or _, ends with neither a blank nor a point, has no "
         "/, \\, quotes or line breaks, and 200 bytes at most: it names files of results");
+  for (const char* ending : {"_springs", "_modes"}) // NAME_springs.vtu
+    if (ends_with(in_small_letters(name), ending))
+      entry.refuse(
+          fmt::format("a name that does not end with {}: a file of that name is written for the case \"{}\"",
+                      ending, name.substr(0, name.size() - std::string(ending).size())));
   return name;
 }
 

@@ -1,5 +1,7 @@
 #include "cases/mesh/volume_files.hpp"
 
+#include "cases/case/letters.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -21,12 +23,6 @@ std::string without_blanks_around(const std::string& text) {
   const char* const blanks = " \t\r\n\v\f";
   const std::size_t first = text.find_first_not_of(blanks);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string in_small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// @throws std::runtime_error unless it is the name of a file in the same folder

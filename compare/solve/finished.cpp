@@ -1,5 +1,6 @@
 #include "compare/solve/finished.hpp"
 
+#include "cases/case/letters.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -42,10 +43,10 @@ FinishedCases::FinishedCases(const std::string& folder, const std::vector<Questi
   std::set<std::string> taken;
   for (const Question& question : questions) {
     const cases::Case& definition = question.scene.definition;
-    if (names == FileNames::of_cases && !taken.insert(definition.name).second)
-      throw cases::InputError(
-          fmt::format("{}: another case is named \"{}\" too, and --out has one file a name", definition.file,
-                      definition.name));
+    if (names == FileNames::of_cases && !taken.insert(cases::in_small_letters(definition.name)).second)
+      throw cases::InputError(fmt::format("{}: another case is named \"{}\" too (small letters and capitals "
+                                          "are one on some disks), and --out has one file a name",
+                                          definition.file, definition.name));
   }
   claim_folder(folder);
   claim_subfolder(folder, "solved");
