@@ -3,6 +3,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "compare/app/number_option.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
@@ -79,9 +80,6 @@ std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
 }
 
 msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element element) {
-  if (!(1e-6 <= o.edge && o.edge <= 1e6))
-    throw cases::InputError(
-        fmt::format("command line: --edge: is {:g}, must be from 1e-6 to 1e6 (mm)", o.edge));
   const auto curve = curve_of(o);
   msm::DesignRequest request =
       design_request(material_of(o, curve), msm::cube(o.edge), cases::Msm{}, element);
@@ -107,22 +105,29 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
 
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");
-  command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa");
-  command.add_option("--poisson", o.poissons_ratio, "Poisson's ratio");
-  command.add_option("--edge", o.edge, "edge of the cell, mm")->capture_default_str();
+  command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa")->check(number_between(1e-12, 1e12));
+  command.add_option("--poisson", o.poissons_ratio, "Poisson's ratio")->check(number_between(-0.9999, 0.5));
+  command.add_option("--edge", o.edge, "edge of the cell, mm")
+      ->check(number_between(1e-6, 1e6))
+      ->capture_default_str();
   command.add_option("--method", o.method, "design method")
       ->check(CLI::IsMember(cases::all_names<cases::Design>()));
-  command.add_option("--split", o.split,
-                     "0 to 1: t of the shear stiffness in internal diagonals; with " +
-                         cases::designs_with("split"));
+  command
+      .add_option("--split", o.split,
+                  "0 to 1: t of the shear stiffness in internal diagonals; with " +
+                      cases::designs_with("split"))
+      ->check(number_between(0, 1));
   command.add_option("--element", o.element, "element of the linear method's K_FEM")
       ->check(CLI::IsMember({"q1", "q1_bbar"}))
       ->capture_default_str();
-  command.add_option("--ogden-mu", o.ogden_mu, "Ogden's mu_i, MPa");
-  command.add_option("--ogden-alpha", o.ogden_alpha, "Ogden's alpha_i");
-  command.add_option("--neo-hookean", o.neo_hookean, "shear modulus mu, MPa");
-  command.add_option("--mooney-rivlin", o.mooney_rivlin, "C10 and C01, MPa")->expected(2);
-  command.add_option("--yeoh", o.yeoh, "C1, C2, ..., MPa");
+  command.add_option("--ogden-mu", o.ogden_mu, "Ogden's mu_i, MPa")->check(number_between(-1e12, 1e12));
+  command.add_option("--ogden-alpha", o.ogden_alpha, "Ogden's alpha_i")->check(number_between(-1000, 1000));
+  command.add_option("--neo-hookean", o.neo_hookean, "shear modulus mu, MPa")
+      ->check(number_between(1e-12, 1e12));
+  command.add_option("--mooney-rivlin", o.mooney_rivlin, "C10 and C01, MPa")
+      ->expected(2)
+      ->check(number_between(-1e12, 1e12));
+  command.add_option("--yeoh", o.yeoh, "C1, C2, ..., MPa")->check(number_between(-1e12, 1e12));
   command.add_option("--curve", o.curve_file,
                      "measured uniaxial curve, CSV: log strain, Cauchy stress (MPa) [, lateral strain]");
   command.add_option("--largest-strain", o.largest_strain,
@@ -131,7 +136,7 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
       ->check(CLI::IsMember(cases::all_names<cases::LoadPath>()));
   command.add_option("--strain-range", o.strain_range, "logarithmic strains that the fits cover")
       ->expected(2)
-      ->check(CLI::Range(-largest_allowed_strain, largest_allowed_strain));
+      ->check(number_between(-largest_allowed_strain, largest_allowed_strain));
   command
       .add_option("--law", o.law, "law of the multi-load method's springs; power_log: it fits exponents too")
       ->check(CLI::IsMember(cases::all_names<cases::SpringLaw>()));

@@ -1,6 +1,7 @@
 #include "cases/case/installation.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/app/number_option.hpp"
 #include "compare/interact/recording.hpp"
 #include "compare/interact/server.hpp"
 #include "compare/provenance/machine.hpp"
@@ -129,7 +130,7 @@ void add_interact_command(CLI::App& program, Action& chosen) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command->add_option("--stiffness", options->stiffness, "of the spring that pulls, N/m")
-      ->check(CLI::Range(1e-6, 1e9))
+      ->check(number_between(1e-6, 1e9))
       ->capture_default_str();
   command->add_option("--spheres", options->n_spheres, "that cover the surface, to take hold of")
       ->check(CLI::Range(1, 100000))
@@ -139,7 +140,7 @@ void add_interact_command(CLI::App& program, Action& chosen) {
       ->capture_default_str();
   command->add_flag("--stay", options->stays, "go on when the page is closed, until Ctrl-C");
   command->add_option("--seconds", options->seconds, "end after so many seconds in any case")
-      ->check(CLI::Range(0.1, 1e6));
+      ->check(number_between(0.1, 1e6));
   command->add_option("--out", options->out, "folder for the recording of the pulls");
   command->add_flag(
       "--json", options->json,

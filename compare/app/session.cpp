@@ -6,6 +6,7 @@
 #include "compare/solve/solvers.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <fcntl.h>
 #include <iostream>
 #include <mpi.h>
@@ -17,6 +18,7 @@ namespace springproof::compare {
 void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);
+  std::signal(SIGXFSZ, SIG_IGN); // writing beyond a limit (ulimit -f) fails with a reason
 }
 
 void start_ranks() {

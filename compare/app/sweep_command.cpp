@@ -1,9 +1,12 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/app/number_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/fields.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
@@ -54,7 +57,9 @@ void write_files(const std::string& folder, const Sweep& sweep) {
 }
 
 Sweep planned(const SweepOptions& options) {
-  return make_sweep(cases::read_case(options.file), options.extent(), options.rules(), options.budget);
+  const cases::Case definition = cases::read_case(options.file);
+  check_same_on_ranks("cases", n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
+  return make_sweep(definition, options.extent(), options.rules(), options.budget);
 }
 
 int time_part(const SweepOptions& options) {
@@ -167,7 +172,7 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   command
       ->add_option("--budget", options->budget,
                    "seconds: leave out the variants of the longest estimated times until the others fit")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-3, 1e9));
   CLI::Option* perf = command->add_flag(
       "--perf", options->perf,
       "count the instructions of the springs' kernels with valgrind instead; needs no case");

@@ -64,7 +64,9 @@ struct ServerState {
     if (!error) acceptor.bind(here, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error) throw cases::InputError("--port " + std::to_string(port) + ": " + error.message());
-    host = "127.0.0.1:" + std::to_string(acceptor.local_endpoint().port());
+    const unsigned short bound = acceptor.local_endpoint().port();
+    host =
+        "127.0.0.1" + (bound == 80 ? "" : ":" + std::to_string(bound)); // browsers leave http's own port out
     token = random_text();
   }
 

@@ -6,6 +6,7 @@
 #include "compare/solve/fields.hpp"
 #include "mechanics/ranks/share_out.hpp"
 
+#include <fmt/format.h>
 #include <mpi.h>
 #include <new>
 
@@ -74,6 +75,17 @@ void run_on_all_ranks(const std::function<void()>& action) {
   }
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
   if (failed < n_mpi_ranks()) throw cases::InputError(from_rank(failed, reason));
+}
+
+void check_same_on_ranks(const std::string& what, const std::string& text) {
+  const std::string expected = from_rank_0(text);
+  run_on_all_ranks([&] {
+    if (text != expected)
+      throw cases::InputError(
+          fmt::format("rank {} was given other {} than rank 0: all need the same command, "
+                      "and the same files",
+                      mpi_rank(), what));
+  });
 }
 
 Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find) {

@@ -18,6 +18,10 @@ bool on_all_ranks(bool here);
 /// @throws InputError on every rank, with the reason of the first that it failed on
 void run_on_all_ranks(const std::function<void()>& action);
 
+/// @param what   of the ranks' cases, for a message   @param text  of this rank
+/// @throws InputError on every rank unless the text is the same on all
+void check_same_on_ranks(const std::string& what, const std::string& text);
+
 /// An answer that rank 0 alone finds, shared by all ranks.
 /// @param find  called on rank 0   @throws InputError that it throws, on every rank
 Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find);

@@ -5,6 +5,7 @@
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/ranks.hpp"
 
 #include <algorithm>
 #include <new>
@@ -88,6 +89,11 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
     const cases::Case definition = cases::read_case(file, settings);
     if (const auto body = size_of(definition)) check_memory(file, estimate(*body, request), memory);
     questions.push_back({make_scene_within_memory(definition), request});
+  }
+  if (n_mpi_ranks() > 1) {
+    std::string bytes;
+    for (const Question& question : questions) bytes += cases::to_bytes(question.scene.definition);
+    check_same_on_ranks("cases", bytes);
   }
   return questions;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/rows.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 
@@ -29,9 +30,12 @@ class CsvWriter {
   void end_block() { out_ << "\n\n"; }
 
  private:
-  /// As RFC 4180 has it: a text with a comma or a quote stands in quotes, and its quotes are doubled.
+  /// As RFC 4180 has it: a text with a comma or a quote stands in quotes, and its quotes are doubled. An
+  /// apostrophe goes before what begins as a formula does.
   std::string field(const std::string& any_text) const {
-    const std::string text = one_line(any_text);
+    std::string text = one_line(any_text);
+    // A spreadsheet would take it for a formula, which can start programs.
+    if (text.find_first_of("=+-@\t") == 0 && !cases::number_in<double>(text)) text.insert(0, 1, '\'');
     if (text.find_first_of(",\"") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

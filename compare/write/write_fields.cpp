@@ -1,5 +1,6 @@
 #include "compare/write/write_fields.hpp"
 
+#include "cases/case/rows.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -51,25 +52,6 @@ struct Files {
   std::string pieces() const { return name + "_pieces"; }
   std::string piece(int rank) const { return fmt::format("{}/{}_{}.vtu", pieces(), name, rank); }
 };
-
-/// Those of ranks that are no longer there.
-void remove_pieces(const Files& files, int first_rank) {
-  std::error_code ignored;
-  const fs::path pieces = files.folder + "/" + files.pieces();
-  if (fs::is_symlink(pieces, ignored)) return;
-  const std::string begin = files.name + "_";
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(pieces, ignored)) {
-    const std::string stem = entry.path().stem().string(),
-                      rank = stem.substr(std::min(stem.size(), begin.size()));
-    if (entry.path().extension() == ".vtu" && stem.compare(0, begin.size(), begin) == 0 && !rank.empty() &&
-        rank.size() < 9 && rank.find_first_not_of("0123456789") == std::string::npos &&
-        std::stoi(rank) >= first_rank)
-      old.push_back(entry.path());
-  }
-  for (const fs::path& path : old) fs::remove(path, ignored);
-  if (first_rank == 0) fs::remove(pieces, ignored); // if nothing else is in it
-}
 
 /// What ParaView opens: the names of the fields and of the pieces.
 void write_list(std::ostream& out, const Files& files, const cases::GridFields& fields, std::size_t n_cells) {
@@ -131,7 +113,7 @@ void write_pieces(const Files& files, const Comparison& comparison, const cases:
   });
   run_on_all_ranks([&] {
     if (mpi_rank() != 0) return;
-    remove_pieces(files, n_mpi_ranks());
+    remove_numbered(files.folder + "/" + files.pieces(), files.name, n_mpi_ranks());
     write_springs(files, comparison, displacement);
     write_file(files.list(), [&](std::ostream& out) {
       write_list(out, files, fields, comparison.scene.mesh.cells.size());
@@ -140,6 +122,23 @@ void write_pieces(const Files& files, const Comparison& comparison, const cases:
 }
 
 } // namespace
+
+void remove_numbered(const std::string& folder, const std::string& name, int first) {
+  std::error_code ignored;
+  if (fs::is_symlink(folder, ignored)) return;
+  const std::string begin = name + "_";
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string stem = entry.path().stem().string();
+    const auto number =
+        cases::number_in<int>(std::string_view(stem).substr(std::min(stem.size(), begin.size())));
+    if (entry.path().extension() == ".vtu" && stem.compare(0, begin.size(), begin) == 0 && number &&
+        *number >= first)
+      old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path, ignored);
+  if (first == 0) fs::remove(folder, ignored); // if nothing else is in it
+}
 
 void write_vtu(std::ostream& out, const Comparison& comparison) {
   out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, grid_fields_of(comparison));
@@ -156,7 +155,7 @@ void write_fields(const std::string& folder, const Comparison& comparison) {
   if (mpi_rank() != 0) return;
   std::error_code not_there;
   fs::remove(files.list(), not_there);
-  remove_pieces(files, 0);
+  remove_numbered(files.folder + "/" + files.pieces(), files.name, 0);
   const bool are_drawn = has_drawn_springs(comparison);
   write_springs(files, comparison,
                 are_drawn ? comparison.answers.msm.solution.displacement : std::vector<Eigen::Vector3d>());

@@ -15,6 +15,10 @@ void write_vtu(std::ostream& out, const Comparison& comparison);
 /// Any vectors on a mesh's nodes as a .vtu.
 void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
 
+/// Removes FOLDER/NAME_NUMBER.vtu of this number and above, of an earlier run, and the folder if nothing is
+/// left.
+void remove_numbered(const std::string& folder, const std::string& name, int first);
+
 /// The same as files: FOLDER/NAME.vtu or, where ranks share the answers, FOLDER/NAME_pieces/NAME_RANK.vtu and
 /// FOLDER/NAME.pvtu, which is written when its pieces are whole; and FOLDER/NAME_springs.vtu, the springs as
 /// lines, where has_drawn_springs(). What other numbers of ranks have left is removed. Every rank calls it.

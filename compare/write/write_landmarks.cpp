@@ -6,6 +6,7 @@
 #include "compare/write/json.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace springproof::compare {
@@ -80,9 +81,12 @@ void write_landmarks_csv(std::ostream& out, const Comparison& comparison) {
 }
 
 void write_landmarks(const std::string& folder, const Comparison& comparison) {
-  if (comparison.landmarks.empty()) return;
-  write_file(folder + "/" + comparison.scene.definition.name + "_landmarks.csv",
-             [&](std::ostream& out) { write_landmarks_csv(out, comparison); });
+  const std::string file = folder + "/" + comparison.scene.definition.name + "_landmarks.csv";
+  std::error_code not_there;
+  if (comparison.landmarks.empty())
+    std::filesystem::remove(file, not_there); // an earlier run's
+  else
+    write_file(file, [&](std::ostream& out) { write_landmarks_csv(out, comparison); });
 }
 
 } // namespace springproof::compare

@@ -7,6 +7,7 @@
 #include "compare/write/write_fields.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -151,8 +152,15 @@ std::vector<std::string> notes_on_motion(const Comparison& comparison) {
 
 void write_motion(const std::string& folder, const Comparison& comparison) {
   const Trajectory* motion = any_trajectory(comparison);
-  if (!motion) return;
   const MotionFiles files{folder, comparison.scene.definition.name};
+  remove_numbered(folder + "/" + files.bodies(), files.name,
+                  motion ? static_cast<int>(motion->bodies.size()) : 0);
+  if (!motion) {
+    std::error_code not_there;
+    std::filesystem::remove(files.series(), not_there);
+    std::filesystem::remove(files.list(), not_there);
+    return;
+  }
   write_file(files.series(), [&](std::ostream& out) { write_motion_csv(out, comparison); });
   claim_subfolder(folder, files.bodies());
   for (std::size_t i = 0; i < motion->bodies.size(); ++i)

@@ -67,6 +67,12 @@ TEST_CASE("a row has numbers to the writer's digits, texts in quotes where neede
   CHECK(out.str() == "1.23,7,\"a,b\",\"say \"\"so\"\"\",,0.5,2\n");
 }
 
+TEST_CASE("a text is no formula of a spreadsheet's") {
+  std::ostringstream out;
+  compare::CsvWriter(out).row("=1+1", "@x", "+y", "-2+cmd|x", "-", -2.5, "a=b", "-2.5");
+  CHECK(out.str() == "'=1+1,'@x,'+y,'-2+cmd|x,'-,-2.5,a=b,-2.5\n");
+}
+
 TEST_CASE("a text makes no second line in a row, and no escape of a terminal") {
   std::ostringstream out;
   compare::CsvWriter(out).row("case\n::add-mask::x", "\x1b[2J");
