@@ -118,6 +118,16 @@ void check_motion(const Moved& moved, MotionStart start, std::size_t i) {
     refuse(fmt::format("is {} at time 0, must be 0 beside dynamics.start = \"rest\"", moved.history.at(0)));
 }
 
+/// Steps that are longer than half a period see another sine than the case's.
+void check_sine(const History& history, const Dynamics& dynamics, const std::string& key, std::size_t i) {
+  if (history.frequency * dynamics.step < 0.5) return;
+  throw InputError(
+      dynamics.where,
+      fmt::format("step is {:.10g} s, must be below half a period of {}[{}].history, a sine of {:.10g} "
+                  "Hz: {:.10g} s, and some twentieth of it to follow its course",
+                  dynamics.step, key, i, history.frequency, 0.5 / history.frequency));
+}
+
 void check_densities(Table& root, const Case& definition) {
   const bool has_gravity = std::any_of(definition.loads.begin(), definition.loads.end(),
                                        [](const Load& load) { return load.kind == LoadKind::gravity; });
@@ -176,6 +186,10 @@ void check_dynamics(Table& root, const Case& definition) {
   for (std::size_t i = 0; i < definition.moved.size(); ++i)
     check_motion(definition.moved[i], definition.dynamics->start, i);
   check_turns_in_time(definition);
+  for (std::size_t i = 0; i < definition.moved.size(); ++i)
+    check_sine(definition.moved[i].history, *definition.dynamics, "moved", i);
+  for (std::size_t i = 0; i < definition.loads.size(); ++i)
+    check_sine(definition.loads[i].history, *definition.dynamics, "load", i);
   if (definition.fem.has_auto_formulation)
     throw InputError(definition.fem.where, "formulation must not be \"auto\" beside [dynamics]: whether the "
                                            "strains are small is known at the end alone");

@@ -12,8 +12,12 @@ namespace springproof::cases {
 
 namespace {
 
+/// MPa. Squares and cubes are taken of it.
+const Number modulus{"a number above 0 (MPa), from 1e-12 to 1e12",
+                     [](double value) { return value >= 1e-12 && value <= 1e12; }};
+
 LinearElastic read_linear_elastic(Table& table) {
-  return {table.required("youngs_modulus", Number{"a number above 0 (MPa)", is_positive}),
+  return {table.required("youngs_modulus", modulus),
           table.required("poissons_ratio",
                          Number{"a number above -1 and below 0.5 (at 0.5 the bulk modulus is infinite: "
                                 "model = \"ogden\" is for incompressible materials)",
@@ -24,20 +28,19 @@ Ogden read_ogden(Table& table) {
   Ogden material;
   const Entry mu = table.entry("mu");
   material.mu = Numbers{"one or more finite numbers (MPa)", 0}(mu);
-  if (!(std::accumulate(material.mu.begin(), material.mu.end(), 0.0) > 0))
-    mu.refuse("numbers with a sum above 0 (MPa): the sum is the initial shear modulus");
+  if (!modulus.condition(std::accumulate(material.mu.begin(), material.mu.end(), 0.0)))
+    mu.refuse("numbers with a sum above 0 (MPa), from 1e-12 to 1e12: the sum is the initial shear modulus");
   const Entry alpha = table.entry("alpha");
   material.alpha = Numbers{"as many finite numbers as mu, none 0", 0, [](double a) { return a != 0; }}(alpha);
   if (material.alpha.size() != material.mu.size())
     alpha.refuse(fmt::format("as many numbers as mu has, which is {}", material.mu.size()));
-  material.bulk_modulus = table.optional("bulk_modulus", Number{"a number above 0 (MPa)", is_positive});
+  material.bulk_modulus = table.optional("bulk_modulus", modulus);
   return material;
 }
 
 /// The compliance is positive definite when every modulus is positive, |nu_TT| < 1 and
 /// 1 - nu_TT - 2 nu_LT² E_T/E_L > 0 (Lempriere 1968, AIAA J 6:2226).
 TransverselyIsotropic read_transversely_isotropic(Table& table) {
-  const Number modulus{"a number above 0 (MPa)", is_positive};
   TransverselyIsotropic m;
   m.youngs_modulus_along = table.required("youngs_modulus_along", modulus);
   m.youngs_modulus_across = table.required("youngs_modulus_across", modulus);

@@ -193,6 +193,9 @@ HexMesh read_mesh(const MeshFile& file) {
   if (!std::filesystem::is_regular_file(file.path, absent))
     throw InputError(file.where, file.path + ": " + (absent ? absent.message() : "is no regular file"));
   const bool is_geometry = std::filesystem::path(file.path).extension() == ".geo";
+  if (is_geometry && std::filesystem::exists(file.path + ".opt", absent))
+    throw InputError(file.where, file.path + ": has options for gmsh beside it, " + file.path +
+                                     ".opt: write them into the .geo (Mesh.X = ...;)");
   try {     // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
     gmsh(); // loaded before the child is confined
     const Limits limits =

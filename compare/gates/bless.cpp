@@ -17,9 +17,9 @@ namespace springproof::compare {
 namespace {
 
 /// Two digits finer than the interval is wide, so that the rounding does not matter; all digits of an
-/// interval without width.
+/// interval without width, and with an exponent what TOML could not hold as a whole number.
 std::string written(double end, double width) {
-  if (!(width > 0)) return fmt::format("{}", end);
+  if (!(width > 0) || std::abs(end) >= 1e15) return fmt::format("{}", end);
   const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(width))));
   return fmt::format("{:.{}f}", end, decimals);
 }
@@ -48,6 +48,8 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
       if (cases::number_in<double>(number) != old.interval[e])
         throw cases::InputError(old.ends_where[e],
                                 "no interval stands here any more, so that it cannot be blessed");
+      if (!std::isfinite(interval[e]))
+        throw cases::InputError(old.ends_where[e], "the interval is so wide that it cannot be moved");
       ends[at] = written(interval[e], interval[1] - interval[0]);
     }
   std::string result = text;

@@ -195,6 +195,14 @@ TEST_CASE("a mistake in a history is refused where it is made") {
   });
 }
 
+TEST_CASE("a sine that the steps cannot see is refused beside the longest step that can") {
+  const std::string history = "[[0, 1], [0, 0]]"; // with steps of 0.01 s
+  CHECK(read_text(replaced(dynamic_case, history, "{ sine = 49 }")).loads[1].history.frequency == 49);
+  check_dynamic_mistakes(
+      {{history, "{ sine = 50 }", 14, "dynamics", {"step is 0.01 s", "load[1].history", "50 Hz: 0.01 s"}},
+       {history, "{ sine = 100 }", 14, "dynamics", {"below half a period", "100 Hz: 0.005 s"}}});
+}
+
 TEST_CASE("a support has a motion that begins where the body is, and does not jump") {
   const std::string load = "[[load]]\nregion = 'x+'\nkind = 'total_force'\nvalue = [0, 1, 0]\n",
                     moved = "[[moved]]\nregion = 'x+'\ndisplacement = [0, 0, 1]\n",

@@ -258,6 +258,13 @@ TEST_CASE("a mesh or geometry that may not be read is said to be that, and not t
   }
 }
 
+TEST_CASE("options that gmsh would read beside a geometry are refused") {
+  const TemporaryFolder folder;
+  const std::string geometry = folder.write("a.geo", "Point(1) = {0, 0, 0};\n");
+  folder.write("a.geo.opt", "Mesh.MeshSizeMax = 1;\n");
+  CHECK_THROWS_WITH(read_mesh({geometry, {}}), Catch::Contains("a.geo.opt: write them into the .geo"));
+}
+
 TEST_CASE("a geometry or mesh of a stranger runs nothing, writes nothing, and cannot end the program") {
   const TemporaryFolder folder;
   const std::string target = (folder.path / "written").string();

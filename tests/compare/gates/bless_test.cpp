@@ -143,3 +143,19 @@ TEST_CASE("a case without regression intervals has nothing to bless") {
   definition.expectations.push_back(judged::expectation(Quantity::msm, {0, 1}, ReferenceKind::regression));
   CHECK(compare::has_regression(definition));
 }
+
+TEST_CASE("an interval beyond the whole numbers of TOML is written with an exponent, and read again") {
+  const TemporaryFolder folder;
+  for (const double value : {1e15, 1e19, -9e307}) {
+    const std::string file =
+        folder.write("block.toml", case_text::replaced(inline_text(), "[1, 2]", "[-8e307, 8e307]"));
+    compare::Comparison judged = judge_file(file, value, std::nullopt);
+    CAPTURE(value);
+    compare::bless(judged);
+    CHECK_NOTHROW(cases::read_case(file));
+  }
+  const std::string file =
+      folder.write("block.toml", case_text::replaced(inline_text(), "[1, 2]", "[-8e307, 8e307]"));
+  CHECK_THROWS_WITH(compare::bless(judge_file(file, 1.5e308, std::nullopt)),
+                    Catch::Contains("cannot be moved"));
+}
