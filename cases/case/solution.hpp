@@ -44,6 +44,12 @@ struct Fields {
 };
 
 /// A body's motion: what was watched of it at the start and after every step, and all of it now and then.
+/// A small vibration of a body.
+struct Vibration {
+  double omega;         ///< angular frequency, 1/s, without damping
+  double damping_ratio; ///< by the body's own damping
+};
+
 struct Trajectory {
   std::vector<double> time; ///< s, ascending; the first is the start
   std::vector<int> nodes;   ///< of the body's mesh, ascending: those that are watched
@@ -54,10 +60,11 @@ struct Trajectory {
     int step;                                  ///< place among the times
     std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh
   };
-  std::vector<Body> bodies;    ///< every write_every steps; the first and the last
-  int halved_steps = 0;        ///< how often a step was halved, because its equation was not solved
-  int unfinished_steps = 0;    ///< that were taken with more residual than the tolerance, in real time
-  double largest_residual = 0; ///< that a step was left with, relative to the forces of the motion
+  std::vector<Body> bodies;           ///< every write_every steps; the first and the last
+  int halved_steps = 0;               ///< how often a step was halved, because its equation was not solved
+  int unfinished_steps = 0;           ///< that were taken with more residual than the tolerance, in real time
+  double largest_residual = 0;        ///< that a step was left with, relative to the forces of the motion
+  std::optional<Vibration> slowest{}; ///< about the start; absent: it is not known, or there is none
 };
 
 /// How far an answer after a given number of explicit iterations is from the equilibrium of the same springs,

@@ -34,7 +34,7 @@ bool is_small(const Turn& turn) {
 
 /// Steps to the end that are short enough; nothing: more than a case may have.
 std::optional<long> enough_steps(const Moved& moved, double end, long n_steps) {
-  while (n_steps <= most_time_steps) {
+  while (static_cast<double>(n_steps) <= most_time_steps) {
     const Turn turn = largest_turn_of_steps(moved, end, n_steps);
     if (is_small(turn)) return n_steps;
     const double more = static_cast<double>(n_steps) * (turn.degrees / largest_turn_of_step);

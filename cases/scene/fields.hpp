@@ -120,8 +120,9 @@ SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stres
 SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason,
                    displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
+SPRINGPROOF_FIELDS(springproof::cases::Vibration, omega, damping_ratio)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
-                   unfinished_steps, largest_residual)
+                   unfinished_steps, largest_residual, slowest)
 
 /// Who shares it is for the reader to know.
 template<class Archive>

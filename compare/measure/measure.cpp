@@ -257,18 +257,6 @@ TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
   return series;
 }
 
-std::optional<NumericalDamping> numerical_damping(const cases::Measure& measure, const cases::Scene& scene,
-                                                  const cases::Solution& solution) {
-  const auto& dynamics = scene.definition.dynamics;
-  const bool is_damped = dynamics && dynamics->scheme.scheme == cases::Scheme::implicit_euler;
-  if (!is_damped || !solution.trajectory || !measure.over_time) return std::nullopt;
-  const auto swings = swings_of(series_of(measure, scene, solution));
-  if (!swings) return std::nullopt;
-  const double omega = 2 * std::acos(-1.0) * swings->frequency;
-  return NumericalDamping{swings->frequency, mechanics::implicit_euler_damping_ratio(omega * dynamics->step),
-                          swings->damping_ratio};
-}
-
 std::optional<double> value_of(const cases::Measure& measure, const cases::Scene& scene,
                                const cases::Solution& solution) {
   if (!measure.over_time || !solution.trajectory) return evaluate(measure, scene, solution);

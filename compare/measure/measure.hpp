@@ -25,17 +25,6 @@ bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution
 TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
                      const cases::Solution& solution);
 
-/// What the implicit Euler method adds to the damping of a motion.
-struct NumericalDamping {
-  double frequency; ///< Hz, of the swings of the measure
-  double ratio;     ///< damping ratio that the step gives them
-  double measured;  ///< of the swings as they are: the body's damping and the step's
-  bool exceeds_body() const { return ratio > measured - ratio; }
-};
-/// @return nothing for another scheme, and for a measure that does not swing
-std::optional<NumericalDamping> numerical_damping(const cases::Measure& measure, const cases::Scene& scene,
-                                                  const cases::Solution& solution);
-
 /// What a case's measure is of a converged solution, in unit_of(measure): evaluate(), or the number of its
 /// course over time that a dynamic case asks for.
 /// @return nothing where the course has no such number

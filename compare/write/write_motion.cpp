@@ -1,12 +1,15 @@
 #include "compare/write/write_motion.hpp"
 
 #include "compare/measure/measure.hpp"
+#include "compare/measure/numerical_damping.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/escape.hpp"
+#include "compare/write/json.hpp"
 #include "compare/write/write_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -86,6 +89,26 @@ void write_times(std::ostream& out, const MotionFiles& files, const Trajectory& 
   out << "  </Collection>\n</VTKFile>\n";
 }
 
+/// Nothing where the steps change little.
+std::optional<std::string> note_on_slowest(const char* side, const cases::Scene& scene,
+                                           const cases::Solution& solution) {
+  const auto slowest = slowest_in_steps(scene, solution);
+  if (!slowest) return std::nullopt;
+  const cases::Scheme scheme = scene.definition.dynamics->scheme.scheme;
+  const char* warning = slowest->outlasts_period()
+                            ? "; WARNING: a step outlasts its period: swings and peaks are lost"
+                        : slowest->exceeds_body() ? "; WARNING: they damp it more than the body does"
+                        : slowest->is_late()      ? "; WARNING: its swings come too late"
+                                                  : "";
+  if (scheme != cases::Scheme::implicit_euler && *warning == '\0') return std::nullopt;
+  return fmt::format(
+      "{}: slowest vibration of {:.4g} Hz: omega h = {:.3g}, damping ratio {:.3g} of its own and {:.3g} "
+      "of {}'s steps, period {:+.3g} %{}",
+      side, slowest->vibration.omega / (2 * std::acos(-1.0)), slowest->omega_h(),
+      slowest->vibration.damping_ratio, slowest->swings.damping_ratio, cases::name_of(scheme),
+      100 * (slowest->swings.period - 1), warning);
+}
+
 } // namespace
 
 void write_motion_csv(std::ostream& out, const Comparison& comparison) {
@@ -140,6 +163,10 @@ std::vector<std::string> notes_on_motion(const Comparison& comparison) {
     add("msm", comparison.answers.msm, measure);
   }
   std::vector<std::string> notes;
+  for (const auto& [side, answer] :
+       {std::pair("fem", &comparison.answers.fem), std::pair("msm", &comparison.answers.msm)})
+    if (auto note = note_on_slowest(side, comparison.scene, answer->solution))
+      notes.push_back(std::move(*note));
   for (const auto& [note, names] : found) notes.push_back(fmt::format("{}{}", fmt::join(names, ", "), note));
   if (const auto& surface = comparison.surface_motion; surface && surface->error_percent)
     notes.push_back(fmt::format("surface: over time the springs' is {:.4g} % of the finite elements' "

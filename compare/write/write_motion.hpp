@@ -19,8 +19,10 @@ void write_motion_csv(std::ostream& out, const Comparison& comparison);
 /// "difference", "largest_difference", "error_percent"}; null for a case without motion.
 nlohmann::ordered_json motion_to_json(const Comparison& comparison);
 
-/// What the implicit Euler method adds to the damping, a line for every measure that swings; a warning where
-/// it is more than the body's own; and a line on how far the surfaces of both models are apart.
+/// What steps make of each model's slowest vibration: of the implicit Euler method always, of another scheme
+/// where they change it; what the implicit Euler method adds to the damping of every measure that swings;
+/// warnings where that is more than the body's own; and a line on how far the surfaces of both models are
+/// apart.
 std::vector<std::string> notes_on_motion(const Comparison& comparison);
 
 /// FOLDER/NAME_motion.csv, and FOLDER/NAME.pvd, which lists the bodies FOLDER/NAME_motion/NAME_0000.vtu, ...

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/turns_in_time.hpp"
 #include "cases/scene/in_time.hpp"
+#include "mechanics/dynamics/slowest_vibration.hpp"
 
 #include <utility>
 
@@ -48,6 +49,7 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   cases::check_turns_in_time(scene.definition); // a study may have taken other steps than the case's
   const cases::Dynamics& dynamics = *scene.definition.dynamics;
   Record record(scene, body);
+  const Vector begin = start;
   Vector at_rest = Vector::Zero(start.size());
   TimeIntegrator motion(body.problem, dynamics.scheme, {0, std::move(start), std::move(at_rest), {}},
                         settings);
@@ -65,7 +67,8 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   FollowedMotion followed{motion.now().displacement, record.finish(motion), motion.work()};
   followed.work.load_reached = 1;
   followed.work.n_unknowns = body.problem.n_unknowns();
-  followed.work.work = body.problem.work();
+  followed.work.work = body.problem.work(); // without that of what follows
+  followed.trajectory.slowest = slowest_vibration(body.problem, begin, dynamics.end);
   return followed;
 }
 

@@ -1,6 +1,9 @@
 #include "mechanics/dynamics/scheme.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 namespace springproof::mechanics {
 
@@ -71,10 +74,32 @@ int order_of(const cases::TimeScheme& scheme) {
   return scheme.scheme == cases::Scheme::implicit_euler || is_damped_newmark ? 1 : 2;
 }
 
-double implicit_euler_damping_ratio(double omega_h) {
-  if (omega_h == 0) return 0;
-  const double decay = std::log1p(omega_h * omega_h) / (2 * std::atan(omega_h));
-  return decay / std::hypot(1, decay);
+SwingsInSteps swings_in_steps(const cases::TimeScheme& scheme, double omega_h) {
+  // Of u, h v, h² a and u and h v of the step before, in units of time in which h is 1.
+  const StepCoefficients c = step_coefficients(scheme, 1, 1);
+  Eigen::Matrix<double, 5, 5> amplification = Eigen::Matrix<double, 5, 5>::Zero();
+  for (int column = 0; column < 5; ++column) {
+    Eigen::Matrix<double, 5, 1> from = Eigen::Matrix<double, 5, 1>::Unit(column);
+    const double u = from[0], v = from[1], a = from[2], back = from[3] - u, v_before = from[4];
+    const auto of = [&](const KnownMotion& known) {
+      return known.velocity * v + known.acceleration * a + known.displacement_before * back +
+             known.velocity_before * v_before;
+    };
+    const double stiffness = omega_h * omega_h;
+    const double way = (of(c.known_acceleration) - stiffness * u) / (stiffness + c.mass); // w - u0
+    amplification.col(column) << u + way / c.place,
+        v + (c.damping * way - of(c.known_velocity) - v) / c.place,
+        a + (c.mass * way - of(c.known_acceleration) - a) / c.place_acceleration, u, v;
+  }
+  // Spurious roots are smaller, or real.
+  std::complex<double> principal = 0;
+  for (const std::complex<double>& root : amplification.eigenvalues())
+    if (root.imag() > 1e-9 && std::abs(root) > std::abs(principal)) principal = root;
+  if (principal == 0.) return {1, std::numeric_limits<double>::infinity()};
+  constexpr double rounding = 1e-12;
+  const double angle = std::arg(principal), of_size = -std::log(std::abs(principal));
+  const double decay = of_size > rounding ? of_size / angle : 0;
+  return {decay / std::hypot(1, decay), omega_h / angle};
 }
 
 } // namespace springproof::mechanics

@@ -40,10 +40,17 @@ bool needs_acceleration(cases::Scheme scheme);
 /// Order of the error of displacements and velocities.
 int order_of(const cases::TimeScheme& scheme);
 
-/// Damping ratio that the implicit Euler method gives an undamped oscillator: omega h/2 to first order.
-/// A step multiplies exp(i omega t) by 1/(1 - i omega h), of size (1 + omega² h²)^(-1/2) and angle
-/// atan(omega h); the ratio of decay to angle is zeta/sqrt(1 - zeta²).
-/// @param omega_h  angular frequency times step, >= 0
-double implicit_euler_damping_ratio(double omega_h);
+/// What steps make of an undamped oscillator. A step multiplies its swings by an eigenvalue of the scheme's
+/// amplification matrix: its size is their decay, its angle how far they come; of the implicit Euler method
+/// it is 1/(1 - i omega h).
+struct SwingsInSteps {
+  double damping_ratio; ///< zeta, of which zeta/sqrt(1 - zeta²) is decay over angle; to first order omega h/2
+                        ///< of the implicit Euler method
+  double period; ///< over that of the oscillator: omega h over the angle
+};
+/// @param omega_h  angular frequency times step, > 0
+/// @return of steps that leave no swing a ratio of 1 and an infinite period
+/// Source: Hughes, The Finite Element Method (1987), section 9.2; of the principal root.
+SwingsInSteps swings_in_steps(const cases::TimeScheme& scheme, double omega_h);
 
 } // namespace springproof::mechanics

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 
 using namespace springproof;
 
@@ -79,9 +80,36 @@ TEST_CASE("only the schemes of second order are said to be") {
   CHECK(mechanics::order_of(bdf2) == 2);
 }
 
-TEST_CASE("the implicit Euler method damps by omega h/2, to first order") {
-  CHECK(mechanics::implicit_euler_damping_ratio(0) == 0);
-  for (const double omega_h : {1e-6, 1e-3, 0.01, 0.1})
-    CHECK(mechanics::implicit_euler_damping_ratio(omega_h) ==
-          Approx(omega_h / 2).epsilon(omega_h * omega_h + 1e-12));
+TEST_CASE("the implicit Euler method damps by omega h/2, to first order, and makes swings slower") {
+  for (const double omega_h : {1e-3, 0.01, 0.1})
+    CHECK(mechanics::swings_in_steps(implicit_euler, omega_h).damping_ratio ==
+          Approx(omega_h / 2).epsilon(omega_h * omega_h + 1e-9));
+  for (const double omega_h : {0.1, 1., 10., 1000.}) { // the root is 1/(1 - i omega h)
+    const auto swings = mechanics::swings_in_steps(implicit_euler, omega_h);
+    const double decay = std::log1p(omega_h * omega_h) / (2 * std::atan(omega_h));
+    CHECK(swings.damping_ratio == Approx(decay / std::hypot(1, decay)).epsilon(1e-9));
+    CHECK(swings.period ==
+          Approx(omega_h / std::atan(omega_h)).epsilon(1e-7)); // of a small eigenvalue among large entries
+  }
+}
+
+TEST_CASE("swings in steps of the other schemes have the damping and the period of their closed forms") {
+  for (const double omega_h : {0.01, 0.3, 2., 20.}) {
+    INFO(omega_h);
+    for (const auto& scheme : {newmark, generalized_alpha(1)}) { // tan(angle/2) = omega h/2
+      const auto swings = mechanics::swings_in_steps(scheme, omega_h);
+      CHECK(std::abs(swings.damping_ratio) < 1e-9);
+      CHECK(swings.period == Approx(omega_h / (2 * std::atan(omega_h / 2))).epsilon(1e-9));
+    }
+    const std::complex<double> i(0, 1);
+    const auto root = (2. + std::sqrt(1. + 2. * i * omega_h)) / (3. - 2. * i * omega_h); // of bdf2
+    const double decay = -std::log(std::abs(root)) / std::arg(root);
+    const auto swings = mechanics::swings_in_steps(bdf2, omega_h);
+    CHECK(swings.damping_ratio == Approx(decay / std::hypot(1, decay)).epsilon(1e-6).margin(1e-9));
+    CHECK(swings.period == Approx(omega_h / std::arg(root)).epsilon(1e-9));
+  }
+  // Newmark's with gamma above 1/2: (gamma - 1/2) omega h/2 to first order.
+  CHECK(mechanics::swings_in_steps({cases::Scheme::newmark, 0.3025, 0.6, 1}, 0.01).damping_ratio ==
+        Approx(0.1 * 0.01 / 2).epsilon(1e-3));
+  CHECK(mechanics::swings_in_steps(generalized_alpha(0.5), 1.).damping_ratio > 1e-3);
 }
