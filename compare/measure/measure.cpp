@@ -4,7 +4,7 @@
 #include "cases/mesh/sharing.hpp"
 #include "compare/measure/of_regions.hpp"
 #include "compare/measure/tensor.hpp"
-#include "mechanics/dynamics/scheme.hpp"
+#include "compare/measure/turns.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 
@@ -21,7 +21,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double degrees_per_radian = 57.295779513082320877;
 constexpr double relative_zero = 1e-8; ///< of a size, and less: a solve leaves 1e-9 of its forces
 
 double component_of(const Vector3d& vector, cases::Component component) {
@@ -66,6 +65,27 @@ class NodeMeasure {
     default:
       return std::nan(""); // not reached: the others are of no nodes
     }
+  }
+
+  /// Of an angle, its value with whole turns.
+  /// @param displacement  mm, one per node that is here   @param time  s; none: of statics
+  double with_turns(double value, const std::vector<Vector3d>& displacement, const cases::Sharing* sharing,
+                    std::optional<double> time) const {
+    const auto factor = [&](const cases::Moved& moved) { return time ? moved.history.at(*time) : 1; };
+    const bool is_tilt = measure_.kind == MeasureKind::tilt;
+    if (!is_tilt && measure_.kind != MeasureKind::twist) return value;
+    const int axis = static_cast<int>(measure_.axis);
+    TurnedSegment segment =
+        is_tilt
+            ? TurnedSegment{rest(top_) - rest(bottom_),
+                            axis,
+                            static_cast<int>(measure_.toward),
+                            {top_, bottom_}}
+            : TurnedSegment{rest(node_) - rest(centre_), (axis + 1) % 3, (axis + 2) % 3, {node_, centre_}};
+    segment.along[3 - segment.from - segment.towards] = 0;
+    // A tilt counts from upwards, not from where the segment is at rest.
+    const double at_rest = at([](int) { return Vector3d(0, 0, 0); });
+    return at_rest + count_turns(value - at_rest, segment, scene_, displacement, sharing, factor);
   }
 
  private:
@@ -214,11 +234,16 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
   case MeasureKind::coordinate:
   case MeasureKind::displacement:
   case MeasureKind::tilt:
-  case MeasureKind::twist:
-    return NodeMeasure(measure, scene).at([&](int node) -> Vector3d {
+  case MeasureKind::twist: {
+    const NodeMeasure of_nodes(measure, scene);
+    const double value = of_nodes.at([&](int node) -> Vector3d {
       return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
                               : solution.displacement[cases::index(node)];
     });
+    const auto& dynamics = scene.definition.dynamics;
+    return of_nodes.with_turns(value, solution.displacement, solution.sharing.get(),
+                               dynamics ? std::optional(dynamics->end) : std::nullopt);
+  }
   case MeasureKind::volume:
     return volume(solution);
   case MeasureKind::displacement_field_l2:
@@ -254,6 +279,11 @@ TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
       const auto place = std::lower_bound(seen.nodes.begin(), seen.nodes.end(), node) - seen.nodes.begin();
       return seen.displacement[step * seen.nodes.size() + cases::index(place)];
     }));
+  if (measure.kind != MeasureKind::tilt && measure.kind != MeasureKind::twist) return series;
+  if (!seen.bodies.empty() && seen.bodies.front().step == 0)
+    series.value.front() = of_nodes.with_turns(series.value.front(), seen.bodies.front().displacement,
+                                               nullptr, seen.time.front());
+  count_turns_in_time(series.value);
   return series;
 }
 

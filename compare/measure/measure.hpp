@@ -8,12 +8,13 @@ namespace springproof::compare {
 
 /// Value of a measure on a converged solution, in unit_of(measure).
 ///   coordinate, displacement: of the node; tilt: atan2(d_toward, d_up) of the vector from bottom to top;
-///   twist: rotation of the segment from centre to node about the axis against its rest direction, in (-180,
-///   180]; volume: of all cells of the body's mesh; displacement_field_l2: root of the mean of |u|² over the
-///   body at rest (trilinear between nodes); displacement_field_max: the largest |u| of a node.
-///   reaction: sum over the region's nodes of the supports' force on the body; strain_energy: of all cells;
-///   stress, strain: of the cell of the body's mesh that holds the point at rest, the mean of several where
-///   they share it; cases::Fields has what they are of a cell.
+///   twist: rotation of the segment from centre to node about the axis against its rest direction; both with
+///   whole turns, counted through the body (count_turns()), of a motion from step to step; volume: of all
+///   cells of the body's mesh; displacement_field_l2: root of the mean of |u|² over the body at rest
+///   (trilinear between nodes); displacement_field_max: the largest |u| of a node. reaction: sum over the
+///   region's nodes of the supports' force on the body; strain_energy: of all cells; stress, strain: of the
+///   cell of the body's mesh that holds the point at rest, the mean of several where they share it;
+///   cases::Fields has what they are of a cell.
 /// Source: thesis sections 4.3.3 and 5.3.1.3 but for the two norms and the fields.
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution);
 
