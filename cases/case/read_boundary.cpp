@@ -262,10 +262,6 @@ void read_boundary(Table& root, Case& result) {
   };
   result.fixed = root.sections("fixed", with_body(read_fixed));
   result.symmetry = root.sections("symmetry", read_symmetry);
-  const bool may_fly = result.dynamics && result.dynamics->start == MotionStart::rest;
-  const bool is_held = rigid_class(result.body) != nullptr || root.has("moved");
-  if (result.fixed.empty() && result.symmetry.empty() && !is_held && !may_fly)
-    root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
   for (std::size_t i = 0; i < result.symmetry.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (const Region& plane = result.symmetry[i].region; plane.name == result.symmetry[j].region.name)
@@ -274,6 +270,13 @@ void read_boundary(Table& root, Case& result) {
   result.masses = root.sections("mass", with_body(read_mass));
   result.moved = root.sections("moved", [&](Table& table) { return read_moved(table, result); });
   result.loads = root.sections("load", [&](Table& table) { return read_load(table, result); });
+}
+
+void check_boundary(Table& root, const Case& result) {
+  const bool may_fly = result.dynamics && result.dynamics->start == MotionStart::rest;
+  const bool is_held = rigid_class(result.body) != nullptr || root.has("moved");
+  if (result.fixed.empty() && result.symmetry.empty() && !is_held && !may_fly)
+    root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
   const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
   if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
   if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");

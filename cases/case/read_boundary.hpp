@@ -18,4 +18,7 @@ Region read_region(Table& table, const Body& body);
 /// Reads supports, motions, loads and masses into a case whose body and [dynamics] are read.
 void read_boundary(Table& root, Case& result);
 
+/// @throws InputError where nothing holds the body, or nothing moves it
+void check_boundary(Table& root, const Case& result);
+
 } // namespace springproof::cases

@@ -248,7 +248,7 @@ void check_turns(const Case& definition) {
                                    degrees, largest_turn_of_small_strain));
 }
 
-Case read_definition(Table& root, const std::string& path) {
+Case read_definition(Table& root, const std::string& path, Purpose purpose = Purpose::motion) {
   Case result;
   result.file = path;
   root.required("schema", WholeNumber{"1, the version of the format that this program reads", 1, 1});
@@ -262,6 +262,7 @@ Case read_definition(Table& root, const std::string& path) {
   result.dynamics = read_dynamics(root);
   read_materials(root, result);
   read_boundary(root, result);
+  if (purpose == Purpose::motion) check_boundary(root, result);
   read_models(root, result);
   check_dynamics(root, result);
   read_measures(root, result);
@@ -271,11 +272,11 @@ Case read_definition(Table& root, const std::string& path) {
   return result;
 }
 
-Case read_document(const toml::table& document, const std::string& path) {
+Case read_document(const toml::table& document, const std::string& path, Purpose purpose = Purpose::motion) {
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
   if (root.has("stress"))
     root.entry("stress").refuse("left out: this is a hard case, for the command stress alone");
-  Case result = read_definition(root, path);
+  Case result = read_definition(root, path, purpose);
   root.refuse_unknown_keys();
   return result;
 }
@@ -365,8 +366,8 @@ Stress read_stress(Table& table, Msm& msm) {
 
 } // namespace
 
-Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_document(parse_file(path, overrides), path);
+Case read_case(const std::string& path, const std::vector<std::string>& overrides, Purpose purpose) {
+  return read_document(parse_file(path, overrides), path, purpose);
 }
 
 Case read_case_text(const std::string& text, const std::string& path) {

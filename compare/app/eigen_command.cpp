@@ -44,7 +44,8 @@ std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::Ce
 
 /// The lowest vibrations of a case's body.
 int run_vibrations(const EigenOptions& options) {
-  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.vibrating, options.settings));
+  const cases::Scene scene = make_scene_within_memory(
+      cases::read_case(options.vibrating, options.settings, cases::Purpose::vibrations));
   const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
   check_memory(options.vibrating, estimate_vibrations(size_of(scene)), memory_limit());
   claim_folder(options.out);

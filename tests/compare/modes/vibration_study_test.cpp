@@ -2,6 +2,8 @@
 #include "cases/case/read_case.hpp"
 #include "compare/modes/vibrations.hpp"
 #include "compare/peers/calculix.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -45,6 +47,33 @@ design = "hybrid"
 const double wave = std::sqrt(0.1 / 1e-9); // mm/s, along a rod
 
 } // namespace
+
+TEST_CASE("a case for its vibrations alone needs neither supports nor loads nor [dynamics]",
+          "[verification]") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("free.toml", R"(
+schema = 1
+name = "free bar"
+[body]
+shape = "box"
+size = [40, 10, 10]
+cells = [8, 2, 2]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.1
+poissons_ratio = 0.3
+density = 1000
+[msm]
+design = "hybrid"
+)");
+  CHECK_THROWS_WITH(cases::read_case(file), Catch::Contains("nothing holds the body"));
+  const auto free = cases::make_scene(cases::read_case(file, {}, cases::Purpose::vibrations));
+  const compare::VibrationStudy alone = compare::study_vibrations(free, {}, 4),
+                                in_time = compare::study_vibrations(bar(false), {}, 4);
+  CHECK(alone.fem.n_rigid == 6);
+  CHECK((alone.fem.hertz - in_time.fem.hertz).cwiseAbs().maxCoeff() <= 1e-9 * in_time.fem.hertz.maxCoeff());
+  CHECK(run_program("eigen " + file + " --modes 2").status == 0);
+}
 
 TEST_CASE("both models of a free bar have its rigid motions and the vibrations of a rod", "[verification]") {
   const compare::VibrationStudy study = compare::study_vibrations(bar(false), {}, 12);
