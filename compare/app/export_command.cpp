@@ -25,10 +25,11 @@ int export_case(const ExportOptions& options) {
   const ExportTarget target = *cases::value_of<ExportTarget>(options.target);
   const std::string& name = scene.definition.name;
   const msm::Problem problem = exported_problem(scene);
-  check_expressible(target, name, problem); // before there is a folder
+  const std::optional<ExportedMotion> motion = exported_motion(scene);
+  check_expressible(target, name, problem, motion); // before there is a folder
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const std::vector<std::string> said = export_springs(options.out, target, name, problem);
+  const std::vector<std::string> said = export_springs(options.out, target, name, problem, motion);
   for (const std::string& line : said) print(std::cout, "{}\n", line);
   return 0;
 }

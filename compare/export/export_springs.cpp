@@ -1,15 +1,13 @@
 #include "compare/export/export_springs.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/installation.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/write_springs.hpp"
 
 #include <fmt/ostream.h>
-#include <map>
 
 namespace springproof::compare {
 
@@ -129,59 +127,6 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   return said;
 }
 
-/// Nodes by their constrained components.
-std::map<std::vector<int>, std::vector<int>> supports(const msm::Problem& problem) {
-  std::map<std::vector<int>, std::vector<int>> by_components;
-  for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n)
-    if (const auto components = constrained(problem, n); components != std::vector<int>{0, 0, 0})
-      by_components[components].push_back(static_cast<int>(n));
-  return by_components;
-}
-
-void write_sofa_json(std::ostream& out, const std::string& name, const msm::Problem& problem) {
-  const char* comma = "";
-  const auto begin_list = [&](const char* key) {
-    fmt::print(out, ",\n\"{}\": [", key);
-    comma = "";
-  };
-  const auto next = [&] { out << std::exchange(comma, ",") << "\n"; };
-  out << "{\"schema\": 1,\n\"case\": "
-      << nlohmann::json(name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)
-      << ",\n\"units\": \"mm, N, N/mm\"";
-  begin_list("positions");
-  for (const Vector3d& x : problem.lattice.rest) next(), fmt::print(out, "[{}, {}, {}]", x.x(), x.y(), x.z());
-  out << "]";
-  begin_list("moved"); // node, mm at full load
-  const msm::Points displacement = prescribed(problem);
-  for (std::size_t n = 0; n < displacement.size(); ++n)
-    if (const Vector3d& u = displacement[n]; u != Vector3d::Zero())
-      next(), fmt::print(out, "[{}, {}, {}, {}]", n, u.x(), u.y(), u.z());
-  out << "]";
-  begin_list("springs"); // node, node, N/mm, mm
-  for (const auto& [i, j, spring] : problem.lattice.links)
-    next(), fmt::print(out, "[{}, {}, {}, {}]", i, j, spring.stiffness, spring.rest_length);
-  out << "]";
-  begin_list("supports");
-  for (const auto& [components, nodes] : supports(problem))
-    next(), fmt::print(out, "{{\"directions\": [{}], \"nodes\": [{}]}}", fmt::join(components, ", "),
-                       fmt::join(nodes, ", "));
-  out << "]";
-  begin_list("loads"); // node, N
-  for (const auto& [node, f] : problem.force)
-    if (f != Vector3d::Zero()) next(), fmt::print(out, "[{}, {}, {}, {}]", node, f.x(), f.y(), f.z());
-  out << "]}\n";
-}
-
-std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
-                                          const msm::Problem& problem) {
-  write_file(folder + "/scene.json", [&](std::ostream& out) { write_sofa_json(out, name, problem); });
-  const std::string program = read_file(cases::data_folder("export") + "/sofa_scene.py");
-  write_file(folder + "/scene.py", [&](std::ostream& out) { out << program; });
-  return {fmt::format("scene.json: {} nodes, {} springs, supports, loads; mm, N, N/mm",
-                      problem.lattice.rest.size(), problem.lattice.links.size()),
-          "scene.py: reads scene.json; runSofa scene.py (SOFA v24.06 or newer, with SofaPython3)"};
-}
-
 std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Problem& problem) {
   const msm::Lattice& lattice = problem.lattice;
   SpringLines lines;
@@ -221,20 +166,48 @@ msm::Problem exported_problem(const cases::Scene& scene) {
   return problem;
 }
 
-void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem) {
-  const std::vector<std::string> missing = inexpressible(target, problem);
-  if (!missing.empty())
-    throw cases::InputError(fmt::format(
-        "export: --to {} cannot express {} of the case '{}'; --to csv can, and --set msm.design=moduli makes "
-        "springs alone",
-        cases::name_of(target), fmt::join(missing, ", "), one_line(name)));
+std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
+  if (!scene.definition.dynamics) return std::nullopt;
+  ExportedMotion motion{*scene.definition.dynamics,
+                        msm::make_inertia(scene, {}),
+                        scene.definition.material_dynamics.stiffness_damping,
+                        true,
+                        scene.moved,
+                        {}};
+  for (const cases::RegionMaterial& region : scene.definition.region_materials)
+    if (region.dynamics.stiffness_damping != motion.stiffness_damping)
+      motion.has_one_stiffness_damping = false;
+  if (motion.dynamics.start == cases::MotionStart::equilibrium) {
+    const cases::Scene before = cases::scene_before_start(scene);
+    motion.start = make_model(before, design_for(before)).solve().displacement;
+  }
+  return motion;
+}
+
+void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
+                       const std::optional<ExportedMotion>& motion) {
+  const auto refuse = [&](const std::vector<std::string>& missing, const char* advice) {
+    if (!missing.empty())
+      throw cases::InputError(fmt::format("export: --to {} cannot express {} of the case '{}'{}",
+                                          cases::name_of(target), fmt::join(missing, ", "), one_line(name),
+                                          advice));
+  };
+  refuse(inexpressible(target, problem), "; --to csv can, and --set msm.design=moduli makes springs alone");
+  if (target == ExportTarget::sofa && motion) refuse(inexpressible_in_sofa(*motion), "");
 }
 
 std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
-                                        const std::string& name, const msm::Problem& problem) {
-  if (target == ExportTarget::csv) return write_csv_files(folder, problem);
-  if (target == ExportTarget::sofa) return write_sofa_files(folder, name, problem);
-  return write_vtu_file(folder, problem);
+                                        const std::string& name, const msm::Problem& problem,
+                                        const std::optional<ExportedMotion>& motion) {
+  if (target == ExportTarget::sofa)
+    return write_sofa_files(folder, name, problem, motion ? &*motion : nullptr);
+  std::vector<std::string> said =
+      target == ExportTarget::csv ? write_csv_files(folder, problem) : write_vtu_file(folder, problem);
+  if (motion)
+    said.emplace_back(
+        "not in it: masses, damping, steps and histories of [dynamics] (--to sofa writes them); "
+        "loads and motions are those at a factor of 1");
+  return said;
 }
 
 std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/names.hpp"
-#include "msm/problem.hpp"
+#include "compare/export/sofa_scene.hpp"
 
 /// A case's designed springs for other programs, as an explicit list. No force is left out in silence: what a
 /// target has no words for is refused by check_expressible(), or named in what export_springs() returns.
@@ -13,18 +13,25 @@ SPRINGPROOF_ENUMERATION(ExportTarget, sofa, csv, vtu)
 /// @throws InputError when no springs can be designed
 msm::Problem exported_problem(const cases::Scene& scene);
 
+/// What moves the springs of a scene with [dynamics]; nothing of another one.
+/// @throws SolveError where a motion begins in an equilibrium that is not found
+std::optional<ExportedMotion> exported_motion(const cases::Scene& scene);
+
 /// @param name  of the case
-/// @throws InputError if the target cannot express the springs, with everything that it cannot
-void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem);
+/// @throws InputError if the target cannot express the springs or their motion, with everything that it
+/// cannot; of a motion the targets for files know nothing, and say so
+void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
+                       const std::optional<ExportedMotion>& motion = {});
 
 /// Writes the files of a target, each whole or not at all:
 ///   csv   springs.csv as design = "network" reads it; nodes.csv, volume_terms.csv, tetrahedra.csv
-///   sofa  scene.py, a program that is the same for every case, and its data scene.json
+///   sofa  scene.py and scene.json: write_sofa_files()
 ///   vtu   springs.vtu: lines with stiffness, rest length and kind; supports and loads at points
 /// @param problem  which the target can express (check_expressible)
 /// @return what was written, and what the files do not hold, a line each
 std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
-                                        const std::string& name, const msm::Problem& problem);
+                                        const std::string& name, const msm::Problem& problem,
+                                        const std::optional<ExportedMotion>& motion = {});
 
 /// Of every link the kind of spring that it is in the mesh's cells: 1 an edge, 2 a face diagonal, 3 an
 /// internal diagonal; 0 for a link of a network that is none of these.

@@ -67,7 +67,7 @@ void check_rebuilt(ExportTarget target, const msm::Problem& problem) {
       compare::call_program({{"python3", SPRINGPROOF_SOURCE_DIR "/tests/compare/export/rebuild_forces.py",
                               folder.path.string(), cases::name_of(target), state},
                              folder.path.string(),
-                             {}});
+                             {"PYTHONDONTWRITEBYTECODE=1"}});
   REQUIRE(end.has_value());
   INFO(end->said);
   CHECK(end->status == 0);

@@ -1,0 +1,167 @@
+#include "compare/export/sofa_scene.hpp"
+
+#include "cases/case/installation.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/write/json.hpp"
+
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace springproof::compare {
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+constexpr double thousand = 1e3; ///< mN of a N, kg of a tonne, mN/mm of a N/mm
+
+/// Nodes by their constrained components, 1 or 0 each.
+std::map<std::array<int, 3>, std::vector<int>> supports(const msm::Problem& problem) {
+  std::map<std::array<int, 3>, std::vector<int>> by_components;
+  for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n) {
+    std::array<int, 3> components;
+    for (std::size_t a = 0; a < 3; ++a) components[a] = problem.is_constrained[3 * n + a] ? 1 : 0;
+    if (components != std::array<int, 3>{0, 0, 0}) by_components[components].push_back(static_cast<int>(n));
+  }
+  return by_components;
+}
+
+/// Where nodes begin, mm from rest: a motion where it starts, an equilibrium with its moved nodes in place.
+msm::Points start_of(const msm::Problem& problem, const ExportedMotion* motion) {
+  if (motion) return motion->start;
+  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
+}
+
+Json history_to_json(const cases::History& history) {
+  if (history.frequency != 0) return {{"sine", history.frequency}};
+  return history.points;
+}
+
+Json forces_to_json(const std::vector<cases::NodeVector>& forces) {
+  Json all = Json::array();
+  for (const auto& [node, f] : forces)
+    if (f != Vector3d::Zero()) all.push_back({node, thousand * f.x(), thousand * f.y(), thousand * f.z()});
+  return all;
+}
+
+std::array<double, 3> numbers(const Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json moved_to_json(const cases::Scene::MovedNodes& moved, const msm::Points& rest) {
+  const cases::Moved& motion = moved.motion;
+  std::vector<double> parts;
+  for (const int node : moved.selection.nodes)
+    parts.push_back(motion.scaled ? motion.scaled->factor(rest[index(node)]) : 1);
+  return {{"nodes", moved.selection.nodes},
+          {"parts", parts},
+          {"components", motion.components},
+          {"displacement", numbers(motion.displacement)},
+          {"angle", motion.angle},
+          {"axis", numbers(motion.axis)},
+          {"centre", numbers(motion.centre)},
+          {"history", history_to_json(motion.history)}};
+}
+
+/// The same of every point of a scene without differences that inexpressible_in_sofa() refuses.
+double mass_damping(const msm::Inertia& inertia) {
+  return inertia.mass_damping.front() / inertia.mass.front();
+}
+
+Json motion_to_json(const ExportedMotion& motion, const msm::Points& rest) {
+  Json masses = Json::array(), loads = Json::array(), moved = Json::array();
+  for (const double mass : motion.inertia.mass) masses.push_back(thousand * mass);
+  for (const auto& [history, force] : motion.inertia.loads)
+    loads.push_back({{"history", history_to_json(history)}, {"forces", forces_to_json(force)}});
+  for (const cases::Scene::MovedNodes& nodes : motion.moved) moved.push_back(moved_to_json(nodes, rest));
+  return {{"scheme", cases::name_of(motion.dynamics.scheme.scheme)},
+          {"step", motion.dynamics.step},
+          {"end", motion.dynamics.end},
+          {"mass_damping", mass_damping(motion.inertia)},
+          {"stiffness_damping", motion.stiffness_damping},
+          {"masses", masses},
+          {"loads", loads},
+          {"moved", moved}};
+}
+
+void write_json(std::ostream& out, const std::string& name, const msm::Problem& problem,
+                const ExportedMotion* motion) {
+  const char* comma = "";
+  const auto begin_list = [&](const char* key) {
+    fmt::print(out, ",\n\"{}\": [", key);
+    comma = "";
+  };
+  const auto next = [&] { out << std::exchange(comma, ",") << "\n"; };
+  const msm::Points& rest = problem.lattice.rest;
+  out << "{\"schema\": 2,\n\"case\": "
+      << nlohmann::json(name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)
+      << ",\n\"units\": \"mm, mN, kg, s\"";
+  begin_list("positions");
+  for (const Vector3d& x : rest) next(), fmt::print(out, "[{}, {}, {}]", x.x(), x.y(), x.z());
+  out << "]";
+  begin_list("start"); // node, mm from its rest position
+  const msm::Points start = start_of(problem, motion);
+  for (std::size_t n = 0; n < start.size(); ++n)
+    if (const Vector3d& u = start[n]; u != Vector3d::Zero())
+      next(), fmt::print(out, "[{}, {}, {}, {}]", n, u.x(), u.y(), u.z());
+  out << "]";
+  begin_list("springs"); // node, node, mN/mm, mm
+  for (const auto& [i, j, spring] : problem.lattice.links)
+    next(), fmt::print(out, "[{}, {}, {}, {}]", i, j, thousand * spring.stiffness, spring.rest_length);
+  out << "]";
+  begin_list("supports");
+  for (const auto& [components, nodes] : supports(problem))
+    next(), fmt::print(out, "{{\"directions\": [{}], \"nodes\": [{}]}}", fmt::join(components, ", "),
+                       fmt::join(nodes, ", "));
+  out << "],\n\"loads\": " << (motion ? Json::array() : forces_to_json(problem.force)).dump();
+  out << ",\n\"motion\": " << (motion ? motion_to_json(*motion, rest) : Json()).dump() << "}\n";
+}
+
+} // namespace
+
+std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion) {
+  const msm::Inertia& inertia = motion.inertia;
+  std::vector<std::string> all;
+  const cases::Scheme scheme = motion.dynamics.scheme.scheme;
+  if (scheme != cases::Scheme::implicit_euler && scheme != cases::Scheme::bdf2)
+    all.push_back(
+        fmt::format("steps of {} (--set 'dynamics={{scheme=\"bdf2\", step={}, end={}, start=\"{}\"}}' "
+                    "takes others, which SOFA has, as implicit_euler)",
+                    cases::name_of(scheme), motion.dynamics.step, motion.dynamics.end,
+                    cases::name_of(motion.dynamics.start)));
+  const double ratio = mass_damping(inertia);
+  for (std::size_t p = 0; p < inertia.mass.size(); ++p)
+    if (!(std::abs(inertia.mass_damping[p] - ratio * inertia.mass[p]) <= 1e-9 * ratio * inertia.mass[p])) {
+      all.emplace_back("mass_damping of some masses and not of others (several materials, or [[mass]])");
+      break;
+    }
+  if (!motion.has_one_stiffness_damping) all.emplace_back("several materials' stiffness_damping");
+  if (motion.stiffness_damping > 0 && !motion.moved.empty())
+    all.emplace_back("stiffness_damping beside moved regions, whose velocity SOFA takes for 0");
+  return all;
+}
+
+std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
+                                          const msm::Problem& problem, const ExportedMotion* motion) {
+  write_file(folder + "/scene.json", [&](std::ostream& out) { write_json(out, name, problem, motion); });
+  const std::string program = read_file(cases::data_folder("export") + "/sofa_scene.py");
+  write_file(folder + "/scene.py", [&](std::ostream& out) { out << program; });
+  std::vector<std::string> said{
+      fmt::format("scene.json: {} nodes, {} springs, supports, loads{}; mm, mN, kg, s",
+                  problem.lattice.rest.size(), problem.lattice.links.size(),
+                  motion ? fmt::format(", masses, damping, steps of {} s by {}", motion->dynamics.step,
+                                       cases::name_of(motion->dynamics.scheme.scheme))
+                         : std::string(", in equilibrium")),
+      "scene.py: reads scene.json; runSofa scene.py (SOFA v25.06 or newer, with SofaPython3)"};
+  if (motion && motion->stiffness_damping > 0)
+    said.emplace_back(
+        "stiffness_damping is of the body as it is in SOFA, of the body at rest here: motions of "
+        "large strains or turns differ");
+  return said;
+}
+
+} // namespace springproof::compare
