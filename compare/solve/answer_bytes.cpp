@@ -45,6 +45,8 @@ bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
   };
   return n > 0 && motion.displacement.size() == n * motion.nodes.size() &&
          (motion.volume.empty() || motion.volume.size() == n) &&
+         (!motion.slowest || (motion.slowest->omega > 0 && std::isfinite(motion.slowest->omega) &&
+                              std::isfinite(motion.slowest->damping_ratio))) &&
          std::is_sorted(motion.time.begin(), motion.time.end()) &&
          std::is_sorted(motion.nodes.begin(), motion.nodes.end()) && are_finite(motion.time) &&
          are_finite(motion.displacement) && are_finite(motion.volume) &&

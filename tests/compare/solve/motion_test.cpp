@@ -258,6 +258,9 @@ TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") 
   refuses([](cases::Trajectory& motion) { motion.displacement.pop_back(); });
   refuses([](cases::Trajectory& motion) { motion.nodes.front() = 1000000; });
   refuses([](cases::Trajectory& motion) { motion.bodies.front().step = -1; });
+  REQUIRE(copy.solution.trajectory->slowest);
+  CHECK(copy.solution.trajectory->slowest->omega == answer.solution.trajectory->slowest->omega);
+  refuses([](cases::Trajectory& motion) { motion.slowest->omega = -1; });
   refuses([](cases::Trajectory& motion) { motion.bodies.back().displacement.pop_back(); });
   refuses([](cases::Trajectory& motion) { std::swap(motion.time.front(), motion.time.back()); });
 }
