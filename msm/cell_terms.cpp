@@ -1,5 +1,6 @@
 #include "msm/cell_terms.hpp"
 
+#include <bitset>
 #include <cassert>
 #include <map>
 
@@ -22,12 +23,17 @@ int n_cells_inside(const CellSpring& spring) {
   return 4 >> (n_axes(spring) - 1);
 }
 
-/// How many cells of the mesh have a spring between two nodes.
+/// How many cells have a spring between two nodes, those of the body's mirror images among them.
 std::map<std::pair<int, int>, int> count_cells(const cases::HexMesh& mesh, const BodyTerms& terms) {
   std::map<std::pair<int, int>, int> n_cells;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const CellSpring& spring : terms_of_cell(terms, c).springs)
       ++n_cells[nodes_of(mesh.cells[c], spring)];
+  if (terms.planes_of_node.empty()) return n_cells;
+  for (auto& [nodes, n] : n_cells) {
+    const int common = terms.planes_of_node[index(nodes.first)] & terms.planes_of_node[index(nodes.second)];
+    n <<= std::bitset<32>(static_cast<unsigned>(common)).count();
+  }
   return n_cells;
 }
 

@@ -42,6 +42,8 @@ struct BodyTerms {
   std::vector<CellTerms> kinds;
   std::vector<int> kind_of_cell{}; ///< of every cell, an index of kinds; empty: all are of the first
   Boundary boundary = Boundary::shared;
+  std::vector<int>
+      planes_of_node{}; ///< bits of the planes of symmetry that a node is on; empty: there are none
 };
 
 /// The same springs and volume term, as terms.

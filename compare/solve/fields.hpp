@@ -13,7 +13,7 @@ SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs
 SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, exponent)
 SPRINGPROOF_FIELDS(springproof::msm::CellTetrahedron, vertices, lambda, mu)
 SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, volume, is_logarithmic)
-SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary)
+SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary, planes_of_node)
 SPRINGPROOF_FIELDS(springproof::mechanics::TransverseModuli, c11, c12, c13, c33, c44, c66, bulk_modulus)
 SPRINGPROOF_FIELDS(springproof::msm::NearestModuli, moduli, distance, misfit)
 SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, warnings, cells, terms,

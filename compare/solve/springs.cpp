@@ -94,6 +94,11 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
     }
     terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
   }
+  const auto& symmetry = scene.definition.symmetry;
+  if (!symmetry.empty()) terms.planes_of_node.resize(scene.mesh.nodes.size());
+  for (std::size_t plane = 0; plane < symmetry.size(); ++plane)
+    for (const int node : cases::select(scene.mesh, symmetry[plane].region).nodes)
+      terms.planes_of_node[cases::index(node)] |= 1 << plane;
   return all;
 }
 

@@ -1,5 +1,7 @@
 #include "compare/solve/springs.hpp"
 
+#include "tests/support/bodies.hpp"
+
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -89,4 +91,35 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
     CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
     CHECK(k.edge != cube.edge);
   }
+}
+
+// Of the other designs cells share a spring by its sum: half of it is the half body's already. What else is
+// counted by node or cell on such planes was looked through in tests/faults/attempts_same.py: loads, patches,
+// supports, masses, fields.
+TEST_CASE("a quarter of a body between planes of symmetry answers as the whole, with springs that are whole "
+          "at the boundary",
+          "[verification]") {
+  const auto solved = [](const std::array<int, 3>& cells, const std::vector<std::string>& planes) {
+    cases::Case box = bodies::clamped_box(cells, {});
+    cases::Load load;
+    load.region = bodies::region("z+");
+    load.kind = cases::LoadKind::traction;
+    load.value = {0, 0, 0.004};
+    box.loads = {load};
+    box.msm.design = cases::Design::uniform;
+    for (const std::string& plane : planes)
+      box.symmetry.push_back({bodies::region(plane), {plane[0] == 'x', plane[0] == 'y', false}});
+    const cases::Scene scene = cases::make_scene(box);
+    std::optional<msm::DesignResult> design;
+    const cases::Solution solution = compare::solve_springs(scene, 1, design).solution;
+    REQUIRE(solution.status == cases::Status::converged);
+    std::vector<Eigen::Vector3d> of_edge;
+    for (const int node : cases::select(scene.mesh, bodies::region("x+ y+")).nodes)
+      of_edge.push_back(solution.displacement[cases::index(node)]);
+    return of_edge;
+  };
+  const auto whole = solved({4, 2, 3}, {}), quarter = solved({2, 1, 3}, {"x-", "y-"});
+  REQUIRE(whole.size() == quarter.size());
+  for (std::size_t n = 0; n < whole.size(); ++n)
+    CHECK((whole[n] - quarter[n]).norm() <= 1e-9 * whole.back().norm()); // Newton's method ends below
 }
