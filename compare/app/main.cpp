@@ -122,6 +122,9 @@ int main(int argc, char** argv) {
                          compare::add_merge_command, compare::add_export_command,
                          compare::add_describe_command, compare::add_worker_command})
     add(program, chosen);
+  for (CLI::App* command : program.get_subcommands(nullptr))
+    if (CLI::Option* out = command->get_option_no_throw("--out"))
+      out->check([](const std::string& folder) { return folder.empty() ? "names no folder" : ""; });
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& answer) {

@@ -97,18 +97,26 @@ MemoryLimit memory_limit() {
     double bytes = 0;
     if (std::ifstream(name) >> bytes) take(1e-6 * bytes - resident, "the control group"); // "max": no number
   }
-  rlimit addresses{};
-  if (getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
-    take(1e-6 * double(addresses.rlim_cur) - megabytes_in("/proc/self/status", "VmSize:").value_or(0),
-         "ulimit -v");
-  least.is_of_a_process = least.of == "ulimit -v";
+  const auto take_limit = [&](auto resource, const char* used, const char* of) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      take(1e-6 * double(limit.rlim_cur) - megabytes_in("/proc/self/status", used).value_or(0), of);
+  };
+  take_limit(RLIMIT_AS, "VmSize:", "ulimit -v");
+  take_limit(RLIMIT_DATA, "VmData:", "ulimit -d");
+  least.is_of_a_process = least.of.rfind("ulimit", 0) == 0;
   return least;
 }
 
 std::string why_not_to_start(double megabytes) {
+  constexpr rlim_t n_files = 32; // 20 are open at a time; with fewer MPI crashes
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur < n_files)
+    return fmt::format("ulimit -n allows {} open files, and the libraries need {} to start", files.rlim_cur,
+                       n_files);
   const MemoryLimit limit = memory_limit();
   if (!limit.is_of_a_process || limit.megabytes >= megabytes) return "";
-  return fmt::format("{} leaves {:.0f} MB of address space, and the libraries need {:.0f} to start", limit.of,
+  return fmt::format("{} leaves {:.0f} MB of memory, and the libraries need {:.0f} to start", limit.of,
                      std::max(0., limit.megabytes), megabytes);
 }
 

@@ -39,7 +39,7 @@ std::optional<double> peak_resident_megabytes();
 /// The memory that this process may still take, in units of 10^6 bytes.
 struct MemoryLimit {
   double megabytes;
-  std::string of;               ///< "this machine", "ulimit -v" (RLIMIT_AS), "the control group"
+  std::string of;               ///< "this machine", "ulimit -v" (RLIMIT_AS), "ulimit -d", "the control group"
   bool is_of_a_process = false; ///< each process has as much for itself
 };
 

@@ -124,7 +124,7 @@ class Attempt:
                 continue
             status = path.lstat()
             found[path] = (status.st_mode, status.st_size, status.st_mtime_ns if not path.is_dir() else 0)
-        return found
+        return {**found, **{path: 0 for path in Path("/").iterdir()}}
 
     def check_numbers(self):
         """An answer in JSON has numbers, or says why it has none."""
@@ -166,6 +166,9 @@ def mutated_case(chance):
             text = "\n".join(lines) + "\n"
             continue
         text = text[:found.start()] + new + text[found.end():]
+    times = {key: re.search(rf"^{key} = ([\d.e-]+)$", text, re.M) for key in ("step", "end")}
+    if all(times.values()) and not float(times["end"][1]) <= 1e4 * float(times["step"][1]):
+        return mutated_case(chance)  # millions of steps take their time
     return text
 
 
@@ -185,11 +188,11 @@ def are_rows_of_numbers(content, has_heading):
 
 def files(attempt, chance):
     name = chance.choice([kind for kind in mutated_files.KINDS if kind != "kept"])
+    mutated_files.springproof = lambda *words: attempt.run(*words)
+    attempt.out = attempt.place / "in"  # these kinds have their files there
     subject = mutated_files.KINDS[name](attempt.place / "in")
     whole = subject.whole
     content = getattr(subject, "damaged", mutated_files.damaged)(whole, chance)
-    mutated_files.springproof = lambda *words: attempt.run(*words)
-    attempt.out = attempt.place / "in"  # these kinds have their files there
     done = subject.given(content)
     if done and done.returncode == 0 and name in ("network", "displacements") and not are_rows_of_numbers(content, name == "displacements" or content[:1].isalpha()):
         attempt.flag("a table with what is no number is taken")
@@ -252,7 +255,7 @@ def limits(attempt, chance):
 
 def links(attempt, chance):
     place = attempt.place / "in"
-    target = chance.choice(["/dev/zero", "/dev/null", "/dev/full", "/dev/stdin", "/dev/urandom", "/etc/passwd", "/no/such", "loop", ".", "/", "fifo", "/proc/self/mem", str(attempt.place / "canary")])
+    target = chance.choice(["/dev/zero", "/dev/null", "/dev/full", "/dev/stdin", "/dev/urandom", "/etc/passwd", "/proc/no/such", "loop", ".", "/", "fifo", "/proc/self/mem", str(attempt.place / "canary")])
     kind = chance.choice(["case.toml", "springs.csv", "given.csv", "given.vtu", "body.msh", "body.geo", "body.stl", "body.nrrd", "body.nii", "pulls.csv", "curve.csv", "skin.vtp", "out", "kept", "result", "junit"])
     path = attempt.write("case.toml", CASE)
 
@@ -267,6 +270,7 @@ def links(attempt, chance):
     if kind in ("out", "kept", "result", "junit"):
         attempt.out = attempt.place / "out"
         if kind == "out":
+            target = "/proc/no/such" if target in (".", "/") else target  # it is the command line's to say where results go
             put(attempt.out)
         else:
             inside = {"kept": "solved/attempt", "result": chance.choice(["results.json", "attempt.vtu", "comparison.csv", "solved", "attempt_springs.vtu", "attempt_bodies", "attempt.html"])}.get(kind)
@@ -275,7 +279,7 @@ def links(attempt, chance):
                 put(attempt.out / inside)
         if kind == "junit":
             if target in ("/etc/passwd", "/", str(attempt.place / "canary"), "/proc/self/mem"):
-                return attempt.run("gate", path, "--junit", "/no/such/folder\0"[:-1] + "/j.xml")
+                return attempt.run("gate", path, "--junit", "/proc/no/such/j.xml")
             put(place / "j.xml")
             if target == "fifo":
                 return attempt.run("gate", path)

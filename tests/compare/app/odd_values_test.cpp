@@ -37,8 +37,10 @@ TEST_CASE("an option's number is finite and in its range") {
     CAPTURE(words);
     check_refused(run_program(words), "must be a number from");
   }
-  check_refused(run_program("sweep --quick --budget nan " + gated_cube), "--budget: is nan, must be a number from");
-  check_refused(run_program("interact --seconds nan " + gated_cube), "--seconds: is nan, must be a number from");
+  check_refused(run_program("sweep --quick --budget nan " + gated_cube),
+                "--budget: is nan, must be a number from");
+  check_refused(run_program("interact --seconds nan " + gated_cube),
+                "--seconds: is nan, must be a number from");
 }
 
 TEST_CASE("a limit of a file's size ends in one line, and leaves nothing that is half written") {
@@ -54,6 +56,26 @@ TEST_CASE("a limit of a file's size ends in one line, and leaves nothing that is
     for (const auto& entry : fs::recursive_directory_iterator(out))
       CHECK(entry.path().extension() != ".springproof-part");
   }
+}
+
+TEST_CASE("a limit of a process's data is told before libraries look for memory for ever") {
+  for (const char* kilobytes : {"70000", "130000", "250000"})
+    check_refused(run_program("run " + gated_cube, "ulimit -d " + std::string(kilobytes) + "; "),
+                  "ulimit -d leaves");
+}
+
+TEST_CASE("too few open files are told before MPI crashes") {
+  for (const char* files : {"14", "20", "31"})
+    check_refused(run_program("run " + gated_cube, "ulimit -n " + std::string(files) + "; "),
+                  "ulimit -n allows");
+  CHECK(run_program("run " + gated_cube, "ulimit -n 32; ").status == 0);
+}
+
+TEST_CASE("a folder without a name is none, and not the root of all folders") {
+  for (const char* words :
+       {"export --to csv ", "run ", "gate ", "design --young 1 --poisson 0.3 ", "eigen ", "sweep --quick "})
+    check_refused(run_program(words + (words[0] == 'd' || words[1] == 'i' ? "" : gated_cube) + " --out ''"),
+                  "--out: names no folder");
 }
 
 TEST_CASE("a motion's files are those of the last run") {
