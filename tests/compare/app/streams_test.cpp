@@ -21,7 +21,7 @@ std::string strange_case() {
     REQUIRE(at != std::string::npos);
     text.replace(at + 1, text.find('\n', at + 1) - at - 1, key + " = " + value);
   };
-  put("name", R"("::add-mask::a")");
+  put("name", R"("a##[add-mask]a")"); // a name begins with a letter
   put("description", R"("\u001b[2J\u009b2J\n::add-mask::b ##[add-mask]c")");
   const std::string strange = R"("u\n::add-mask::d\u001b[2J")";
   text.erase(text.find("[[measure]]"));
@@ -66,7 +66,7 @@ TEST_CASE("a sweep's plan and tables have the texts of a case as data") {
   const TemporaryFolder folder;
   std::string text = content(SPRINGPROOF_SOURCE_DIR "/tests/compare/sweep/tiny.toml");
   text.replace(text.find("name = "), text.find('\n', text.find("name = ")) - text.find("name = "),
-               R"(name = "::add-mask::a\u009b")");
+               R"(name = "a ##[add-mask]a\u009b")");
   const std::string out = (folder.path / "out").string();
   // One cell by the nonlinear method is a mechanism: with that failed row the status is 1.
   REQUIRE(run_program("sweep --quick --out " + out + " " + folder.write("case.toml", text)).status == 1);
