@@ -30,7 +30,14 @@ void add_point_forces(const cases::Scene& scene, const Nodes& nodes, Vec load) {
     if (nodes.mesh_node[index(node)] >= 0) add(load, node, forces[index(nodes.mesh_node[index(node)])]);
 }
 
-/// Integrates a traction or torque over the faces of its region with the element's own shape functions.
+/// Whether this cell integrates over a face: one inside the body, between two cells, belongs to the first.
+template<class Cell>
+bool integrates(const Cell& cell, unsigned face) {
+  return cell->at_boundary(face) || cell->id() < cell->neighbor(face)->id();
+}
+
+/// Integrates a traction or torque over the faces of its region with the element's own shape functions, also
+/// where a face lies inside the body.
 void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& applied, const Space& space,
                   const Nodes& nodes, Vec load) {
   const double moment =
@@ -43,10 +50,10 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
                                      dealii::update_JxW_values);
   const int* node = nodes.of_cell.data();
   for (const auto& cell : space.own_cells()) {
-    for (const auto& face : cell->face_iterators()) {
+    for (const unsigned face : cell->face_indices()) {
       std::set<int> vertices;
-      for (unsigned v = 0; v < 4; ++v) vertices.insert(static_cast<int>(face->vertex_index(v)));
-      if (!face->at_boundary() || faces.count(vertices) == 0) continue;
+      for (unsigned v = 0; v < 4; ++v) vertices.insert(static_cast<int>(cell->face(face)->vertex_index(v)));
+      if (faces.count(vertices) == 0 || !integrates(cell, face)) continue;
       values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
       for (const unsigned q : values.quadrature_point_indices()) {
         const auto& at = values.quadrature_point(q);

@@ -39,7 +39,7 @@ CellKernel::CellKernel(const ElementType& element) : element_(element) {
   const int n_nodes = (element.degree + 1) * (element.degree + 1) * (element.degree + 1);
   const int n_dofs = 3 * n_nodes, n_modes = element.n_pressure_modes;
   const auto n_points = static_cast<std::size_t>(n_nodes);
-  volume_ratio_.resize(n_points);
+  dilatation_.resize(n_points);
   cofactor_.resize(n_points);
   target_.resize(n_points);
   result_.force.resize(n_dofs);
@@ -50,13 +50,13 @@ CellKernel::CellKernel(const ElementType& element) : element_(element) {
   right_factor_.resize(27 * n_points * n_points);
 }
 
-Matrix3 CellKernel::deformation_gradient(const CellGeometry& g, int q, const double* displacement) {
-  Matrix3 f = Matrix3::Identity();
+Matrix3 CellKernel::displacement_gradient(const CellGeometry& g, int q, const double* displacement) {
+  Matrix3 h = Matrix3::Zero();
   const double* gradient = g.gradients + 3 * q * g.n_nodes;
   for (int j = 0; j < 3; ++j)
     for (int a = 0; a < g.n_nodes; ++a)
-      for (int i = 0; i < 3; ++i) f(i, j) += displacement[3 * a + i] * gradient[j * g.n_nodes + a];
-  return f;
+      for (int i = 0; i < 3; ++i) h(i, j) += displacement[3 * a + i] * gradient[j * g.n_nodes + a];
+  return h;
 }
 
 void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
@@ -112,7 +112,7 @@ void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
   for (int q = 0; q < g.n_points; ++q) {
     const Eigen::Map<const Eigen::VectorXd> mode(g.modes + q * n_modes, n_modes);
     const auto& target = target_[static_cast<std::size_t>(q)];
-    residual += g.weights[q] * (volume_ratio_[static_cast<std::size_t>(q)] - target.value) * mode;
+    residual += g.weights[q] * (dilatation_[static_cast<std::size_t>(q)] - target.value) * mode;
     compliance += g.weights[q] * target.slope * mode * mode.transpose();
     rest_volume += g.weights[q];
   }
@@ -131,7 +131,8 @@ const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* disp
   result_.force.setZero();
   result_.valid = add_points(g, displacement, pressure, wanted);
   if (!result_.valid) return result_;
-  result_.volume = std::inner_product(g.weights, g.weights + g.n_points, volume_ratio_.begin(), 0.);
+  result_.volume = std::accumulate(g.weights, g.weights + g.n_points, 0.) +
+                   std::inner_product(g.weights, g.weights + g.n_points, dilatation_.begin(), 0.);
   result_.volume_mismatch = 0;
   result_.plain_force = result_.force;
   if (wanted == Wanted::stress_and_tangent) add_stiffness(g);

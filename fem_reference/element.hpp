@@ -75,15 +75,15 @@ class CellKernel {
   /// Calls add_point() for every point.  @return false at one that is inverted or not a number
   virtual bool add_points(const CellGeometry& geometry, const double* displacement, const double* pressure,
                           Wanted wanted) = 0;
-  static Matrix3 deformation_gradient(const CellGeometry& geometry, int point, const double* displacement);
+  static Matrix3 displacement_gradient(const CellGeometry& geometry, int point, const double* displacement);
   /// Adds the point's stress_ to the force, and when wanted sets its w A grad N for the tangent.
   void add_point(const CellGeometry& geometry, int point, Wanted wanted);
 
   ElementType element_;
-  PointStress stress_; ///< at the point, with its pressure
-  std::vector<double> volume_ratio_;
+  PointStress stress_;             ///< at the point, with its pressure
+  std::vector<double> dilatation_; ///< J - 1
   std::vector<Matrix3, Eigen::aligned_allocator<Matrix3>> cofactor_;
-  std::vector<ValueAndSlope> target_; ///< with modes: J(p) and its slope
+  std::vector<ValueAndSlope> target_; ///< with modes: J(p) - 1 and its slope
 
  private:
   void volume_gradients(const CellGeometry& geometry);

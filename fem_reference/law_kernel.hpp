@@ -15,12 +15,12 @@ class LawKernel final : public CellKernel {
   double energy(const CellGeometry& g, const double* displacement, const double* pressure) const override {
     double sum = 0;
     for (int q = 0; q < g.n_points; ++q) {
-      const Matrix3 f = deformation_gradient(g, q, displacement);
-      double density = law_.energy(f);
+      const Matrix3 h = displacement_gradient(g, q, displacement);
+      double density = law_.energy(h);
       if constexpr (Law::traits.split == Split::pressure)
         density += law_.volume_energy(element_.pressure == Pressure::pointwise
-                                          ? volume_ratio(kinematics, f)
-                                          : law_.volume_ratio(interpolated(g, q, pressure)).value);
+                                          ? dilatation(kinematics, h)
+                                          : law_.dilatation(interpolated(g, q, pressure)).value);
       sum += g.weights[q] * density;
     }
     return sum;
@@ -33,16 +33,17 @@ class LawKernel final : public CellKernel {
                   Wanted wanted) override {
     for (int q = 0; q < g.n_points; ++q) {
       const auto point = static_cast<std::size_t>(q);
-      const Matrix3 f = deformation_gradient(g, q, displacement);
-      const double ratio = volume_ratio(kinematics, f);
+      const Matrix3 h = displacement_gradient(g, q, displacement);
+      const double change = dilatation(kinematics, h);
       // linear kinematics have no inverted state; written so that NaN is refused
-      const bool is_admissible = kinematics == Kinematics::linear ? std::isfinite(ratio) : ratio > 0;
+      const bool is_admissible = kinematics == Kinematics::linear ? std::isfinite(change) : change > -1;
       if (!is_admissible) return false;
-      volume_ratio_[point] = ratio;
-      law_.stress(f, wanted, stress_);
+      dilatation_[point] = change;
+      law_.stress(h, wanted, stress_);
       if constexpr (Law::traits.split == Split::pressure) {
+        const Matrix3 f = Matrix3::Identity() + h;
         cofactor_[point] = cofactor(kinematics, f);
-        add_pressure(f, q, pressure_at(g, q, ratio, pressure), wanted);
+        add_pressure(f, q, pressure_at(g, q, change, pressure), wanted);
       }
       add_point(g, q, wanted);
     }
@@ -57,10 +58,10 @@ class LawKernel final : public CellKernel {
   }
 
   /// With modes the pressure is interpolated and its slope left to condensation.
-  ValueAndSlope pressure_at(const CellGeometry& g, int q, double ratio, const double* pressure) {
-    if (element_.pressure == Pressure::pointwise) return law_.pressure(ratio);
+  ValueAndSlope pressure_at(const CellGeometry& g, int q, double change, const double* pressure) {
+    if (element_.pressure == Pressure::pointwise) return law_.pressure(change);
     const double p = interpolated(g, q, pressure);
-    target_[static_cast<std::size_t>(q)] = law_.volume_ratio(p);
+    target_[static_cast<std::size_t>(q)] = law_.dilatation(p);
     return {p, 0};
   }
 

@@ -1,8 +1,11 @@
 #include "msm/lattice.hpp"
 
+#include "msm/tangent.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <tuple>
 
 namespace springproof::msm {
@@ -194,6 +197,19 @@ Points force_of(const Lattice& lattice, const Between& from_to) {
   return force;
 }
 
+/// Largest change of a spring's vector, of its length; infinite where springs are under tension at rest.
+double largest_gradient(const Lattice& lattice, const Points& displacement) {
+  double largest = 0;
+  for (const Link& link : lattice.links) {
+    const double length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
+    if (!(std::abs(length - link.spring.rest_length) <= 1e-12 * length))
+      return std::numeric_limits<double>::infinity();
+    const double change = (displacement[index(link.j)] - displacement[index(link.i)]).norm();
+    largest = std::max(largest, change / length);
+  }
+  return largest;
+}
+
 } // namespace
 
 double energy(const Lattice& lattice, const Points& positions) {
@@ -234,7 +250,17 @@ Points internal_force(const Lattice& lattice, const Points& positions) {
 }
 
 Points internal_force_at(const Lattice& lattice, const Points& displacement) {
-  return force_of(lattice, between(lattice.rest, displacement));
+  if (!(largest_gradient(lattice, displacement) < midpoint_below))
+    return force_of(lattice, between(lattice.rest, displacement));
+  Points middle = lattice.rest, force(middle.size(), Vector3d::Zero());
+  for (std::size_t p = 0; p < middle.size(); ++p) middle[p] += 0.5 * displacement[p];
+  visit_tangent_blocks(lattice, middle, TransverseTerm::exact,
+                       [&](int row, int column, const Eigen::Matrix3d& block) {
+                         force[index(row)] -= block * displacement[index(column)];
+                         if (row != column)
+                           force[index(column)] -= block.transpose() * displacement[index(row)];
+                       });
+  return force;
 }
 
 } // namespace springproof::msm

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace springproof::cases {
 
@@ -42,6 +43,13 @@ void add_sides(const std::array<int, 8>& cell, const std::array<bool, 8>& is_sel
     if (are_selected(edge)) selection.edges.push_back(sorted(pick(cell, edge)));
   for (const auto& face : cell_faces)
     if (are_selected(face)) selection.faces.push_back(pick(cell, face));
+}
+
+/// A face between two cells has come from both: the first stays.
+void keep_each_once(std::vector<std::array<int, 4>>& faces) {
+  std::set<std::array<int, 4>> seen;
+  const auto is_known = [&](const std::array<int, 4>& face) { return !seen.insert(sorted(face)).second; };
+  faces.erase(std::remove_if(faces.begin(), faces.end(), is_known), faces.end());
 }
 
 /// As select_on_planes() on a grid whose cells are all present, without a look at the inner ones.
@@ -152,6 +160,7 @@ Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_select
     add_sides(mesh.cells[c], vertices, selection);
   }
   make_set(selection.edges);
+  keep_each_once(selection.faces);
   return selection;
 }
 

@@ -31,25 +31,32 @@ SPRINGPROOF_INLINE Parameters<P> parameters_of(const Cells& cells, std::ptrdiff_
 }
 
 template<class P>
-SPRINGPROOF_INLINE void deformation_gradient(const Cells& cells, int q, const Corners<P>& u, P (&f)[9]) {
+SPRINGPROOF_INLINE void displacement_gradient(const Cells& cells, int q, const Corners<P>& u, P (&h)[9]) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      P sum = constant<P>(i == j ? 1 : 0);
+      P sum{};
       for (int a = 0; a < 8; ++a)
         sum += u[a][i] * static_cast<typename RealOf<P>::type>(cells.gradients[q][a][j]);
-      f[3 * i + j] = sum;
+      h[3 * i + j] = sum;
     }
 }
 
+/// J - 1; of finite kinematics the sum of H's invariants.
 template<class L, class P>
-SPRINGPROOF_INLINE P volume_ratio_of(const P (&f)[9]) {
-  return L::is_finite ? determinant(f) : f[0] + f[4] + f[8] - 2;
+SPRINGPROOF_INLINE P dilatation_of(const P (&h)[9]) {
+  const P trace = h[0] + h[4] + h[8];
+  if constexpr (!L::is_finite) return trace;
+  P c[9];
+  cofactor(h, c);
+  return trace + (c[0] + c[4] + c[8]) + determinant(h);
 }
 template<class L, class P>
-SPRINGPROOF_INLINE void cofactor_of(const P (&f)[9], P (&c)[9]) {
-  if constexpr (L::is_finite)
+SPRINGPROOF_INLINE void cofactor_of(const P (&h)[9], P (&c)[9]) {
+  if constexpr (L::is_finite) {
+    P f[9];
+    deformation_gradient(h, f);
     cofactor(f, c);
-  else
+  } else
     for (int e = 0; e < 9; ++e) c[e] = constant<P>(e % 4 == 0 ? 1 : 0);
 }
 
@@ -84,32 +91,32 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
       Corners<PackD> u, force{}, volume_gradient{};
       load_corners(layout, fields.displacement, node, weight, u);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
-      PackD p{}, volume{}, lowest = constant<PackD>(1);
+      PackD p{}, growth{}, lowest{};
       Pressure<PackD> target{};
       if constexpr (modes) {
         p = load(fields.pressure + cell);
         p = weight > PackD{} ? p : PackD{};
-        target = L::volume_ratio(p, m);
+        target = L::dilatation(p, m);
       }
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
-        PackD f[9], stress[9];
-        deformation_gradient(cells, q, u, f);
-        const PackD ratio = volume_ratio_of<L>(f);
-        lowest = ratio > lowest ? lowest : ratio; // keeps what is not a number
-        L::stress(f, m, stress);
+        PackD h[9], stress[9];
+        displacement_gradient(cells, q, u, h);
+        const PackD dilatation = dilatation_of<L>(h);
+        lowest = dilatation > lowest ? lowest : dilatation; // keeps what is not a number
+        L::stress(h, m, stress);
         if constexpr (L::has_pressure) {
           PackD area[9];
-          cofactor_of<L>(f, area);
+          cofactor_of<L>(h, area);
           PackD pressure = p;
-          if constexpr (!modes) pressure = L::pressure(ratio, m).value;
+          if constexpr (!modes) pressure = L::pressure(dilatation, m).value;
           for (int e = 0; e < 9; ++e) stress[e] += pressure * area[e];
           if (modes && fields.condensed) add_divergence(cells, q, area, volume_gradient);
         }
         add_divergence(cells, q, stress, force);
-        volume += ratio;
+        growth += dilatation;
       }
-      const PackD least = L::is_finite ? PackD{} : constant<PackD>(-1e100);
+      const PackD least = constant<PackD>(L::is_finite ? -1 : -1e100);
       if (!all_greater(lowest, least)) {
         checks.valid = false;
         return;
@@ -117,13 +124,13 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
       const PackD scale = weight * cells.point_volume;
       PackD change{};
       if constexpr (modes) {
-        const PackD off = volume / 8 - target.value; // R over the rest volume
+        const PackD off = growth / 8 - target.value; // R over the rest volume
         change = off / target.slope;
         const PackD size = weight > PackD{} ? absolute(off) : PackD{};
         mismatch = larger(size, mismatch);
       }
       if (fields.volume)
-        store(fields.volume + cell, weight > PackD{} ? volume * cells.point_volume : PackD{});
+        store(fields.volume + cell, weight > PackD{} ? (growth + 8) * cells.point_volume : PackD{});
       for (int a = 0; a < 8; ++a)
         for (int c = 0; c < 3; ++c) {
           const std::ptrdiff_t at = c * layout.size + node + corner_of(layout, a);
@@ -149,34 +156,36 @@ void pressure_change_layer(const Cells& cells, const ForceFields& fields, const 
       load_corners(layout, step, node, weight, du);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
       const PackD p = weight > PackD{} ? load(fields.pressure + cell) : PackD{};
-      const Pressure<PackD> target = L::volume_ratio(p, m);
-      PackD volume{};
+      const Pressure<PackD> target = L::dilatation(p, m);
+      PackD growth{};
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
-        PackD f[9], df[9], area[9];
-        deformation_gradient(cells, q, u, f);
-        deformation_gradient(cells, q, du, df);
-        cofactor_of<L>(f, area);
-        volume += volume_ratio_of<L>(f);
-        for (int e = 0; e < 9; ++e) volume += area[e] * (e % 4 == 0 ? df[e] - 1 : df[e]);
+        PackD h[9], dh[9], area[9];
+        displacement_gradient(cells, q, u, h);
+        displacement_gradient(cells, q, du, dh);
+        cofactor_of<L>(h, area);
+        growth += dilatation_of<L>(h);
+        for (int e = 0; e < 9; ++e) growth += area[e] * dh[e];
       }
-      const PackD result = (volume / 8 - target.value) / target.slope;
+      const PackD result = (growth / 8 - target.value) / target.slope;
       store(change + cell, weight > PackD{} ? result : PackD{});
     }
 }
 
 /// The moduli dP/dF of a point, with its pressure's.
 template<class L, bool modes, class M = typename L::Moduli>
-SPRINGPROOF_INLINE void moduli_of(const PackF (&f)[9], const PackF& p, const Parameters<PackF>& m,
+SPRINGPROOF_INLINE void moduli_of(const PackF (&h)[9], const PackF& p, const Parameters<PackF>& m,
                                   PackF (&moduli)[M::n]) {
-  L::moduli(f, m, moduli);
+  L::moduli(h, m, moduli);
   if constexpr (L::has_pressure) {
+    PackF f[9];
+    deformation_gradient(h, f);
     if constexpr (modes) {
       if constexpr (L::is_finite) add_cofactor_derivative<M>(f, p, moduli);
     } else {
-      const Pressure<PackF> pressure = L::pressure(volume_ratio_of<L>(f), m);
+      const Pressure<PackF> pressure = L::pressure(dilatation_of<L>(h), m);
       PackF area[9];
-      cofactor_of<L>(f, area);
+      cofactor_of<L>(h, area);
       if constexpr (L::is_finite) add_cofactor_derivative<M>(f, pressure.value, moduli);
       for (int r = 0; r < 9; ++r) {
         const PackF weighted = pressure.slope * area[r];
@@ -269,18 +278,18 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
       for (int e = 0; e < K::n; ++e) matrix.entry[e] = PackF{};
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
-        PackF f[9], moduli[M::n];
-        deformation_gradient(cells, q, u, f);
-        moduli_of<L, modes>(f, p, m, moduli);
+        PackF h[9], moduli[M::n];
+        displacement_gradient(cells, q, u, h);
+        moduli_of<L, modes>(h, p, m, moduli);
         add_stiffness<M>(cells, q, moduli, matrix);
         if constexpr (modes) {
           PackF area[9];
-          cofactor_of<L>(f, area);
+          cofactor_of<L>(h, area);
           add_divergence(cells, q, area, volume_gradient);
         }
       }
       if constexpr (modes) { // B^T C^-1 B
-        const PackF inverse = 1 / (8 * L::volume_ratio(p, m).slope);
+        const PackF inverse = 1 / (8 * L::dilatation(p, m).slope);
         for (int r = 0; r < 24; ++r) {
           const PackF weighted = inverse * volume_gradient[r / 3][r % 3];
           for (int s = K::is_symmetric ? r : 0; s < 24; ++s)

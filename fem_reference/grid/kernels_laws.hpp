@@ -1,5 +1,5 @@
 // Part of kernels_source.hpp, in its namespace: the laws of fem_reference/laws and mechanics/laws, a pack of
-// points at a time. P is a pack; F and stresses are [3*i + J], moduli dP_iJ/dF_kL.
+// points at a time. P is a pack; H = grad u, F = I + H and stresses are [3*i + J], moduli dP_iJ/dF_kL.
 #pragma once
 
 /// Where dP_r/dF_s lies: all 81, or the upper triangle of symmetric ones.
@@ -23,6 +23,22 @@ struct Parameters {
   P value[most];
   int n;
 };
+
+/// F = I + H
+template<class P>
+SPRINGPROOF_INLINE void deformation_gradient(const P (&h)[9], P (&f)[9]) {
+  for (int e = 0; e < 9; ++e) f[e] = e % 4 == 0 ? h[e] + 1 : h[e];
+}
+
+/// H + H^T + H^T H, twice Green's strain, whose digits F^T F - I would lose: xx, yy, zz, yz, xz, xy.
+template<class P>
+SPRINGPROOF_INLINE void twice_green_strain(const P (&h)[9], P (&c)[6]) {
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, d = (a + 2) % 3;
+    c[a] = 2 * h[4 * a] + (h[a] * h[a] + h[3 + a] * h[3 + a] + h[6 + a] * h[6 + a]);
+    c[3 + a] = h[3 * b + d] + h[3 * d + b] + (h[b] * h[d] + h[3 + b] * h[3 + d] + h[6 + b] * h[6 + d]);
+  }
+}
 
 template<class P>
 struct Pressure {
@@ -67,11 +83,11 @@ struct SmallStrain {
   static constexpr bool is_finite = false, has_pressure = true;
   using Moduli = Upper;
   template<class P>
-  SPRINGPROOF_INLINE static void stress(const P (&f)[9], const Parameters<P>& m, P (&stress)[9]) {
-    const P mean = (f[0] + f[4] + f[8]) / 3;
+  SPRINGPROOF_INLINE static void stress(const P (&h)[9], const Parameters<P>& m, P (&stress)[9]) {
+    const P mean = (h[0] + h[4] + h[8]) / 3;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        stress[3 * i + j] = m.value[0] * (f[3 * i + j] + f[3 * j + i] - (i == j ? 2 * mean : P{}));
+        stress[3 * i + j] = m.value[0] * (h[3 * i + j] + h[3 * j + i] - (i == j ? 2 * mean : P{}));
   }
   template<class P>
   SPRINGPROOF_INLINE static void moduli(const P (&)[9], const Parameters<P>& m, P (&moduli)[Upper::n]) {
@@ -84,12 +100,12 @@ struct SmallStrain {
       }
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& j, const Parameters<P>& m) {
-    return {m.value[1] * (j - 1), m.value[1]};
+  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& dilatation, const Parameters<P>& m) {
+    return {m.value[1] * dilatation, m.value[1]};
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> volume_ratio(const P& p, const Parameters<P>& m) {
-    return {1 + p / m.value[1], 1 / m.value[1]};
+  SPRINGPROOF_INLINE static Pressure<P> dilatation(const P& p, const Parameters<P>& m) {
+    return {p / m.value[1], 1 / m.value[1]};
   }
 };
 
@@ -97,31 +113,32 @@ struct SaintVenantKirchhoff {
   static constexpr bool is_finite = true, has_pressure = false;
   using Moduli = Upper;
   template<class P>
-  SPRINGPROOF_INLINE static void second(const P (&f)[9], const Parameters<P>& m, P (&s)[9]) {
+  SPRINGPROOF_INLINE static void second(const P (&h)[9], const Parameters<P>& m, P (&s)[9]) {
     const P lambda = m.value[1] - m.value[0] * 2 / 3;
-    P trace{};
-    for (int a = 0; a < 3; ++a)
-      for (int b = a; b < 3; ++b) {
-        const P c = f[a] * f[b] + f[3 + a] * f[3 + b] + f[6 + a] * f[6 + b];
-        s[3 * a + b] = m.value[0] * (a == b ? c - 1 : c);
-        s[3 * b + a] = s[3 * a + b];
-        if (a == b) trace += (c - 1) / 2;
-      }
-    for (int a = 0; a < 3; ++a) s[4 * a] += lambda * trace;
+    P c[6];
+    twice_green_strain(h, c);
+    const P pressure = lambda * ((c[0] + c[1] + c[2]) / 2);
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, d = (a + 2) % 3;
+      s[4 * a] = m.value[0] * c[a] + pressure;
+      s[3 * b + d] = s[3 * d + b] = m.value[0] * c[3 + a];
+    }
   }
   template<class P>
-  SPRINGPROOF_INLINE static void stress(const P (&f)[9], const Parameters<P>& m, P (&stress)[9]) {
-    P s[9];
-    second(f, m, s);
+  SPRINGPROOF_INLINE static void stress(const P (&h)[9], const Parameters<P>& m, P (&stress)[9]) {
+    P s[9], f[9];
+    second(h, m, s);
+    deformation_gradient(h, f);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         stress[3 * i + j] = f[3 * i] * s[j] + f[3 * i + 1] * s[3 + j] + f[3 * i + 2] * s[6 + j];
   }
   template<class P>
-  SPRINGPROOF_INLINE static void moduli(const P (&f)[9], const Parameters<P>& m, P (&moduli)[Upper::n]) {
+  SPRINGPROOF_INLINE static void moduli(const P (&h)[9], const Parameters<P>& m, P (&moduli)[Upper::n]) {
     const P mu = m.value[0], lambda = m.value[1] - m.value[0] * 2 / 3;
-    P s[9], left[9];
-    second(f, m, s);
+    P s[9], f[9], left[9];
+    second(h, m, s);
+    deformation_gradient(h, f);
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k)
         left[3 * i + k] = f[3 * i] * f[3 * k] + f[3 * i + 1] * f[3 * k + 1] + f[3 * i + 2] * f[3 * k + 2];
@@ -142,7 +159,7 @@ struct SaintVenantKirchhoff {
     return {P{}, P{}};
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> volume_ratio(const P&, const Parameters<P>&) {
+  SPRINGPROOF_INLINE static Pressure<P> dilatation(const P&, const Parameters<P>&) {
     return {P{}, P{}};
   }
 };
@@ -170,8 +187,10 @@ SPRINGPROOF_INLINE void rotate(P& app, P& aqq, P& apq, P& apr, P& aqr, P (&v)[9]
 template<class P>
 SPRINGPROOF_INLINE void eigensystem(P (&a)[6], P (&v)[9]) {
   for (int i = 0; i < 9; ++i) v[i] = constant<P>(i % 4 == 0 ? 1 : 0);
-  constexpr double relative = sizeof(typename RealOf<P>::type) == 8 ? 1e-33 : 1e-14; // squared
-  const P trace = a[0] + a[1] + a[2], small = constant<P>(relative) * trace * trace;
+  constexpr double relative = sizeof(typename RealOf<P>::type) == 8 ? 1e-32 : 1e-14; // squared
+  constexpr double least = sizeof(typename RealOf<P>::type) == 8 ? 1e-300 : 1e-36;   // of the zero matrix
+  const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + 2 * (a[3] * a[3] + a[4] * a[4] + a[5] * a[5]);
+  const P small = constant<P>(relative) * squared + constant<P>(least);
   for (int sweep = 0; sweep < 8; ++sweep) {
     if (all_greater(small, a[3] * a[3] + a[4] * a[4] + a[5] * a[5])) break;
     rotate(a[0], a[1], a[5], a[4], a[3], v, 0, 1);
@@ -189,25 +208,22 @@ struct InPrincipalStretches : Principal {
 
   /// Squares of the stretches, their axes in the material, their logarithms.
   template<class P>
-  SPRINGPROOF_INLINE static void principal_axes(const P (&f)[9], P (&squared)[3], P (&axes)[9], P (&x)[3]) {
+  SPRINGPROOF_INLINE static void principal_axes(const P (&h)[9], P (&squared)[3], P (&axes)[9], P (&x)[3]) {
     P c[6];
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, d = (a + 2) % 3;
-      c[a] = f[a] * f[a] + f[3 + a] * f[3 + a] + f[6 + a] * f[6 + a];
-      c[3 + a] = f[b] * f[d] + f[3 + b] * f[3 + d] + f[6 + b] * f[6 + d];
-    }
+    twice_green_strain(h, c);
     eigensystem(c, axes);
     for (int a = 0; a < 3; ++a) {
-      squared[a] = c[a];
-      x[a] = log_of(c[a]) / 2;
+      squared[a] = 1 + c[a];
+      x[a] = log1p_of(c[a]) / 2;
     }
   }
 
   /// P = F S, S = sum tau_i/lambda_i² N_i x N_i.
   template<class P>
-  SPRINGPROOF_INLINE static void stress(const P (&f)[9], const Parameters<P>& m, P (&stress)[9]) {
-    P squared[3], axes[9], x[3], tau[3], s[9];
-    principal_axes(f, squared, axes, x);
+  SPRINGPROOF_INLINE static void stress(const P (&h)[9], const Parameters<P>& m, P (&stress)[9]) {
+    P squared[3], axes[9], x[3], tau[3], s[9], f[9];
+    principal_axes(h, squared, axes, x);
+    deformation_gradient(h, f);
     Principal::kirchhoff(x, m, tau);
     for (int i = 0; i < 3; ++i) tau[i] /= squared[i];
     for (int a = 0; a < 3; ++a)
@@ -221,9 +237,10 @@ struct InPrincipalStretches : Principal {
   }
 
   template<class P>
-  SPRINGPROOF_INLINE static void moduli(const P (&f)[9], const Parameters<P>& m, P (&moduli)[M::n]) {
-    P squared[3], material[9], x[3], tau[3], slope[9], difference[3], inverse[3], spatial[9];
-    principal_axes(f, squared, material, x);
+  SPRINGPROOF_INLINE static void moduli(const P (&h)[9], const Parameters<P>& m, P (&moduli)[M::n]) {
+    P squared[3], material[9], x[3], tau[3], slope[9], difference[3], inverse[3], spatial[9], f[9];
+    principal_axes(h, squared, material, x);
+    deformation_gradient(h, f);
     Principal::kirchhoff(x, m, tau);
     Principal::slopes(x, squared, m, slope, difference);
     for (int i = 0; i < 3; ++i) inverse[i] = 1 / root(squared[i]);
@@ -290,13 +307,13 @@ struct LogStrain {
     }
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& j, const Parameters<P>& m) {
-    return {m.value[1] * log_of(j), m.value[1] / j};
+  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& dilatation, const Parameters<P>& m) {
+    return {m.value[1] * log1p_of(dilatation), m.value[1] / (1 + dilatation)};
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> volume_ratio(const P& p, const Parameters<P>& m) {
-    const P j = exp_of(p / m.value[1]);
-    return {j, j / m.value[1]};
+  SPRINGPROOF_INLINE static Pressure<P> dilatation(const P& p, const Parameters<P>& m) {
+    const P change = expm1_of(p / m.value[1]);
+    return {change, (1 + change) / m.value[1]};
   }
 };
 
@@ -308,10 +325,10 @@ struct Ogden {
     for (int i = 0; i < 3; ++i) tau[i] = P{};
     for (int t = 1; t < m.n; t += 2) {
       const P mu = m.value[t], alpha = m.value[t + 1];
-      P power[3];
-      for (int i = 0; i < 3; ++i) power[i] = exp_of(alpha * (x[i] - mean));
-      const P third = (power[0] + power[1] + power[2]) / 3;
-      for (int i = 0; i < 3; ++i) tau[i] += 2 * mu / alpha * (power[i] - third);
+      P excess[3]; // powers less 1
+      for (int i = 0; i < 3; ++i) excess[i] = expm1_of(alpha * (x[i] - mean));
+      const P third = (excess[0] + excess[1] + excess[2]) / 3;
+      for (int i = 0; i < 3; ++i) tau[i] += 2 * mu / alpha * (excess[i] - third);
     }
   }
   template<class P>
@@ -346,13 +363,14 @@ struct Ogden {
     return absolute(d) > constant<P>(0.01) ? direct : series;
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& j, const Parameters<P>& m) {
-    return {m.value[0] / 2 * (j - 1 / j), m.value[0] / 2 * (1 + 1 / (j * j))};
+  SPRINGPROOF_INLINE static Pressure<P> pressure(const P& dilatation, const Parameters<P>& m) {
+    const P j = 1 + dilatation;
+    return {m.value[0] / 2 * dilatation * (1 + j) / j, m.value[0] / 2 * (1 + 1 / (j * j))};
   }
   template<class P>
-  SPRINGPROOF_INLINE static Pressure<P> volume_ratio(const P& p, const Parameters<P>& m) {
-    const P q = p / m.value[0], length = root(q * q + 1);
+  SPRINGPROOF_INLINE static Pressure<P> dilatation(const P& p, const Parameters<P>& m) {
+    const P q = p / m.value[0], length = root(q * q + 1), beyond = q * q / (length + 1);
     const P j = q >= P{} ? q + length : 1 / (length - q);
-    return {j, j / (length * m.value[0])};
+    return {q >= P{} ? q + beyond : (q - beyond) / (length - q), j / (length * m.value[0])};
   }
 };

@@ -71,22 +71,30 @@ SPRINGPROOF_INLINE void add(float* to, const PackF& value) {
 // glibc's vector functions, to 4 units in the last place.
 #if defined(__AVX512F__)
 extern "C" {
-__m512d _ZGVeN8v_log(__m512d) noexcept;
+__m512d _ZGVeN8v_log1p(__m512d) noexcept;
 __m512d _ZGVeN8v_exp(__m512d) noexcept;
-__m512 _ZGVeN16v_logf(__m512) noexcept;
+__m512d _ZGVeN8v_expm1(__m512d) noexcept;
+__m512 _ZGVeN16v_log1pf(__m512) noexcept;
 __m512 _ZGVeN16v_expf(__m512) noexcept;
+__m512 _ZGVeN16v_expm1f(__m512) noexcept;
 }
-SPRINGPROOF_INLINE PackD log_of(const PackD& x) {
-  return _ZGVeN8v_log(x);
+SPRINGPROOF_INLINE PackD log1p_of(const PackD& x) {
+  return _ZGVeN8v_log1p(x);
 }
 SPRINGPROOF_INLINE PackD exp_of(const PackD& x) {
   return _ZGVeN8v_exp(x);
 }
-SPRINGPROOF_INLINE PackF log_of(const PackF& x) {
-  return _ZGVeN16v_logf(x);
+SPRINGPROOF_INLINE PackD expm1_of(const PackD& x) {
+  return _ZGVeN8v_expm1(x);
+}
+SPRINGPROOF_INLINE PackF log1p_of(const PackF& x) {
+  return _ZGVeN16v_log1pf(x);
 }
 SPRINGPROOF_INLINE PackF exp_of(const PackF& x) {
   return _ZGVeN16v_expf(x);
+}
+SPRINGPROOF_INLINE PackF expm1_of(const PackF& x) {
+  return _ZGVeN16v_expm1f(x);
 }
 SPRINGPROOF_INLINE PackD root(const PackD& x) {
   return _mm512_sqrt_pd(x);
@@ -103,22 +111,30 @@ SPRINGPROOF_INLINE bool all_greater(const PackF& a, const PackF& b) {
 }
 #elif defined(__AVX2__)
 extern "C" {
-__m256d _ZGVdN4v_log(__m256d) noexcept;
+__m256d _ZGVdN4v_log1p(__m256d) noexcept;
 __m256d _ZGVdN4v_exp(__m256d) noexcept;
-__m256 _ZGVdN8v_logf(__m256) noexcept;
+__m256d _ZGVdN4v_expm1(__m256d) noexcept;
+__m256 _ZGVdN8v_log1pf(__m256) noexcept;
 __m256 _ZGVdN8v_expf(__m256) noexcept;
+__m256 _ZGVdN8v_expm1f(__m256) noexcept;
 }
-SPRINGPROOF_INLINE PackD log_of(const PackD& x) {
-  return _ZGVdN4v_log(x);
+SPRINGPROOF_INLINE PackD log1p_of(const PackD& x) {
+  return _ZGVdN4v_log1p(x);
 }
 SPRINGPROOF_INLINE PackD exp_of(const PackD& x) {
   return _ZGVdN4v_exp(x);
 }
-SPRINGPROOF_INLINE PackF log_of(const PackF& x) {
-  return _ZGVdN8v_logf(x);
+SPRINGPROOF_INLINE PackD expm1_of(const PackD& x) {
+  return _ZGVdN4v_expm1(x);
+}
+SPRINGPROOF_INLINE PackF log1p_of(const PackF& x) {
+  return _ZGVdN8v_log1pf(x);
 }
 SPRINGPROOF_INLINE PackF exp_of(const PackF& x) {
   return _ZGVdN8v_expf(x);
+}
+SPRINGPROOF_INLINE PackF expm1_of(const PackF& x) {
+  return _ZGVdN8v_expm1f(x);
 }
 SPRINGPROOF_INLINE PackD root(const PackD& x) {
   return _mm256_sqrt_pd(x);
@@ -134,22 +150,30 @@ SPRINGPROOF_INLINE bool all_greater(const PackF& a, const PackF& b) {
 }
 #else
 extern "C" {
-__m128d _ZGVbN2v_log(__m128d) noexcept;
+__m128d _ZGVbN2v_log1p(__m128d) noexcept;
 __m128d _ZGVbN2v_exp(__m128d) noexcept;
-__m128 _ZGVbN4v_logf(__m128) noexcept;
+__m128d _ZGVbN2v_expm1(__m128d) noexcept;
+__m128 _ZGVbN4v_log1pf(__m128) noexcept;
 __m128 _ZGVbN4v_expf(__m128) noexcept;
+__m128 _ZGVbN4v_expm1f(__m128) noexcept;
 }
-SPRINGPROOF_INLINE PackD log_of(const PackD& x) {
-  return _ZGVbN2v_log(x);
+SPRINGPROOF_INLINE PackD log1p_of(const PackD& x) {
+  return _ZGVbN2v_log1p(x);
 }
 SPRINGPROOF_INLINE PackD exp_of(const PackD& x) {
   return _ZGVbN2v_exp(x);
 }
-SPRINGPROOF_INLINE PackF log_of(const PackF& x) {
-  return _ZGVbN4v_logf(x);
+SPRINGPROOF_INLINE PackD expm1_of(const PackD& x) {
+  return _ZGVbN2v_expm1(x);
+}
+SPRINGPROOF_INLINE PackF log1p_of(const PackF& x) {
+  return _ZGVbN4v_log1pf(x);
 }
 SPRINGPROOF_INLINE PackF exp_of(const PackF& x) {
   return _ZGVbN4v_expf(x);
+}
+SPRINGPROOF_INLINE PackF expm1_of(const PackF& x) {
+  return _ZGVbN4v_expm1f(x);
 }
 SPRINGPROOF_INLINE PackD root(const PackD& x) {
   return _mm_sqrt_pd(x);

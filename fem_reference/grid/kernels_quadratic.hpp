@@ -84,27 +84,26 @@ void quadratic_force_layer(const Quadratic& elements, const ForceFields& fields,
       Nodes<PackD> u, force{};
       load_nodes(nodes, fields.displacement, first, weight, u);
       const Parameters<PackD> m = parameters_of<PackD>(elements.cells, cell);
-      PackD volume{}, lowest = constant<PackD>(1);
+      PackD volume{}, lowest{};
 #pragma GCC unroll 1
       for (int q = 0; q < 27; ++q) {
-        PackD f[9], stress[9];
-        quadratic_gradient(elements, q, u, f);
-        for (int d = 0; d < 3; ++d) f[4 * d] += 1;
-        const PackD ratio = volume_ratio_of<L>(f);
-        lowest = ratio > lowest ? lowest : ratio; // keeps what is not a number
-        L::stress(f, m, stress);
+        PackD h[9], stress[9];
+        quadratic_gradient(elements, q, u, h);
+        const PackD dilatation = dilatation_of<L>(h);
+        lowest = dilatation > lowest ? lowest : dilatation; // keeps what is not a number
+        L::stress(h, m, stress);
         if constexpr (L::has_pressure) {
           PackD area[9];
-          cofactor_of<L>(f, area);
-          const PackD pressure = L::pressure(ratio, m).value;
+          cofactor_of<L>(h, area);
+          const PackD pressure = L::pressure(dilatation, m).value;
           for (int e = 0; e < 9; ++e) stress[e] += pressure * area[e];
         }
         const PackD scale = weight * elements.weights[q];
         for (int e = 0; e < 9; ++e) stress[e] *= scale;
         add_quadratic_divergence(elements, q, stress, force);
-        volume += ratio * scale;
+        volume += (1 + dilatation) * scale;
       }
-      const PackD least = L::is_finite ? PackD{} : constant<PackD>(-1e100);
+      const PackD least = constant<PackD>(L::is_finite ? -1 : -1e100);
       if (!all_greater(lowest, least)) {
         checks.valid = false;
         return;
@@ -135,10 +134,9 @@ void quadratic_moduli_layer(const Quadratic& elements, const double* displacemen
       float* to = all + moduli_row<M>(cells, j, k) + i;
 #pragma GCC unroll 1
       for (int q = 0; q < 27; ++q) {
-        PackF f[9], moduli[M::n];
-        quadratic_gradient(elements, q, u, f);
-        for (int d = 0; d < 3; ++d) f[4 * d] += 1;
-        moduli_of<L, false>(f, PackF{}, m, moduli);
+        PackF h[9], moduli[M::n];
+        quadratic_gradient(elements, q, u, h);
+        moduli_of<L, false>(h, PackF{}, m, moduli);
         const PackF scale = weight * static_cast<float>(elements.weights[q]);
         for (int e = 0; e < M::n; ++e, to += cells.row) store(to, scale * moduli[e]);
       }

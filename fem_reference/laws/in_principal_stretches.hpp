@@ -19,18 +19,19 @@ class InPrincipalStretches : public Principal {
 
   using Principal::Principal;
 
-  double energy(const Matrix3& f) const {
-    const Eigen::SelfAdjointEigenSolver<Matrix3> right(f.transpose() * f, Eigen::EigenvaluesOnly);
-    return Principal::energy(right.eigenvalues().array().log() / 2);
+  double energy(const Matrix3& h) const {
+    const Eigen::SelfAdjointEigenSolver<Matrix3> right(twice_green_strain(h), Eigen::EigenvaluesOnly);
+    return Principal::energy(log_stretches(right.eigenvalues()));
   }
 
-  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
-    // eigenvectors of C are orthonormal to rounding error even when eigenvalues (nearly) coincide
-    const Eigen::SelfAdjointEigenSolver<Matrix3> right(f.transpose() * f);
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
+    // eigenvectors of C - I are orthonormal to rounding error even when eigenvalues (nearly) coincide
+    const Eigen::SelfAdjointEigenSolver<Matrix3> right(twice_green_strain(h));
     const Matrix3& material = right.eigenvectors(); // its columns are the axes N, those of spatial n
-    const Eigen::Vector3d stretches = right.eigenvalues().cwiseSqrt();
-    const Matrix3 spatial = f * material * stretches.cwiseInverse().asDiagonal();
-    const mechanics::PrincipalStress principal = Principal::stress(stretches.array().log(), wanted);
+    const Eigen::Vector3d stretches = (1 + right.eigenvalues().array()).sqrt();
+    const Matrix3 spatial = (material + h * material) * stretches.cwiseInverse().asDiagonal();
+    const mechanics::PrincipalStress principal =
+        Principal::stress(log_stretches(right.eigenvalues()), wanted);
     const Eigen::Vector3d first = principal.kirchhoff.cwiseQuotient(stretches);
     result.stress = flatten(spatial * first.asDiagonal() * material.transpose());
     if (wanted == Wanted::stress) return;
@@ -44,6 +45,11 @@ class InPrincipalStretches : public Principal {
   }
 
  private:
+  /// @param excess  eigenvalues of C - I
+  static Eigen::Vector3d log_stretches(const Eigen::Vector3d& excess) {
+    return excess.unaryExpr([](double e) { return 0.5 * std::log1p(e); });
+  }
+
   /// Row and column 3*i + j belong to n_i x N_j.
   static Matrix9 tangent_in_axes(const mechanics::PrincipalStress& s, const Eigen::Vector3d& stretches) {
     Matrix9 tangent = Matrix9::Zero();

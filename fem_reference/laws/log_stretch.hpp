@@ -40,11 +40,12 @@ inline double divided_difference(double x, double y, double z) {
 /// Methods Appl Mech Engrg 191:5383, with one formula for distinct and for equal eigenvalues):
 ///   dE_ij = f[i,j] dC_ij,    d²E(A, B)_ij = sum_k f[i,k,j] (A_ik B_kj + B_ik A_kj).
 struct LogStretch {
-  explicit LogStretch(const Matrix3& f) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3> right(f.transpose() * f);
+  /// @param h  displacement gradient
+  explicit LogStretch(const Matrix3& h) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3> right(twice_green_strain(h));
     axes = right.eigenvectors();
-    squares = right.eigenvalues();
-    strains = 0.5 * squares.array().log();
+    squares = right.eigenvalues().array() + 1;
+    strains = right.eigenvalues().unaryExpr([](double e) { return 0.5 * std::log1p(e); });
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) first(i, j) = divided_difference(squares[i], squares[j]);
   }

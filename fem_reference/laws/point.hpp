@@ -6,12 +6,14 @@
 #include <Eigen/LU>
 
 /// A law as the element's kernel sees it, at one point. A law is a type with
-///   void stress(F, wanted, PointStress&)       without the pressure, where it has one of its own
-///   double energy(F)                           N mm/mm³ at rest, without that of the pressure
-///   double volume_energy(volume_ratio)         has_pressure alone: the pressure's integral from 1
-///   ValueAndSlope pressure(volume_ratio)       has_pressure alone: tension-positive mean Cauchy stress, MPa
-///   ValueAndSlope volume_ratio(pressure)       has_pressure alone: its inverse
-/// and the constants below; P = stress(F) + p(J) cof F with a pressure, P = stress(F) without.
+///   void stress(H, wanted, PointStress&)       without the pressure, where it has one of its own
+///   double energy(H)                           N mm/mm³ at rest, without that of the pressure
+///   double volume_energy(dilatation)           has_pressure alone: the pressure's integral from 0
+///   ValueAndSlope pressure(dilatation)         has_pressure alone: tension-positive mean Cauchy stress, MPa
+///   ValueAndSlope dilatation(pressure)         has_pressure alone: its inverse
+/// and the constants below; P = stress + p(J - 1) cof F with a pressure, P = stress without. H = grad u is
+/// the displacement gradient and F = I + H: a strain made of F - I would lose the digits of small
+/// displacements.
 namespace springproof::fem_reference {
 
 using mechanics::ValueAndSlope;
@@ -28,7 +30,7 @@ struct PointStress {
   Matrix9 tangent;
 };
 
-/// Linear: J = 1 + tr(grad u) and areas do not turn. Finite: J = det F.
+/// Linear: J = 1 + tr H and areas do not turn. Finite: J = det F.
 enum class Kinematics { linear, finite };
 enum class TangentSymmetry { symmetric, unsymmetric };
 /// Without a pressure of its own only q1 and q2 can carry a law.
@@ -45,19 +47,32 @@ inline Vector9 flatten(const Matrix3& m) {
   return m.reshaped<Eigen::RowMajor>();
 }
 
-/// The change of volume and area at a point: J, cof F = dJ/dF, and (finite kinematics) d cof F/dF.
-inline double volume_ratio(Kinematics kinematics, const Matrix3& f) {
-  return kinematics == Kinematics::linear ? f.trace() - 2 : f.determinant();
-}
-
-inline Matrix3 cofactor(Kinematics kinematics, const Matrix3& f) {
-  if (kinematics == Kinematics::linear) return Matrix3::Identity();
+/// Cofactors of a matrix, the derivative of its determinant.
+inline Matrix3 cofactor(const Matrix3& m) {
   Matrix3 result;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d row = f.row((i + 1) % 3).cross(f.row((i + 2) % 3));
+    const Eigen::Vector3d row = m.row((i + 1) % 3).cross(m.row((i + 2) % 3));
     result.row(i) = row.transpose();
   }
   return result;
+}
+
+/// The dilatation J - 1 of a displacement gradient; for finite kinematics the invariants of H, whose sum it
+/// is.
+inline double dilatation(Kinematics kinematics, const Matrix3& h) {
+  if (kinematics == Kinematics::linear) return h.trace();
+  return h.trace() + cofactor(h).trace() + h.determinant();
+}
+
+/// The right Cauchy-Green tensor less I, twice Green's strain: H + H^T + H^T H.
+inline Matrix3 twice_green_strain(const Matrix3& h) {
+  return h + h.transpose() + h.transpose() * h;
+}
+
+/// cof F = dJ/dF, and (finite kinematics) d cof F/dF.
+
+inline Matrix3 cofactor(Kinematics kinematics, const Matrix3& f) {
+  return kinematics == Kinematics::linear ? Matrix3(Matrix3::Identity()) : cofactor(f);
 }
 
 /// tangent += factor * d(cof F)_iJ/dF_kL = factor * eps_ikm eps_JLN F_mN

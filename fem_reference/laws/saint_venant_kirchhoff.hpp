@@ -15,13 +15,13 @@ class SaintVenantKirchhoff {
   explicit SaintVenantKirchhoff(const Material& material) : moduli_(mechanics::elastic_moduli(material)) {}
 
   /// lambda/2 tr(E)² + mu E : E
-  double energy(const Matrix3& f) const {
-    const Matrix3 strain = 0.5 * (f.transpose() * f - Matrix3::Identity());
+  double energy(const Matrix3& h) const {
+    const Matrix3 strain = 0.5 * twice_green_strain(h);
     return moduli_.lambda / 2 * strain.trace() * strain.trace() + moduli_.mu * strain.squaredNorm();
   }
-  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
     const auto [lambda, mu, kappa] = moduli_;
-    const Matrix3 strain = 0.5 * (f.transpose() * f - Matrix3::Identity());
+    const Matrix3 strain = 0.5 * twice_green_strain(h), f = Matrix3::Identity() + h;
     const Matrix3 second = lambda * strain.trace() * Matrix3::Identity() + 2 * mu * strain;
     result.stress = flatten(f * second);
     if (wanted == Wanted::stress) return;

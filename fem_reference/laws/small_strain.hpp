@@ -5,7 +5,7 @@
 
 namespace springproof::fem_reference {
 
-/// Linear elasticity: sigma = 2 mu dev(eps) + kappa tr(eps) I with eps = sym(F - I). The stress does not turn
+/// Linear elasticity: sigma = 2 mu dev(eps) + kappa tr(eps) I with eps = sym(H). The stress does not turn
 /// with the body.
 class SmallStrain {
  public:
@@ -22,17 +22,17 @@ class SmallStrain {
         tangent_(4 * i, 4 * j) -= 2 * moduli.mu / 3;
       }
   }
-  double energy(const Matrix3& f) const {
-    const Vector9 gradient = flatten(f - Matrix3::Identity());
+  double energy(const Matrix3& h) const {
+    const Vector9 gradient = flatten(h);
     return 0.5 * gradient.dot(tangent_ * gradient);
   }
-  double volume_energy(double j) const { return kappa_ / 2 * (j - 1) * (j - 1); }
-  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
-    result.stress.noalias() = tangent_ * flatten(f - Matrix3::Identity());
+  double volume_energy(double dilatation) const { return kappa_ / 2 * dilatation * dilatation; }
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
+    result.stress.noalias() = tangent_ * flatten(h);
     if (wanted == Wanted::stress_and_tangent) result.tangent = tangent_;
   }
-  ValueAndSlope pressure(double j) const { return {kappa_ * (j - 1), kappa_}; }
-  ValueAndSlope volume_ratio(double p) const { return {1 + p / kappa_, 1 / kappa_}; }
+  ValueAndSlope pressure(double dilatation) const { return {kappa_ * dilatation, kappa_}; }
+  ValueAndSlope dilatation(double p) const { return {p / kappa_, 1 / kappa_}; }
 
  private:
   Matrix9 tangent_ = Matrix9::Zero(); ///< 2 mu (sym - 1/3 I x I)

@@ -21,17 +21,18 @@ class TransverseLogStrain {
 
   /// As of LogStrain, the work on the straight path of logarithmic strain E s, s from 0 to 1, along which U
   /// keeps its axes: the integral of J^s s E : C' : E.
-  double energy(const Matrix3& f) const {
-    const LogStretch log(f);
+  double energy(const Matrix3& h) const {
+    const LogStretch log(h);
     const Vector9 strain = flatten(log.axes * log.strains.asDiagonal() * log.axes.transpose());
     return strain.dot(elasticity_.rest() * strain) * mechanics::ramp_integral(log.strains.sum());
   }
-  double volume_energy(double j) const {
-    const double log = std::log(j);
+  double volume_energy(double dilatation) const {
+    const double log = std::log1p(dilatation);
     return elasticity_.kappa() * log * log * mechanics::ramp_integral(log);
   }
-  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
-    const LogStretch log(f);
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
+    const LogStretch log(h);
+    const Matrix3 f = Matrix3::Identity() + h;
     const Matrix3& n = log.axes;
     const Vector9 strain = flatten(n * log.strains.asDiagonal() * n.transpose());
     const Vector9 flat = elasticity_.rest() * strain;
@@ -65,12 +66,12 @@ class TransverseLogStrain {
       for (int k = 0; k < 3; ++k)
         result.tangent.block<3, 3>(3 * i, 3 * k) = n * in_axes.block<3, 3>(3 * i, 3 * k) * n.transpose();
   }
-  ValueAndSlope pressure(double j) const {
-    return {elasticity_.kappa() * std::log(j), elasticity_.kappa() / j};
+  ValueAndSlope pressure(double dilatation) const {
+    return {elasticity_.kappa() * std::log1p(dilatation), elasticity_.kappa() / (1 + dilatation)};
   }
-  ValueAndSlope volume_ratio(double p) const {
-    const double j = std::exp(p / elasticity_.kappa());
-    return {j, j / elasticity_.kappa()};
+  ValueAndSlope dilatation(double p) const {
+    const double y = p / elasticity_.kappa();
+    return {std::expm1(y), std::exp(y) / elasticity_.kappa()};
   }
 
  private:

@@ -4,7 +4,7 @@
 
 namespace springproof::fem_reference {
 
-/// sigma = C eps with eps = sym(F - I) and C transversely isotropic. Neither the stress nor the fibre turns
+/// sigma = C eps with eps = sym(H) and C transversely isotropic. Neither the stress nor the fibre turns
 /// with the body.
 class TransverseSmallStrain {
  public:
@@ -13,19 +13,19 @@ class TransverseSmallStrain {
 
   explicit TransverseSmallStrain(const Material& material) : elasticity_(material) {}
 
-  double energy(const Matrix3& f) const {
-    const Vector9 gradient = flatten(f - Matrix3::Identity());
+  double energy(const Matrix3& h) const {
+    const Vector9 gradient = flatten(h);
     return 0.5 * gradient.dot(elasticity_.rest() * gradient);
   }
-  double volume_energy(double j) const { return elasticity_.kappa() / 2 * (j - 1) * (j - 1); }
-  void stress(const Matrix3& f, Wanted wanted, PointStress& result) const {
-    result.stress.noalias() = elasticity_.rest() * flatten(f - Matrix3::Identity());
+  double volume_energy(double dilatation) const { return elasticity_.kappa() / 2 * dilatation * dilatation; }
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
+    result.stress.noalias() = elasticity_.rest() * flatten(h);
     if (wanted == Wanted::stress_and_tangent) result.tangent = elasticity_.rest();
   }
-  ValueAndSlope pressure(double j) const { return {elasticity_.kappa() * (j - 1), elasticity_.kappa()}; }
-  ValueAndSlope volume_ratio(double p) const {
-    return {1 + p / elasticity_.kappa(), 1 / elasticity_.kappa()};
+  ValueAndSlope pressure(double dilatation) const {
+    return {elasticity_.kappa() * dilatation, elasticity_.kappa()};
   }
+  ValueAndSlope dilatation(double p) const { return {p / elasticity_.kappa(), 1 / elasticity_.kappa()}; }
 
  private:
   TransverseElasticity elasticity_;

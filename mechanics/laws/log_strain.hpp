@@ -39,14 +39,15 @@ class LogStrain {
     return 2 * moduli_.mu * deviator.squaredNorm() * ramp_integral(x.sum());
   }
   /// The integral of the pressure kappa ln J over J: kappa (J ln J - J + 1).
-  double volume_energy(double j) const {
-    const double log = std::log(j);
+  double volume_energy(double dilatation) const {
+    const double log = std::log1p(dilatation);
     return moduli_.kappa * log * log * ramp_integral(log);
   }
-  ValueAndSlope pressure(double j) const { return {moduli_.kappa * std::log(j), moduli_.kappa / j}; }
-  ValueAndSlope volume_ratio(double p) const {
-    const double j = std::exp(p / moduli_.kappa);
-    return {j, j / moduli_.kappa};
+  ValueAndSlope pressure(double dilatation) const {
+    return {moduli_.kappa * std::log1p(dilatation), moduli_.kappa / (1 + dilatation)};
+  }
+  ValueAndSlope dilatation(double p) const {
+    return {std::expm1(p / moduli_.kappa), std::exp(p / moduli_.kappa) / moduli_.kappa};
   }
 
  private:

@@ -27,10 +27,12 @@ class Ogden {
     PrincipalStress s{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
     for (std::size_t term = 0; term < material_.mu.size(); ++term) {
       const double mu = material_.mu[term], alpha = material_.alpha[term];
-      const Eigen::Vector3d power = (alpha * isochoric.array()).exp();
-      const double mean = power.mean();
-      s.kirchhoff += 2 * mu / alpha * (power.array() - mean).matrix();
+      // less 1, so that small strains keep their digits
+      const Eigen::Vector3d excess = (alpha * isochoric).unaryExpr([](double y) { return std::expm1(y); });
+      s.kirchhoff += 2 * mu / alpha * (excess.array() - excess.mean()).matrix();
       if (wanted == Wanted::stress) continue;
+      const Eigen::Vector3d power = excess.array() + 1;
+      const double mean = power.mean();
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           s.slope(i, j) += 2 * mu * ((i == j ? power(i) : 0) - (power(i) + power(j) - mean) / 3);
@@ -56,15 +58,18 @@ class Ogden {
     return sum;
   }
   /// kappa/4 (J² - 1 - 2 ln J)
-  double volume_energy(double j) const { return kappa_ / 4 * exponential_beyond_linear(2 * std::log(j)); }
-  ValueAndSlope pressure(double j) const {
-    return {kappa_ / 2 * (j - 1 / j), kappa_ / 2 * (1 + 1 / (j * j))};
+  double volume_energy(double dilatation) const {
+    return kappa_ / 4 * exponential_beyond_linear(2 * std::log1p(dilatation));
   }
-  /// The positive root of J² - 2 p/kappa J - 1 = 0; for p < 0 without cancellation.
-  ValueAndSlope volume_ratio(double p) const {
-    const double q = p / kappa_, root = std::sqrt(q * q + 1);
+  ValueAndSlope pressure(double dilatation) const {
+    const double j = 1 + dilatation;
+    return {kappa_ / 2 * dilatation * (1 + j) / j, kappa_ / 2 * (1 + 1 / (j * j))};
+  }
+  /// One less than the positive root of J² - 2 p/kappa J - 1 = 0, without cancellation for either sign of p.
+  ValueAndSlope dilatation(double p) const {
+    const double q = p / kappa_, root = std::sqrt(q * q + 1), beyond = q * q / (root + 1); // root - 1
     const double j = q >= 0 ? q + root : 1 / (root - q);
-    return {j, j / (root * kappa_)};
+    return {q >= 0 ? q + beyond : (q - beyond) / (root - q), j / (root * kappa_)};
   }
 
  private:

@@ -6,10 +6,10 @@
 
 /// Isotropic laws in principal axes, for finite elements and for the designs of springs. A law has
 ///   PrincipalStress stress(log_stretches, wanted)  the part of the Kirchhoff stress that is no pressure,
-///   ValueAndSlope pressure(volume_ratio)           tension-positive mean Cauchy stress, MPa,
-///   ValueAndSlope volume_ratio(pressure)           its inverse,
+///   ValueAndSlope pressure(dilatation)             tension-positive mean Cauchy stress, MPa, of J - 1,
+///   ValueAndSlope dilatation(pressure)             its inverse,
 ///   double energy(log_stretches)                   without that of the pressure, and
-///   double volume_energy(volume_ratio)             the pressure's integral, N mm per mm³ at rest,
+///   double volume_energy(dilatation)               the pressure's integral, N mm per mm³ at rest,
 ///   has_energy                                     whether its tangent is symmetric,
 ///   Material                                       what it is made from: of the case's materials.
 namespace springproof::mechanics {

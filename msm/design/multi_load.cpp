@@ -49,7 +49,7 @@ Eigen::Matrix3d ogden_stress(const cases::Ogden& ogden, const Eigen::Matrix3d& f
 Eigen::Matrix3d log_strain_stress(const cases::LinearElastic& material, const Eigen::Matrix3d& f) {
   const mechanics::LogStrain law(material);
   return mechanics::cauchy_stress_without_pressure(law, f) +
-         law.pressure(f.determinant()).value * Eigen::Matrix3d::Identity();
+         law.pressure(f.determinant() - 1).value * Eigen::Matrix3d::Identity();
 }
 
 enum class Part { all, deviator };

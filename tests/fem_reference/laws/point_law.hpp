@@ -20,24 +20,26 @@ using namespace fem_reference;
 /// A law with its type left behind.
 struct PointLaw : LawTraits {
   std::function<void(const Matrix3& f, Wanted wanted, PointStress& result)> stress;
-  std::function<double(const Matrix3& f)> energy;              ///< the pressure's included
-  std::function<ValueAndSlope(double)> pressure, volume_ratio; ///< none without a pressure of its own
+  std::function<double(const Matrix3& f)> energy;            ///< the pressure's included
+  std::function<ValueAndSlope(double)> pressure, dilatation; ///< none without a pressure of its own
 };
 
 template<class Law>
 PointLaw point_law(const typename Law::Material& material) {
   const Law l(material);
-  PointLaw result{{Law::traits},
-                  [l](const Matrix3& f, Wanted w, PointStress& p) { l.stress(f, w, p); },
-                  [l](const Matrix3& f) { return l.energy(f); },
-                  {},
-                  {}};
+  PointLaw result{
+      {Law::traits},
+      [l](const Matrix3& f, Wanted w, PointStress& p) { l.stress(f - Matrix3::Identity(), w, p); },
+      [l](const Matrix3& f) { return l.energy(f - Matrix3::Identity()); },
+      {},
+      {}};
   if constexpr (Law::traits.split == Split::pressure) {
     result.energy = [l](const Matrix3& f) {
-      return l.energy(f) + l.volume_energy(volume_ratio(Law::traits.kinematics, f));
+      const Matrix3 h = f - Matrix3::Identity();
+      return l.energy(h) + l.volume_energy(dilatation(Law::traits.kinematics, h));
     };
-    result.pressure = [l](double j) { return l.pressure(j); };
-    result.volume_ratio = [l](double p) { return l.volume_ratio(p); };
+    result.pressure = [l](double change) { return l.pressure(change); };
+    result.dilatation = [l](double p) { return l.dilatation(p); };
   }
   return result;
 }
@@ -47,8 +49,8 @@ inline Vector9 whole_stress(const PointLaw& law, const Matrix3& f) {
   PointStress point;
   law.stress(f, Wanted::stress, point);
   if (law.pressure)
-    point.stress +=
-        law.pressure(volume_ratio(law.kinematics, f)).value * flatten(cofactor(law.kinematics, f));
+    point.stress += law.pressure(dilatation(law.kinematics, f - Matrix3::Identity())).value *
+                    flatten(cofactor(law.kinematics, f));
   return point.stress;
 }
 
@@ -56,7 +58,7 @@ inline Matrix9 whole_tangent(const PointLaw& law, const Matrix3& f) {
   PointStress point;
   law.stress(f, Wanted::stress_and_tangent, point);
   if (law.pressure) {
-    const ValueAndSlope p = law.pressure(volume_ratio(law.kinematics, f));
+    const ValueAndSlope p = law.pressure(dilatation(law.kinematics, f - Matrix3::Identity()));
     const Vector9 area = flatten(cofactor(law.kinematics, f));
     add_cofactor_derivative(law.kinematics, f, p.value, point.tangent);
     point.tangent += p.slope * area * area.transpose();

@@ -48,8 +48,8 @@ TEST_CASE("a transversely isotropic material of isotropic constants has the isot
     CHECK((whole_stress(a, f) - whole_stress(b, f)).norm() <= 1e-12 * whole_tangent(b, f).norm());
     CHECK((whole_tangent(a, f) - whole_tangent(b, f)).norm() <= 1e-12 * whole_tangent(b, f).norm());
     // the part that averaged elements average, too
-    CHECK(std::abs(a.pressure(1.3).value / b.pressure(1.3).value - 1) <= 1e-12);
-    CHECK(std::abs(a.volume_ratio(0.1).value / b.volume_ratio(0.1).value - 1) <= 1e-12);
+    CHECK(std::abs(a.pressure(0.3).value / b.pressure(0.3).value - 1) <= 1e-12);
+    CHECK(std::abs(a.dilatation(0.1).value / b.dilatation(0.1).value - 1) <= 1e-12);
   };
   for (const Vector3d& stretches : {Vector3d(1, 1, 1), Vector3d(0.5, 2, 1.1), Vector3d(1.4, 1.4, 0.6),
                                     Vector3d(1.3, 1.3 + 1e-9, 0.7), Vector3d(1.2, 1.2, 1.2)}) {

@@ -28,7 +28,7 @@ double nominal_stress(const Law& law, double stretch) {
   const auto cauchy = [&](double lateral) -> Eigen::Vector3d {
     const Eigen::Vector3d x(lateral, lateral, std::log(stretch));
     const double j = std::exp(x.sum());
-    return (law.stress(x, mechanics::Wanted::stress).kirchhoff / j).array() + law.pressure(j).value;
+    return (law.stress(x, mechanics::Wanted::stress).kirchhoff / j).array() + law.pressure(j - 1).value;
   };
   double low = -0.1, high = 0.1; // logarithmic strains of the sides
   while (high - low > 1e-17) {
