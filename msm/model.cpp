@@ -85,7 +85,8 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
   if (is_newton && grid_ && !grid_->supports && start.empty() && settings.first_load_step == 1)
     settings.guess = grid::coarse_guess(*grid_, n_threads_);
   const mechanics::Equilibrium found =
-      is_newton     ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
+      system_->n_unknowns() == 0 ? mechanics::prescribed_state(*system_, from, settings)
+      : is_newton   ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
       : relaxation_ ? relax_for(*system_, from, *relaxation_, settings)
                     : relax(*system_, from, solver_, settings);
   cases::Solution solution =

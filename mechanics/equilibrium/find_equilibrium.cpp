@@ -195,6 +195,17 @@ Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, con
   return PathFollower(problem, name, settings).follow(start);
 }
 
+Equilibrium prescribed_state(const NonlinearProblem& problem, const Vector& start,
+                             const EquilibriumSettings& settings) {
+  Equilibrium result;
+  result.state = start;
+  problem.move_supports(result.state, settings.to);
+  result.load_reached = settings.to;
+  result.load_steps = 1;
+  if (settings.stability != Stability::ignore) result.is_stable = true;
+  return result;
+}
+
 cases::Solution to_solution(const Equilibrium& equilibrium) {
   cases::Solution solution;
   solution.status = cases::Status::converged;

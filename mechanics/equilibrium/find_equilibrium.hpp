@@ -65,6 +65,10 @@ struct Equilibrium {
 Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, const std::string& name,
                              const EquilibriumSettings& settings = {});
 
+/// The equilibrium at settings.to of a problem without unknowns: every degree of freedom is held or moved.
+Equilibrium prescribed_state(const NonlinearProblem& problem, const Vector& start,
+                             const EquilibriumSettings& settings);
+
 /// A model's answer, converged, but for displacements and what follows from them.
 cases::Solution to_solution(const Equilibrium& equilibrium);
 

@@ -75,3 +75,23 @@ TEST_CASE("a factorisation that memory is too small for says so, and loses no eq
   }
   CHECK(largest_difference(solve(4), before) < 1e-9); // mm; the residual of either
 }
+
+TEST_CASE("finite elements without unknowns are where their supports are") {
+  for (const cases::Element element : {cases::Element::q1, cases::Element::q1_bbar})
+    for (const auto backend : {fem_reference::Backend::assembled, fem_reference::Backend::grid}) {
+      cases::Case definition;
+      definition.body = cases::Box{{1, 1, 1}, {1, 1, 1}};
+      definition.material = scenes::thesis_elastic();
+      definition.fem.element = element;
+      definition.fixed.resize(1);
+      definition.fixed[0].region.name = "z-";
+      definition.moved.resize(1);
+      definition.moved[0].region.name = "z+";
+      definition.moved[0].displacement = {0, 0, 0.1};
+      const cases::Scene scene = cases::make_scene(definition);
+      const cases::Solution found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
+      CHECK(found.unknowns == 0);
+      for (std::size_t n = 0; n < 8; ++n)
+        CHECK(found.displacement[n].z() == Approx(scene.mesh.nodes[n].z() > 0.5 ? 0.1 : 0).margin(1e-12));
+    }
+}

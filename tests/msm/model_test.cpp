@@ -268,3 +268,24 @@ TEST_CASE("a start inside out is refused by volume terms that have no forces the
     }
   }
 }
+
+TEST_CASE("a body without unknowns is where its supports are, by every solver") {
+  // The same for finite elements: tests/fem_reference/model_test.cpp; for whole programs: attempts.py.
+  for (const cases::Solver solver :
+       {cases::Solver::newton, cases::Solver::force_scaling, cases::Solver::fire, cases::Solver::lbfgs})
+    for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid}) {
+      cases::Case definition = bodies::clamped_box({1, 1, 1}, {});
+      cases::Moved moved;
+      moved.region = bodies::region("z+");
+      moved.displacement = {0, 0, 0.1};
+      definition.moved = {moved};
+      definition.msm.solver = solver;
+      msm::ModelOptions options;
+      options.path = path;
+      const cases::Scene scene = cases::make_scene(definition);
+      const cases::Solution found = msm::Model(scene, {thesis_cell}, options).solve();
+      CHECK(found.unknowns == 0);
+      for (std::size_t n = 0; n < 8; ++n)
+        CHECK(found.displacement[n] == Vector3d(0, 0, scene.mesh.nodes[n].z() > 0.5 ? 0.1 : 0));
+    }
+}
