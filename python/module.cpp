@@ -9,9 +9,18 @@
 #include "compare/solve/springs.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
+#include "compare/write/write_motion.hpp"
+#include "mechanics/interruption.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <mutex>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <thread>
 
 // The extension module of python/springproof: cases, their solutions and designs, as numpy arrays and as the
 // documents of --json.
@@ -19,6 +28,24 @@ namespace py = pybind11;
 using namespace springproof;
 
 namespace {
+
+/// A case as Python holds it: solutions keep theirs alive.
+using SharedScene = std::shared_ptr<const cases::Scene>;
+
+/// One model's answer to a case, measured as `run --only` measures it.
+struct Solution {
+  SharedScene scene; ///< that was solved
+  cases::Side side;
+  compare::Comparison comparison;
+
+  const compare::Answer& answer() const {
+    return side == cases::Side::fem ? comparison.answers.fem : comparison.answers.msm;
+  }
+  const cases::Solution& solution() const { return answer().solution; }
+  std::string described() const {
+    return fmt::format("of '{}' by {}", scene->definition.name, cases::name_of(side));
+  }
+};
 
 /// A copy of vectors of so many numbers, a row of an array each.
 template<class Number, std::size_t width, class Vectors>
@@ -32,66 +59,215 @@ py::array_t<Number> rows(const Vectors& vectors) {
   return array;
 }
 
-py::array_t<double> numbers(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+/// The numbers of a solution where they are: an array that cannot be written to, and keeps the solution
+/// alive.
+/// @param shape  of doubles that lie one after the other
+template<class Value>
+py::array view(const py::object& owner, const std::vector<Value>& values, std::vector<py::ssize_t> shape) {
+  static_assert(sizeof(Value) % sizeof(double) == 0);
+  py::array_t<double> array(std::move(shape), reinterpret_cast<const double*>(values.data()), owner);
+  if (static_cast<std::size_t>(array.size()) != values.size() * (sizeof(Value) / sizeof(double)))
+    throw std::logic_error("a solution's numbers are not of its mesh");
+  array.attr("flags").attr("writeable") = false;
+  return std::move(array);
+}
+template<class Value>
+py::array view(const py::object& owner, const std::vector<Value>& values) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size())};
+  if (sizeof(Value) > sizeof(double)) shape.push_back(sizeof(Value) / sizeof(double));
+  return view(owner, values, std::move(shape));
 }
 
-const cases::Fields& fields_of(const compare::Answer& answer) {
-  if (!answer.solution.fields || !answer.solution.fields->has_stress)
+const cases::Fields& fields_of(const Solution& solution) {
+  if (!solution.solution().fields)
+    throw cases::InputError(
+        "the solution " + solution.described() +
+        " is a motion, which has displacements and volumes alone: reactions, stress, strain and "
+        "energy are of cases without [dynamics]");
+  return *solution.solution().fields;
+}
+
+const cases::Fields& fields_of_cells(const Solution& solution) {
+  const cases::Fields& fields = fields_of(solution);
+  if (!fields.has_stress)
     throw cases::InputError(
         "these springs belong to no cell: there is no stress and no strain energy of cells");
-  return *answer.solution.fields;
+  return fields;
 }
 
-cases::Scene read_scene(const std::string& path, const std::vector<std::string>& settings) {
+const cases::Trajectory& trajectory_of(const Solution& solution) {
+  if (!solution.solution().trajectory)
+    throw cases::InputError("the solution " + solution.described() +
+                            " is an equilibrium, which has no course over time: that is of cases with "
+                            "[dynamics]");
+  return *solution.solution().trajectory;
+}
+
+py::array bodies_of(const Solution& solution) {
+  const cases::Trajectory& trajectory = trajectory_of(solution);
+  const std::size_t n_bodies = trajectory.bodies.size(), n_nodes = solution.solution().displacement.size();
+  py::array_t<double> array({n_bodies, n_nodes, std::size_t{3}});
+  double* to = array.mutable_data();
+  for (const auto& body : trajectory.bodies)
+    for (const Eigen::Vector3d& u : body.displacement) to = std::copy(u.data(), u.data() + 3, to);
+  return std::move(array);
+}
+
+py::array body_times_of(const Solution& solution) {
+  const cases::Trajectory& trajectory = trajectory_of(solution);
+  py::array_t<double> array(static_cast<py::ssize_t>(trajectory.bodies.size()));
+  double* to = array.mutable_data();
+  for (const auto& body : trajectory.bodies) *to++ = trajectory.time[cases::index(body.step)];
+  return std::move(array);
+}
+
+/// What the program prints beside the numbers of a side: warnings of the design and of steps in time, what is
+/// to be said of how it was solved, and what fails a `run`.
+std::vector<std::string> warnings_of(const Solution& solution) {
+  std::vector<std::string> all;
+  const auto add = [&all](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (const auto& design = solution.comparison.answers.design) add(design->warnings);
+  add(compare::notes_on_motion(solution.comparison));
+  if (!solution.solution().message.empty()) all.push_back(solution.solution().message);
+  add(solution.comparison.doubts());
+  return all;
+}
+
+std::map<std::string, std::optional<double>> measure(const SharedScene& scene, const Solution& solution) {
+  if (solution.scene != scene)
+    throw cases::InputError("the solution " + solution.described() +
+                            " is not of this Case: measure it with the one that solved it, solution.case");
+  std::map<std::string, std::optional<double>> values;
+  for (const cases::Measure& of : scene->definition.measures) {
+    const compare::MeasuredValue& value = *compare::find_named(solution.comparison.measures, of.name);
+    values[of.name] = solution.side == cases::Side::fem ? value.fem : value.msm;
+  }
+  return values;
+}
+
+std::shared_ptr<cases::Scene> read_scene(const std::string& path, const std::vector<std::string>& settings) {
   cases::Scene scene = compare::make_scene_within_memory(cases::read_case(path, settings));
   scene.definition.has_fields = true;
-  return scene;
+  return std::make_shared<cases::Scene>(std::move(scene));
 }
 
-compare::Answers solve(const cases::Scene& scene, const compare::Request& request) {
+/// A signal's handler in Python has raised, Ctrl-C's for one, and the exception waits in its thread; or
+/// Python ends.
+struct Interrupted {};
+
+/// Python ends while threads solve, which it would leave behind: MPI and PETSc end with it.
+std::atomic<bool> is_ending{false};
+std::atomic<int> n_solving{0};
+
+void check_signals() {
+  if (is_ending) throw Interrupted{};
+  const py::gil_scoped_acquire python;
+  if (PyErr_CheckSignals() != 0) throw Interrupted{};
+}
+
+/// Between iterations, which may be many a millisecond.
+void check_signals_now_and_then() {
+  thread_local auto last = std::chrono::steady_clock::now();
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last < std::chrono::milliseconds(100)) return;
+  last = now;
+  check_signals();
+}
+
+/// What Python calls at its end, before it stops all other threads.
+void end_solves() {
+  is_ending = true;
   const py::gil_scoped_release others_may_run;
+  while (n_solving > 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+class Counted {
+ public:
+  Counted() { ++n_solving; }
+  ~Counted() { --n_solving; }
+  Counted(const Counted&) = delete;
+};
+
+/// PETSc and MPI, which finite elements and solver = "snes" use, are not made for threads. Taken and given
+/// back without Python's own lock (the GIL), so that neither is waited for by the holder of the other; a
+/// signal's handler, which runs in the midst of a solve, may solve too.
+class OneAtATime {
+ public:
+  OneAtATime() {
+    while (!mutex_.try_lock_for(std::chrono::milliseconds(100))) check_signals();
+  }
+  ~OneAtATime() { mutex_.unlock(); }
+  OneAtATime(const OneAtATime&) = delete;
+
+ private:
+  static std::recursive_timed_mutex mutex_;
+};
+std::recursive_timed_mutex OneAtATime::mutex_;
+
+compare::Answers solve(const cases::Scene& scene, const compare::Request& request) try {
+  const Counted until_python_has_this_thread_again;
+  const py::gil_scoped_release others_may_run;
+  std::optional<OneAtATime> alone;
+  if (request.asks(cases::Side::fem) || scene.definition.msm.solver == cases::Solver::snes) alone.emplace();
   compare::use_one_blas_thread(); // cases side by side are what fills the cores
   compare::check_memory({{scene, request}});
   return compare::solve(scene, request, compare::solve_fem);
+} catch (const Interrupted&) {
+  if (!PyErr_Occurred()) PyErr_SetString(PyExc_SystemExit, "Python ends");
+  throw py::error_already_set();
 }
 
 /// @throws SolveError where the program would print a failed row
-compare::Answer solve_side(const cases::Scene& scene, const std::string& side) {
+std::shared_ptr<Solution> solve_side(const SharedScene& scene, const std::string& side) {
   compare::Request request;
   request.only = cases::value_of<cases::Side>(side);
   if (!request.only)
     throw cases::InputError("side: is \"" + side + "\", must be " +
                             cases::alternatives(cases::all_names<cases::Side>()));
-  cases::Scene as_it_is = scene;
+  cases::Scene as_it_is = *scene;
   as_it_is.definition.fem.has_auto_accuracy = false; // one mesh
-  const compare::Answers answers = solve(as_it_is, request);
-  const compare::Answer& answer = *request.only == cases::Side::fem ? answers.fem : answers.msm;
-  if (!answer.converged()) throw cases::SolveError(answer.solution.message, answer.solution);
-  return answer;
+  compare::Answers answers = solve(as_it_is, request);
+  auto solution = std::make_shared<Solution>(
+      Solution{scene, *request.only, compare::comparison_of(std::move(as_it_is), std::move(answers))});
+  if (!solution->answer().converged())
+    throw cases::SolveError(solution->solution().message, solution->solution());
+  return solution;
 }
 
 std::string compare_text(const cases::Scene& scene) {
   return compare::json_text(compare::case_to_json(compare::comparison_of(scene, solve(scene, {}))));
 }
 
-std::string design_text(double young, double poisson, const std::string& method, double edge) {
+/// @param words  as after `springproof design`
+std::string design_text(std::vector<std::string> words) {
   compare::DesignOptions options;
-  options.youngs_modulus = young;
-  options.poissons_ratio = poisson;
-  options.method = method;
-  options.edge = edge;
-  if (!method.empty() && !cases::value_of<cases::Design>(method))
-    throw cases::InputError("method: is \"" + method + "\", must be " +
-                            cases::alternatives(cases::all_names<cases::Design>()));
+  CLI::App command;
+  command.set_help_flag();
+  compare::add_design_options(command, options);
+  std::reverse(words.begin(), words.end()); // CLI11 takes the last first
+  try {
+    command.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw cases::InputError(error.what());
+  }
   return compare::json_text(compare::attempt_to_json(compare::attempt_one(compare::request_from(options))));
 }
 
-std::map<std::string, double> measure(const cases::Scene& scene, const compare::Answer& answer) {
-  std::map<std::string, double> values;
-  for (const cases::Measure& of : scene.definition.measures)
-    values[of.name] = compare::evaluate(of, scene, answer.solution);
-  return values;
+std::string shown(const cases::Scene& scene) {
+  return fmt::format("<springproof.Case '{}': {} nodes, {} cells{}>", scene.definition.name,
+                     scene.mesh.nodes.size(), scene.mesh.cells.size(),
+                     scene.definition.dynamics ? ", in time" : "");
+}
+
+std::string shown(const Solution& solution) {
+  const cases::Solution& s = solution.solution();
+  const std::string what =
+      s.trajectory
+          ? fmt::format("{} steps to {:.6g} s", s.trajectory->time.size() - 1, s.trajectory->time.back())
+          : fmt::format("{}, residual {:.1e}", cases::name_of(s.outcome), s.residual);
+  return fmt::format("<springproof.Solution {}: {} unknowns, {}>", solution.described(), s.unknowns, what);
 }
 
 } // namespace
@@ -99,55 +275,108 @@ std::map<std::string, double> measure(const cases::Scene& scene, const compare::
 PYBIND11_MODULE(_springproof, module) {
   py::register_exception<cases::InputError>(module, "InputError", PyExc_ValueError);
   py::register_exception<cases::SolveError>(module, "SolveError", PyExc_RuntimeError);
+  mechanics::set_interruption(check_signals_now_and_then);
+  py::module_::import("atexit").attr("register")(py::cpp_function(end_solves));
   module.def("program_version", compare::program_version);
   module.def("read_case", read_scene);
   module.def("design", design_text);
 
-  py::class_<compare::Answer>(module, "Solution",
-                              "One model's equilibrium, on the nodes and cells of the case's mesh.")
+  using Self = const py::object&; // arrays keep it alive
+  const auto of = [](Self self) -> const Solution& { return self.cast<const Solution&>(); };
+  py::class_<Solution, std::shared_ptr<Solution>>(
+      module, "Solution",
+      "One model's equilibrium, on the nodes and cells of the case's mesh; of a case with [dynamics] its "
+      "motion, and the rest is of the end. Arrays cannot be written to: copy() them.")
+      .def("__repr__", [](const Solution& s) { return shown(s); })
       .def_property_readonly(
-          "displacement", [](const compare::Answer& a) { return rows<double, 3>(a.solution.displacement); },
+          "case", [](const Solution& s) { return std::const_pointer_cast<cases::Scene>(s.scene); },
+          "the Case that was solved")
+      .def_property_readonly(
+          "side", [](const Solution& s) { return cases::name_of(s.side); }, "\"msm\" or \"fem\"")
+      .def_property_readonly(
+          "displacement", [of](Self self) { return view(self, of(self).solution().displacement); },
           "mm, a row per node")
       .def_property_readonly(
-          "reaction", [](const compare::Answer& a) { return rows<double, 3>(a.solution.fields->reaction); },
+          "reaction", [of](Self self) { return view(self, fields_of(of(self)).reaction); },
           "force of the supports on the body, N, a row per node")
       .def_property_readonly(
-          "cell_volume", [](const compare::Answer& a) { return numbers(a.solution.cell_volume); },
+          "cell_volume", [of](Self self) { return view(self, of(self).solution().cell_volume); },
           "deformed, mm3")
       .def_property_readonly(
-          "stress", [](const compare::Answer& a) { return rows<double, 6>(fields_of(a).stress); },
+          "stress", [of](Self self) { return view(self, fields_of_cells(of(self)).stress); },
           "mean Cauchy stress of each cell, MPa: xx, yy, zz, xy, yz, xz")
       .def_property_readonly(
-          "strain", [](const compare::Answer& a) { return rows<double, 6>(a.solution.fields->strain); },
+          "strain", [of](Self self) { return view(self, fields_of(of(self)).strain); },
           "logarithmic strain of each cell, the linear one of small_strain elements: "
           "xx, yy, zz, xy, yz, xz")
       .def_property_readonly(
-          "strain_energy", [](const compare::Answer& a) { return a.solution.fields->total_energy; },
+          "strain_energy", [](const Solution& s) { return fields_of(s).total_energy; },
           "of the whole body, N mm")
-      .def_property_readonly("unknowns", [](const compare::Answer& a) { return a.solution.unknowns; })
-      .def_property_readonly("residual", [](const compare::Answer& a) { return a.solution.residual; })
+      .def_property_readonly(
+          "times", [of](Self self) { return view(self, trajectory_of(of(self)).time); },
+          "of a motion: the start and the end of every step, s")
+      .def_property_readonly(
+          "watched_nodes",
+          [](const Solution& s) { return py::array_t<int>(py::cast(trajectory_of(s).nodes)); },
+          "of a motion: the nodes that its measures read, in the order of `trajectory`")
+      .def_property_readonly(
+          "trajectory",
+          [of](Self self) {
+            const cases::Trajectory& t = trajectory_of(of(self));
+            return view(
+                self, t.displacement,
+                {static_cast<py::ssize_t>(t.time.size()), static_cast<py::ssize_t>(t.nodes.size()), 3});
+          },
+          "of a motion: displacements of the watched nodes, mm, (times, watched nodes, 3)")
+      .def_property_readonly(
+          "volumes", [of](Self self) { return view(self, trajectory_of(of(self)).volume); },
+          "of a motion: the body's volume at every time, mm3; empty unless a measure is of it")
+      .def_property_readonly("body_times", body_times_of,
+                             "of a motion: times of `bodies`, s: every dynamics.write_every steps")
+      .def_property_readonly(
+          "bodies", bodies_of,
+          "of a motion: displacements of all nodes now and then, mm, (body_times, nodes, 3)")
+      .def_property_readonly(
+          "outcome", [](const Solution& s) { return cases::name_of(s.solution().outcome); },
+          "\"stable equilibrium\", \"unstable equilibrium\" or \"unknown\"")
+      .def_property_readonly(
+          "inverted_cells", [](const Solution& s) { return s.solution().inverted_cells; }, "how many")
+      .def_property_readonly("warnings", warnings_of,
+                             "what the program prints of it; solve() has warned of them")
+      .def_property_readonly(
+          "choices", [](const Solution& s) { return s.comparison.answers.choices; },
+          "what \"auto\" in [fem] was taken to mean, with the reasons")
+      .def_property_readonly("unknowns", [](const Solution& s) { return s.solution().unknowns; })
+      .def_property_readonly("residual", [](const Solution& s) { return s.solution().residual; })
       .def_property_readonly("newton_iterations",
-                             [](const compare::Answer& a) { return a.solution.newton_iterations; })
-      .def_property_readonly("seconds", &compare::Answer::seconds);
+                             [](const Solution& s) { return s.solution().newton_iterations; })
+      .def_property_readonly("seconds", [](const Solution& s) { return s.answer().seconds(); });
 
-  py::class_<cases::Scene>(module, "Case", "A case file, with its mesh built and its regions found.")
+  py::class_<cases::Scene, std::shared_ptr<cases::Scene>>(
+      module, "Case", "A case file, with its mesh built and its regions found.")
+      .def("__repr__", [](const cases::Scene& s) { return shown(s); })
       .def_property_readonly("name", [](const cases::Scene& s) { return s.definition.name; })
       .def_property_readonly("description", [](const cases::Scene& s) { return s.definition.description; })
       .def_property_readonly(
           "nodes", [](const cases::Scene& s) { return rows<double, 3>(s.mesh.nodes); }, "mm, a row per node")
       .def_property_readonly(
           "cells", [](const cases::Scene& s) { return rows<int, 8>(s.mesh.cells); },
-          "nodes of each hexahedron, around its bottom, then around its top")
+          "nodes of each hexahedron: that at (i, j, k) of its corners is number i + 2 j + 4 k")
       .def_property_readonly(
           "units",
           [](const cases::Scene& s) {
             std::map<std::string, std::string> units;
-            for (const cases::Measure& of : s.definition.measures) units[of.name] = compare::unit_of(of);
+            for (const cases::Measure& m : s.definition.measures) units[m.name] = compare::unit_of(m);
             return units;
           },
           "of each measure")
-      .def("solve", solve_side, py::arg("side"),
-           "The equilibrium of \"msm\" or \"fem\" on the case's own mesh; SolveError if there is none.")
-      .def("measure", measure, py::arg("solution"), "The value of each measure on a solution.")
+      .def("_solve",
+           [](std::shared_ptr<cases::Scene> s, const std::string& side) { return solve_side(s, side); })
+      .def(
+          "measure",
+          [](std::shared_ptr<cases::Scene> s, const Solution& solution) { return measure(s, solution); },
+          py::arg("solution"),
+          "The value of each measure on a solution of this case; None where it has none, such as the "
+          "frequency of what does not swing.")
       .def("_compare", compare_text);
 }

@@ -27,6 +27,7 @@ generalised_minimal_residual(const Operator& apply, const Preconditioner& precon
     Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(restart + 1, restart);
     Eigen::VectorXd weights;
     for (int j = 0; j < restart && result.iterations < max_iterations; ++j) {
+      mechanics::check_interruption();
       ++result.iterations;
       images.push_back(Field<double>::Zero(n));
       precondition(basis.back(), images.back());

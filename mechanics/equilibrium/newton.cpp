@@ -1,6 +1,9 @@
 #include "mechanics/equilibrium/newton.hpp"
 
+#include "mechanics/interruption.hpp"
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace springproof::mechanics {
@@ -10,6 +13,8 @@ namespace {
 constexpr double smallest_energy_fraction = 1e-6, smallest_work_fraction = 1. / 64;
 /// Work left on a step after it, of that at its start: it must fall a little at least.
 constexpr double accepted_work = 0.9;
+
+std::atomic<Interruption> interruption{nullptr};
 
 bool search_energy(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
                    double load_factor, Trial& trial, Expect expect) {
@@ -53,6 +58,14 @@ bool search_work(NonlinearProblem& problem, Vector& at, Vector& residual, const 
 }
 
 } // namespace
+
+void set_interruption(Interruption check) {
+  interruption = check;
+}
+
+void check_interruption() {
+  if (const Interruption check = interruption) check();
+}
 
 bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
                  double load_factor, Trial& trial, Expect expect) {
@@ -110,6 +123,7 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
 }
 
 void Newton::check_limits() const {
+  check_interruption();
   if (settings_.should_stop && problem_.any_rank(settings_.should_stop())) throw Stopped{"it was stopped"};
   if (result_.newton_iterations >= settings_.max_newton_iterations)
     throw Stopped{"the limit on Newton iterations was reached"};

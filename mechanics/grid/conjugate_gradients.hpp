@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanics/grid/field.hpp"
+#include "mechanics/interruption.hpp"
 
 #include <utility>
 
@@ -48,6 +49,7 @@ void conjugate_gradients(const Operator& apply, const Preconditioner& preconditi
   direction = preconditioned;
   double slope = dot(residual, preconditioned);
   while (result.iterations < max_iterations) {
+    check_interruption();
     apply(direction, product);
     ++result.iterations;
     const double curvature = dot(direction, product);

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "mechanics/equilibrium/newton.hpp"
+#include "mechanics/interruption.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -170,6 +171,7 @@ mechanics::Equilibrium relax_for(NonlinearProblem& problem, const Vector& start,
     for (int n = 0; n < n_iterations; ++n, ++result.relaxation_iterations) {
       problem.residual(at, result.load_reached, mechanics::Expect::residual, force);
       at.noalias() += alpha * force; // eq. 2.11
+      mechanics::check_interruption();
       if (settings.should_stop && settings.should_stop()) stop("it was stopped");
     }
     ++result.load_steps;
@@ -207,6 +209,7 @@ mechanics::Equilibrium relax(NonlinearProblem& problem, const Vector& start, cas
       if (result.relaxation_iterations == settings.max_relaxation_iterations)
         stop("the limit of " + std::to_string(settings.max_relaxation_iterations) +
              " iterations was reached");
+      mechanics::check_interruption();
       if (settings.should_stop && settings.should_stop()) stop("it was stopped");
       if (!step(at, force)) stop("no step lowers the potential");
     }

@@ -1,6 +1,7 @@
 #include "msm/snes/snes_solver.hpp"
 
 #include "mechanics/equilibrium/newton.hpp"
+#include "mechanics/interruption.hpp"
 #include "msm/snes/snes.hpp"
 
 #include <utility>
@@ -21,6 +22,7 @@ SnesSolver::SnesSolver(Equations equations, petsc::Vector residual, petsc::Matri
   const auto evaluate_residual = [](SNES, Vec at, Vec out, void* solver) {
     auto& self = *static_cast<SnesSolver*>(solver);
     return self.errors_.run([&] {
+      mechanics::check_interruption();
       if (self.equations_.should_stop()) throw mechanics::Newton::Stopped{"it was stopped"};
       self.equations_.residual(at, out);
     });
