@@ -106,7 +106,7 @@ int gate(const GateOptions& options) {
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {
     cases::Scene& scene = questions[q].scene;
-    if (external) answers[q] = with_displacements(std::move(answers[q]), scene.mesh, *external);
+    if (external) answers[q] = with_displacements(std::move(answers[q]), scene, *external);
     done.push_back(judge_or_bless(comparison_of(std::move(scene), std::move(answers[q])), options,
                                   options.json ? std::cerr : std::cout));
     if (!options.out.empty()) write_results(options.out, done);

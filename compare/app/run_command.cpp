@@ -151,7 +151,7 @@ int run(const RunOptions& options) {
   bool failed = false;
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
-    if (external) answers = with_displacements(std::move(answers), question.scene.mesh, *external);
+    if (external) answers = with_displacements(std::move(answers), question.scene, *external);
     done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
     failed = failed || !done.back().is_sound();
     if (options.converges_time) {

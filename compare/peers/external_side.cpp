@@ -4,6 +4,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/mesh/read_vtk.hpp"
+#include "compare/peers/held_against_case.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
@@ -112,9 +113,12 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
   return ExternalDisplacements{path, match_nodes(mesh, read_displacements(path), path)};
 }
 
-Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
+Answers with_displacements(Answers answers, const cases::Scene& scene,
                            const ExternalDisplacements& external) {
-  answers.msm = answer_of(mesh, "displacements of " + external.path, [&] { return external.displacement; });
+  const cases::HexMesh& mesh = scene.mesh;
+  HeldAgainstCase held = hold_against_case(scene, external.displacement);
+  answers.msm = answer_of(mesh, held.message, [&] { return external.displacement; });
+  answers.msm_warnings = std::move(held.warnings);
   answers.design.reset();
   answers.msm_source = external.path;
   if (external.cells) answers.interpolated = interpolated(answers.fem, mesh, *external.cells);

@@ -30,9 +30,8 @@ struct ExternalDisplacements {
 std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
                                                    const std::string& path, Transfer transfer);
 
-/// The answers with another simulator's in place of our springs'. They have no stiffness and no counts of
-/// iterations, for none are known. Collective.
-Answers with_displacements(Answers answers, const cases::HexMesh& mesh,
-                           const ExternalDisplacements& external);
+/// The answers with another simulator's in place of our springs', held against the case. They have no
+/// stiffness and no counts of iterations, for none are known. Collective.
+Answers with_displacements(Answers answers, const cases::Scene& scene, const ExternalDisplacements& external);
 
 } // namespace springproof::compare

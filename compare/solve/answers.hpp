@@ -38,7 +38,8 @@ struct Interpolated {
       0; ///< nodes outside of the results' cells, which take the value of the closest place
   double largest_distance = 0; ///< of these, mm
   /// The finite elements' displacement, interpolated to the results' points and from there to the nodes: what
-  /// it has lost by two interpolations estimates what the results have lost by one. Skipped where they failed.
+  /// it has lost by two interpolations estimates what the results have lost by one. Skipped where they
+  /// failed.
   Answer fem_and_back;
 };
 
@@ -52,6 +53,7 @@ struct Answers {
   std::optional<RefinedMeshes> refined;    ///< of the finite elements' limit, when asked for
   std::optional<Peer> peer;                ///< when asked for
   std::optional<Interpolated> interpolated{}; ///< of msm_source, when it was
+  std::vector<std::string> msm_warnings{};    ///< of msm_source: what no answer to the case does
 
   /// A side that was asked for did not converge.
   bool failed() const {

@@ -46,6 +46,7 @@ Json msm_to_json(const Answers& answers) {
   Json side = side_to_json(answers.msm);
   if (!answers.msm_source.empty()) { // another program's: how it came by them is not known
     side["source"] = answers.msm_source;
+    side["warnings"] = answers.msm_warnings;
     for (const char* key :
          {"unknowns", "residual", "newton_iterations", "linear_iterations", "relaxation_iterations"})
       side[key] = nullptr;

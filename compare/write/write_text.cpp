@@ -216,7 +216,10 @@ void write_text(std::ostream& out, const Comparison& comparison) {
     print(out, "  msm  displacements of {} at {} nodes{}\n", answers.msm_source,
           comparison.scene.mesh.nodes.size(),
           msm.inverted_cells > 0 ? fmt::format(", {} INVERTED CELLS", msm.inverted_cells) : "");
+  if (!answers.msm_source.empty() && !answers.msm.solution.message.empty())
+    print(out, "       {}\n", answers.msm.solution.message);
   if (answers.interpolated) write_interpolated(out, comparison);
+  for (const std::string& warning : answers.msm_warnings) print(out, "  warning: {}\n", warning);
   if (answers.design)
     for (const std::string& warning : answers.design->warnings) print(out, "  warning: {}\n", warning);
   if (answers.peer) write_peer(out, *answers.peer);

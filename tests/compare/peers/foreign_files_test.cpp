@@ -211,7 +211,8 @@ TEST_CASE("the stated error of interpolation is at least the true one, and not f
   for (const int n : {3, 6, 11, 20}) { // the results' mesh: coarser and finer than the case's
     const auto external = compare::read_external(
         {{scene_of(mesh), {}}}, vtu_on(folder, foreign_body({n, n, n}), smooth), Transfer::interpolated);
-    const compare::Answers answers = compare::with_displacements(answers_with(mesh, smooth), mesh, *external);
+    const compare::Answers answers =
+        compare::with_displacements(answers_with(mesh, smooth), scene_of(mesh), *external);
     REQUIRE(answers.interpolated);
     const double true_error = largest_error(mesh, answers.msm.solution.displacement, smooth),
                  stated =
@@ -231,7 +232,8 @@ TEST_CASE("results on the case's own nodes are interpolated without any error") 
   const auto external =
       compare::read_external({{scene_of(mesh), {}}}, vtu_on(folder, mesh, smooth), Transfer::interpolated);
   CHECK(largest_error(mesh, external->displacement, smooth) <= 1e-14);
-  const compare::Answers answers = compare::with_displacements(answers_with(mesh, smooth), mesh, *external);
+  const compare::Answers answers =
+      compare::with_displacements(answers_with(mesh, smooth), scene_of(mesh), *external);
   CHECK(largest_difference(answers.interpolated->fem_and_back.solution, answers.fem.solution) <= 1e-14);
 }
 
@@ -243,7 +245,7 @@ TEST_CASE("nodes a little outside of the results' cells take the closest value, 
   for (Vector3d& node : mesh.nodes.stored()) node.x() += 0.1;
   const std::string path = vtu_on(folder, other, [](const Vector3d& x) -> Vector3d { return {x.x(), 0, 0}; });
   const auto external = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
-  const compare::Answers answers = compare::with_displacements({}, mesh, *external);
+  const compare::Answers answers = compare::with_displacements({}, scene_of(mesh), *external);
   CHECK(answers.interpolated->n_outside == 25);
   CHECK(answers.interpolated->largest_distance == Approx(0.1));
   CHECK(external->displacement.back().x() == Approx(3.8));        // of the other body's end

@@ -121,14 +121,16 @@ component = "x"
   const auto middle = [&](const std::string& history, const std::string& loads, const std::string& start) {
     const std::string dynamics =
         "[dynamics]\nscheme = 'newmark'\nstep = 0.002\nend = 0.03\nstart = '" + start + "'\n";
-    const Answers answers = solve(
+    const compare::Answers answers = compare::solve(
         cases::make_scene(cases::read_case_text(bar + history + loads + dynamics + rest, "driven.toml")), {},
-        solve_fem);
+        compare::solve_fem);
     CAPTURE(history, loads, start, answers.fem.solution.message, answers.msm.solution.message);
     REQUIRE(answers.fem.converged());
     REQUIRE(answers.msm.converged());
     CHECK(answers.msm.solution.trajectory->unfinished_steps == 0);
-    const auto end = [](const Answer& answer) { return answer.solution.trajectory->displacement.back().x(); };
+    const auto end = [](const compare::Answer& answer) {
+      return answer.solution.trajectory->displacement.back().x();
+    };
     CHECK(std::abs(end(answers.fem)) > 0.01); // mm
     return std::array<double, 2>{end(answers.fem), end(answers.msm)};
   };
