@@ -65,7 +65,7 @@ int run_designs(const RunOptions& options) {
       failed = failed || !ranking.fem.converged();
       continue;
     }
-    failed = failed || !ranking.recommended();
+    failed = failed || !ranking.is_sound();
     if (options.json)
       document["cases"].push_back(ranking_to_json(ranking));
     else

@@ -50,7 +50,7 @@ void explain(Gate& gate, const Answers& answers, const MeasuredValue& measured) 
 }
 
 bool needs_limit(const cases::Expectation& expected) {
-  return expected.reference == cases::ReferenceKind::converged && expected.quantity != Quantity::msm;
+  return expected.reference == cases::ReferenceKind::converged;
 }
 
 std::optional<double> value_of(const cases::Expectation& expected, const MeasuredValue& measured) {
@@ -105,14 +105,13 @@ void judge_with_uncertainty(Gate& gate, const std::string& decides) {
                               *gate.value, *gate.uncertainty, lower, upper, decides);
 }
 
-/// Of a converged reference.
-void judge_against_limit(Gate& gate, const StudiedMeasure* studied, const MeshStudy* study) {
-  if (!gate.value) return;
-  if (gate.uncertainty)
-    judge_with_uncertainty(gate, study ? what_decides(*study) : "");
-  else
-    gate.missed =
-        "there is no converged reference: " + (studied ? studied->no_reference : "no mesh study was made");
+/// What is expected of a converged reference is not met without one, the springs' own value neither. Without
+/// finite elements nobody could look for it.
+void miss_without_limit(Gate& gate, const Answers& answers, const StudiedMeasure* studied) {
+  gate.is_left_out = gate.met() && answers.fem.solution.status == cases::Status::skipped;
+  gate.missed = "there is no converged reference: " + (gate.is_left_out ? "fem was not asked for"
+                                                       : studied        ? studied->no_reference
+                                                                        : "no mesh study was made");
 }
 
 std::string warning_of(const Gate& gate) {
@@ -161,10 +160,13 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
       gate.uncertain = measured->error_uncertainty_percent && expected.quantity == Quantity::error_percent
                            ? "reference and interpolation"
                            : "interpolation";
-    if (needs_limit(expected))
-      judge_against_limit(gate, studied, study);
-    else if (is_interpolated && gate.value && gate.uncertainty)
-      judge_with_uncertainty(gate, "results on the case's own mesh, or on finer meshes, decide it");
+    const bool is_of_limit = needs_limit(expected) && expected.quantity != Quantity::msm;
+    if (needs_limit(expected) && gate.value && !measured->fem_limit)
+      miss_without_limit(gate, answers, studied);
+    else if ((is_of_limit || is_interpolated) && gate.value && gate.uncertainty)
+      judge_with_uncertainty(gate, is_of_limit && study
+                                       ? what_decides(*study)
+                                       : "results on the case's own mesh, or on finer meshes, decide it");
     gate.warning = warning_of(gate);
     gates.push_back(gate);
   }

@@ -8,6 +8,7 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/write/springs_text.hpp"
+#include "compare/write/write_gates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,8 @@ RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
     ranked.refusal = error.what();
     return ranked;
   }
+  const Comparison comparison = comparison_of(scene, answers);
+  ranked.gates = comparison.gates;
   const cases::Solution& solution = answers.msm.solution;
   ranked.milliseconds = 1e3 * answers.msm.seconds();
   if (answers.design) ranked.springs = springs_text(*answers.design);
@@ -57,7 +60,6 @@ RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
   }
   const bool is_settled = solution.trajectory || solution.outcome == cases::Outcome::stable_equilibrium;
   ranked.is_stable = is_settled && solution.inverted_cells == 0; // of a motion's end nobody asks
-  const Comparison comparison = comparison_of(scene, std::move(answers));
   ranked.measures = comparison.measures;
   add_errors(ranked, comparison);
   return ranked;
@@ -114,6 +116,11 @@ const RankedDesign* Ranking::recommended() const {
   return nullptr;
 }
 
+bool Ranking::is_sound() const {
+  return recommended() && std::all_of(gates.begin(), gates.end(),
+                                      [](const Gate& gate) { return gate.met() || gate.is_left_out; });
+}
+
 void sort_by_error(std::vector<RankedDesign>& designs) {
   const auto place = [](const RankedDesign& ranked) {
     const int group = ranked.worst ? 0 : ranked.refusal.empty() ? 1 : 2;
@@ -136,8 +143,11 @@ Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>
   ranking.fem.solution.cell_volume.clear();
   ranking.fem.solution.fields.reset();
   if (mpi_rank() != 0 || !fem.fem.converged()) return ranking;
-  for (const cases::Design design : designs)
+  for (const cases::Design design : designs) {
     ranking.designs.push_back(rank_one(with_design(scene, design), fem));
+    if (design == scene.definition.msm.design) ranking.gates = ranking.designs.back().gates;
+  }
+  if (ranking.gates.empty()) ranking.gates = comparison_of(scene, fem).gates;
   sort_by_error(ranking.designs);
   return ranking;
 }
@@ -198,6 +208,7 @@ void write_ranking_text(std::ostream& out, const Ranking& ranking) {
       print(out, "  {:<17}{}: {}\n", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
             ranked.refusal.empty() ? ranked.failure : ranked.refusal);
   print(out, "  {}\n", advice_of(ranking));
+  write_expectations_text(out, ranking.gates);
 }
 
 nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
@@ -231,7 +242,8 @@ nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
           {"reference", reference_text(ranking)},
           {"designs", designs},
           {"recommended", best ? Json(best->name) : Json(nullptr)},
-          {"advice", advice_of(ranking)}};
+          {"advice", advice_of(ranking)},
+          {"expectations", expectations_to_json(ranking.gates)}};
 }
 
 } // namespace springproof::compare

@@ -22,6 +22,7 @@ struct RankedDesign {
   bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
   double milliseconds = 0;                       ///< design, setup and solve
   std::vector<MeasuredValue> measures{};
+  std::vector<Gate> gates{}; ///< of the case's expectations; empty when it was refused
 };
 
 struct Ranking {
@@ -29,9 +30,13 @@ struct Ranking {
   cases::Fem resolved;                 ///< [fem] of the reference
   Answer fem;                          ///< without its fields
   std::vector<RankedDesign> designs{}; ///< by worst error, then those that failed, then those refused
+  std::vector<Gate> gates{}; ///< of the case's expectations, by the case's own design; where that is not
+                             ///< among the designs, what is expected of springs is not judged
 
   /// The stable design of the smallest worst error; null when there is none.
   const RankedDesign* recommended() const;
+  /// The success of `run --designs`: a design is recommended, and no expectation is missed.
+  bool is_sound() const;
 };
 
 /// Solves the finite elements of a scene once, and its springs by every design. The case's own design keeps

@@ -148,6 +148,31 @@ TEST_CASE("without a limit nothing is met against a converged reference, and the
   CHECK_FALSE(judged::judge(comparison({expected})).gates[0].met()); // nor without a study
 }
 
+// The springs' own value was "met converged" without a limit that anybody had looked for. Looked for the same
+// kind: every quantity beside every kind of reference; the others need no more than their own value.
+TEST_CASE("no quantity is met against a converged reference that is not there, the springs' own neither") {
+  for (const auto quantity : {Quantity::msm, Quantity::fem, Quantity::error_percent}) {
+    INFO(cases::name_of(quantity));
+    const auto expected = expectation(quantity, {-100, 100}, ReferenceKind::converged);
+    const auto without = judged::judge(comparison({expected}));
+    CHECK_FALSE(without.gates[0].met());
+    CHECK_FALSE(without.is_sound());
+    CHECK_THAT(describe(without.gates[0]), Catch::Contains("no converged reference: no mesh study was made"));
+    CHECK(judged::judge(judged::with_limit(comparison({expected}), 2)).gates[0].met());
+    auto alone = comparison({expected}); // run --only msm
+    alone.answers.fem.solution.status = cases::Status::skipped;
+    alone.measures[0] = {"L", "mm", {}, 9.0, {}};
+    const auto springs = judged::judge(alone);
+    CHECK(springs.gates[0].is_left_out);
+    CHECK(springs.is_sound());
+    CHECK_FALSE(springs.met());
+    CHECK_THAT(describe(springs.gates[0]), Catch::Contains("fem was not asked for"));
+  }
+  auto outside = comparison({expectation(Quantity::msm, {0, 1}, ReferenceKind::converged)});
+  outside.answers.fem.solution.status = cases::Status::skipped;
+  CHECK_FALSE(judged::judge(outside).is_sound()); // with any reference
+}
+
 TEST_CASE(
     "a side with inverted cells or in an unstable equilibrium fails its case, unless that is accepted") {
   const auto doubtful = [](const std::vector<cases::Doubt>& accepted) {
