@@ -12,6 +12,7 @@
 #include "compare/write/escape.hpp"
 #include "compare/write/json.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -76,6 +77,23 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
           summary.n_failures, summary.failure);
 }
 
+/// Where a recording goes: to none that is there already.
+std::string free_path(const std::string& folder, const std::string& name) {
+  const std::string stem = folder + "/" + name + "_pulls";
+  std::string path = stem + ".csv";
+  for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
+  return path;
+}
+
+/// @return where it was written; empty: there is nothing to keep
+std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
+                           const Simulation& simulation) {
+  if (options.out.empty() || simulation.recording().empty()) return "";
+  const std::string path = free_path(options.out, definition.name);
+  write_file(path, [&](std::ostream& out) { write_recording(out, simulation, definition.dynamics->step); });
+  return path;
+}
+
 int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
   const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
@@ -105,13 +123,16 @@ int run(const InteractOptions& options) {
   server->run(options.seconds);
   simulation.stop();
   const SimulationSummary summary = simulation.summary();
-  if (options.json)
-    std::cout << json_text({{"schema", 1}, {"interaction", summary_to_json(summary, server->counts())}});
-  else
+  const std::string kept = keep_recording(options, scene.definition, simulation); // the terminal may be gone
+  if (options.json) {
+    nlohmann::ordered_json interaction = summary_to_json(summary, server->counts());
+    interaction["recording"] = kept.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(kept);
+    std::cout << json_text({{"schema", 1}, {"interaction", interaction}});
+  } else {
     print_summary(summary, server->counts());
-  if (!options.out.empty())
-    write_file(options.out + "/" + scene.definition.name + "_pulls.csv",
-               [&](std::ostream& out) { write_recording(out, simulation, scene.definition.dynamics->step); });
+    if (!options.out.empty())
+      print(std::cout, "{}\n", kept.empty() ? "nothing was pulled since the last start: no recording" : kept);
+  }
   if (simulation.is_recording_full())
     print(std::cerr, "the recording ends after {} steps with a pull\n", most_recorded);
   return 0;

@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
@@ -65,6 +66,9 @@ struct ServerState {
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error) throw cases::InputError("--port " + std::to_string(port) + ": " + error.message());
     const unsigned short bound = acceptor.local_endpoint().port();
+    struct sigaction on_hangup {};
+    if (sigaction(SIGHUP, nullptr, &on_hangup) == 0 && on_hangup.sa_handler != SIG_IGN) // nohup ignores it
+      signals.add(SIGHUP);
     host =
         "127.0.0.1" + (bound == 80 ? "" : ":" + std::to_string(bound)); // browsers leave http's own port out
     token = random_text();
@@ -72,6 +76,7 @@ struct ServerState {
 
   ServedPage page;
   int n_connections = 0;
+  std::vector<beast::tcp_stream*> without_token; ///< connections that have shown none yet, the oldest first
   ServerCounts counts;
   asio::io_context io{1}; ///< whose end is that of what it still waits for, which counts itself off
   tcp::acceptor acceptor;
@@ -82,6 +87,7 @@ struct ServerState {
 
   void accept();
   void leave(const PageSocket* who);
+  bool has_place();
 };
 
 /// The page in control.
@@ -200,10 +206,14 @@ class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
  public:
   HttpRequest(ServerState& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
     ++server_.n_connections;
+    server_.without_token.push_back(&stream_);
     parser_.header_limit(8192);
     parser_.body_limit(std::uint64_t{0});
   }
-  ~HttpRequest() { --server_.n_connections; }
+  ~HttpRequest() {
+    --server_.n_connections;
+    keep_place();
+  }
 
   void read() {
     stream_.expires_after(time_to_ask);
@@ -222,6 +232,12 @@ class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
   http::request_parser<http::empty_body> parser_;
   http::response<http::string_body> response_;
 
+  /// No newer connection takes it any more.
+  void keep_place() {
+    auto& all = server_.without_token;
+    all.erase(std::remove(all.begin(), all.end(), &stream_), all.end());
+  }
+
   void answer() {
     const auto& request = parser_.get();
     const std::string own_origin = "http://" + server_.host;
@@ -238,6 +254,7 @@ class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
     if (path != (is_socket ? "/socket" : "/"))
       return refuse(http::status::not_found, "there is no such page");
     if (!has_token(target)) return refuse(http::status::forbidden, "the token is wrong");
+    keep_place();
     if (!is_socket) return send_page();
     if (server_.controller) return refuse(http::status::conflict, "another page is in control");
     server_.controller = std::make_shared<PageSocket>(server_, std::move(stream_));
@@ -312,9 +329,18 @@ void ServerState::accept() {
         if (!stopped) accept();
       });
     }
-    if (n_connections < most_connections) std::make_shared<HttpRequest>(*this, std::move(socket))->read();
+    if (has_place()) std::make_shared<HttpRequest>(*this, std::move(socket))->read();
     accept();
   });
+}
+
+/// Whoever has shown no token gives way, the oldest first: connections that say nothing keep nobody out.
+bool ServerState::has_place() {
+  if (n_connections < most_connections) return true;
+  if (without_token.empty()) return false;
+  without_token.front()->close(); // what it waits for ends with an error, and the connection with that
+  without_token.erase(without_token.begin());
+  return true;
 }
 
 void ServerState::leave(const PageSocket* who) {

@@ -27,9 +27,9 @@ struct ServerState;
 
 /// A server of one page on 127.0.0.1, for this machine's user alone. A request is answered when its Host is
 /// the address that was printed, its Origin (if it has one; a socket's must) is the page's own, and it has
-/// the token; all else is refused in one line. One page at a time is in control. Messages are short and at
-/// most 300 a second; a page that sends another is cut off. A frame that arrives while one is on its way
-/// replaces the one that waits.
+/// the token; all else is refused in one line. Of 32 connections the oldest that has shown no token gives way
+/// to a new one. One page at a time is in control. Messages are short and at most 300 a second; a page that
+/// sends another is cut off. A frame that arrives while one is on its way replaces the one that waits.
 class PageServer {
  public:
   /// @param port  0: any that is free   @throws cases::InputError when it cannot be had
@@ -39,7 +39,8 @@ class PageServer {
   std::string address() const; ///< with the token: "http://127.0.0.1:PORT/?token=..."
   /// Of any thread; returns at once.
   void send_frame(std::shared_ptr<const std::string> frame);
-  /// Serves until SIGINT, SIGTERM, or the page has left, or so many seconds have passed (0: no such limit).
+  /// Serves until SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup), or the page has left, or so
+  /// many seconds have passed (0: no such limit).
   void run(double seconds = 0);
   ServerCounts counts() const;
 

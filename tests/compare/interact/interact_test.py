@@ -11,6 +11,7 @@ import json
 import math
 import os
 import random
+import shutil
 import signal
 import struct
 import subprocess
@@ -20,14 +21,14 @@ import urllib.parse
 from pathlib import Path
 
 from devtools import Browser, find_chromium
-from web_socket import WebSocket, answer_to, handshake, request_text
+from web_socket import WebSocket, answer_to, connect, handshake, request_text
 
 POLICY = 1008  # close code of a page that is cut off
 
 
 class Program:
-    def __init__(self, springproof, case, *options):
-        self.process = subprocess.Popen([springproof, "interact", case, "--json", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def __init__(self, springproof, case, *options, before=None):
+        self.process = subprocess.Popen([springproof, "interact", case, "--json", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=before)
         atexit.register(self.process.kill)  # where a check has failed
         line = self.process.stderr.readline()
         assert line.startswith("open http://127.0.0.1:"), line
@@ -280,6 +281,59 @@ def check_malformed(program, count):
     return n_cut_off
 
 
+def check_crowd(program):
+    """Connections that say nothing, half of a request or a wrong token keep neither the page nor its socket out, however many they are."""
+    crowd = []
+    page = open_when_free(program.address)
+    for n in range(3 * 32):
+        connection = connect(program.address)
+        connection.sendall([b"", b"GET /?tok", request_text(program.address, path="/?token=x").encode()[:-2]][n % 3])
+        crowd.append(connection)
+    status, body = answer_to(program.address, request_text(program.address))
+    assert status == 200 and "<canvas" in body, status
+    assert page.frame()["held"] == -1, "the page in control was sent away"
+    page.close()
+    open_when_free(program.address).close()
+    for connection in crowd:
+        connection.close()
+
+
+def pull_for_a_while(program):
+    """A few steps with a pull, by a page that then stays."""
+    page = open_when_free(program.address)
+    page.say(type="grab", origin=[200, 20, 50], direction=[-1, 0, 0])
+    page.say(type="drag", by=[5, 0, 0])
+    end = time.monotonic() + 20
+    while page.frame()["force"] <= 0:
+        assert time.monotonic() < end
+    return page
+
+
+def check_recordings(springproof, case, folder):
+    """No recording is lost: neither to a second one, nor to a session without a pull, nor to a terminal that is closed."""
+    out = folder / "recordings"
+    shutil.rmtree(out, ignore_errors=True)
+    kept = {}
+    for ending in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM, None, signal.SIGHUP):
+        program = Program(springproof, case, "--stay", "--out", out)
+        page = pull_for_a_while(program) if ending else Controller(program.address)
+        program.process.send_signal(ending or signal.SIGINT)
+        summary = program.end()
+        page.close()
+        assert (summary["recording"] is None) == (ending is None), summary
+        if ending:
+            path = Path(summary["recording"])
+            assert path not in kept and len(path.read_text().splitlines()) == 1 + summary["pulled_steps"] > 1, (path, summary)
+            kept[path] = path.read_bytes()
+        assert all(path.read_bytes() == content for path, content in kept.items())
+    assert sorted(path.name for path in out.glob("*.csv")) == ["pulled-block_pulls.csv"] + [f"pulled-block_pulls_{n}.csv" for n in (2, 3, 4)]
+    # nohup
+    program = Program(springproof, case, "--stay", before=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    program.process.send_signal(signal.SIGHUP)
+    Controller(program.address).close()
+    program.interrupt()
+
+
 def check_stalled(program):
     """A page that is cut off and goes on as if it were not has no control any more, and holds nothing."""
     page = open_when_free(program.address)
@@ -340,7 +394,7 @@ def check_browser(springproof, case, folder):
         page.close()
         summary = program.end()  # by itself: its page is closed
     assert summary["pulled_steps"] > 0 and summary["failed_steps"] == 0, summary
-    rows = list(csv.DictReader((out / "pulled-block_pulls.csv").open()))
+    rows = list(csv.DictReader(open(summary["recording"])))
     assert len(rows) == summary["pulled_steps"], (len(rows), summary)
     steps = [int(row["step"]) for row in rows]
     assert steps == sorted(set(steps))
@@ -357,12 +411,14 @@ def main():
     n_refused = check_refusals(program)
     check_pull(program)
     check_stalled(program)
+    check_crowd(program)
     n_cut_off = check_malformed(program, count)
     assert n_cut_off > count / 2, n_cut_off
     summary = program.interrupt()
     assert summary["failed_steps"] == summary["unfinished_steps"] == 0 and summary["frames"]["with_inverted_cells"] == 0, summary
     assert summary["refused_requests"] >= n_refused, summary
     print(f"{n_refused} kinds of requests refused, {n_cut_off} of {count} mutated messages cut off; {summary}")
+    check_recordings(springproof, case, folder)
     if not find_chromium():
         print("no Chromium here: the page itself was not opened, the test is skipped")
         return
