@@ -43,6 +43,17 @@ Where place_of(const toml::source_region& source, const std::string& key) {
   return {*source.path, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column), key};
 }
 
+/// How a table gets rid of a key of the file that another one, of the command line, leaves without a meaning.
+/// Empty: none is of the command line, or the refused one is too.
+std::string how_to_replace(const toml::table& table, const std::string& name, const Where& refused) {
+  std::vector<std::string> given;
+  for (const auto& [key, value] : table)
+    if (!value.source().path && !value.is_table())
+      given.push_back(fmt::format("{} = {}", std::string(key), shown(value)));
+  if (given.empty() || name.empty() || refused.line == 0) return "";
+  return fmt::format("; without what the file has there: --set '{}={{{}}}'", name, fmt::join(given, ", "));
+}
+
 std::optional<double> finite_number(const toml::node* node) {
   if (!node || !node->is_number()) return std::nullopt;
   const double value = *node->value<double>();
@@ -218,8 +229,11 @@ Entry Table::entry(const std::string& key) {
 
 void Table::refuse_unless(bool have_meaning, std::initializer_list<const char*> keys,
                           const std::string& instead) {
-  for (const char* key : keys)
-    if (!have_meaning && has(key)) entry(key).refuse(instead);
+  for (const char* key : keys) {
+    if (have_meaning || !has(key)) continue;
+    const Entry refused = entry(key);
+    refused.refuse(instead + how_to_replace(*table_, where_.key, refused.where));
+  }
 }
 
 void Table::refuse_key(const toml::key& key, const toml::node& value, const std::string& problem) const {

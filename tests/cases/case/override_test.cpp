@@ -27,6 +27,33 @@ TEST_CASE("settings of the command line replace and add values") {
   CHECK(single.loads[0].value == Eigen::Vector3d(0.002, 0, 0.5));
 }
 
+// A design on the command line left keys of the file's own design to be refused, and the way out was not
+// told. Looked for the same kind: every table whose keys depend on each other (material.model,
+// fem.formulation, dynamics.scheme, msm.law); all are refused by one function.
+TEST_CASE("a key of the file that a setting leaves without a meaning is refused with the way out") {
+  const auto refusal = [](const std::string& text, const std::string& setting) {
+    try {
+      read_text(text, {setting});
+    } catch (const InputError& error) {
+      CHECK(error.where().line > 0);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string given = replaced(good_case, "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8",
+                                     "design = 'given'\nstiffness = [1, 2, 3]");
+  const std::string said = refusal(given, "msm.design=matched");
+  CHECK_THAT(said,
+             Catch::Contains("msm.stiffness: is [1, 2, 3], must be left out: it belongs to design") &&
+                 Catch::EndsWith("without what the file has there: --set 'msm={design = \"matched\"}'"));
+  CHECK(read_text(given, {"msm={design = \"matched\"}"}).msm.design == Design::matched);
+  CHECK(read_text(given, {"msm.design=given"}).msm.stiffness == std::array<double, 3>{1, 2, 3});
+  // Without a setting, or with the refused key as one, there is nothing to replace.
+  CHECK(refusal(given, "fem.refine=0").find("--set") == std::string::npos);
+  CHECK_THROWS_WITH(read_text(good_case, {"msm.design=matched", "msm.stiffness=[1, 2, 3]"}),
+                    !Catch::Contains("--set"));
+}
+
 TEST_CASE("a mistake in a setting of the command line is told as such") {
   const std::vector<std::pair<std::string, std::string>> settings{
       {"fem.element=q9", "command line: fem.element: is \"q9\", must be \"q1\""},
