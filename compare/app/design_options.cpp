@@ -34,6 +34,20 @@ int n_materials(const DesignOptions& o) {
          !o.yeoh.empty() + !o.curve_file.empty();
 }
 
+/// A curve's material at small strains: its secant at the strain that is closest to 0, and not 0.
+cases::Material at_rest(const msm::UniaxialCurve& curve) {
+  std::size_t nearest = curve.axial_strain[0] == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < curve.axial_strain.size(); ++i)
+    if (curve.axial_strain[i] != 0 && std::abs(curve.axial_strain[i]) < std::abs(curve.axial_strain[nearest]))
+      nearest = i;
+  const double strain = curve.axial_strain[nearest], youngs_modulus = curve.stress[nearest] / strain,
+               poissons_ratio = -curve.lateral_strain[nearest] / strain;
+  // An incompressible one has no linear law here.
+  if (youngs_modulus > 0 && poissons_ratio == 0.5)
+    return cases::Ogden{{youngs_modulus / 3}, {2}, std::nullopt};
+  return cases::LinearElastic{youngs_modulus, poissons_ratio};
+}
+
 cases::Material material_of(const DesignOptions& o, const std::optional<msm::UniaxialCurve>& curve) {
   if (n_materials(o) != 1)
     throw cases::InputError(
@@ -47,11 +61,7 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
   }
   if (!o.yeoh.empty()) // its small-strain material is neo-Hookean
     return checked({{2 * o.yeoh.at(0)}, {2}, std::nullopt});
-  if (curve) { // the secant of the first strain that is not 0
-    const std::size_t first = curve->axial_strain[0] == 0 ? 1 : 0;
-    const double strain = curve->axial_strain[first];
-    return cases::LinearElastic{curve->stress[first] / strain, -curve->lateral_strain[first] / strain};
-  }
+  if (curve) return at_rest(*curve);
   if (!(o.poissons_ratio > -1))
     throw cases::InputError("command line: --poisson: must be given with --young, above -1 and below 0.5");
   return cases::LinearElastic{o.youngs_modulus, o.poissons_ratio};
@@ -72,11 +82,39 @@ void check_largest_strain(const DesignOptions& o) {
                             "bring their own strains");
 }
 
+/// Which --poisson says in place of a material's own.
+std::optional<double> other_poissons_ratio(const DesignOptions& o) {
+  return o.poissons_ratio > -1 ? std::optional(o.poissons_ratio) : std::nullopt;
+}
+
+/// Numbers do not tell which strain, which stress and which unit they are.
+msm::CurveColumns columns_of(const DesignOptions& o) {
+  const auto strain = cases::value_of<msm::CurveStrain>(o.curve_strain);
+  const auto unit = cases::value_of<msm::CurveUnit>(o.curve_unit);
+  if (!strain || !unit)
+    throw cases::InputError(fmt::format(
+        "command line: --curve: say what the columns of {} are: --strain {}, and --unit {} of the stresses "
+        "(nominal ones with engineering strains and stretches, Cauchy ones with logarithmic strains, unless "
+        "--stress says otherwise)",
+        o.curve_file, cases::alternatives(cases::all_names<msm::CurveStrain>()),
+        cases::alternatives(cases::all_names<msm::CurveUnit>())));
+  const auto beside =
+      strain == msm::CurveStrain::logarithmic ? msm::CurveStress::cauchy : msm::CurveStress::nominal;
+  return {*strain, cases::value_of<msm::CurveStress>(o.curve_stress).value_or(beside), *unit,
+          other_poissons_ratio(o)};
+}
+
 std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
-  if (!o.curve_file.empty()) return msm::read_curve(cases::read_text_file(o.curve_file), o.curve_file);
+  if (!o.curve_file.empty()) {
+    const msm::CurveColumns columns = columns_of(o);
+    return msm::read_curve(cases::read_text_file(o.curve_file), o.curve_file, columns);
+  }
+  if (!o.curve_strain.empty() || !o.curve_stress.empty() || !o.curve_unit.empty())
+    throw cases::InputError("command line: --strain, --stress and --unit are of the columns of --curve");
   if (o.yeoh.empty()) return std::nullopt;
   const double thesis_end = 0.4; // of its Ogden reference
-  return msm::sample(msm::yeoh_law(o.yeoh), 0.5, {0, o.largest_strain.value_or(thesis_end)});
+  return msm::sample(msm::yeoh_law(o.yeoh), other_poissons_ratio(o).value_or(0.5),
+                     {0, o.largest_strain.value_or(thesis_end)});
 }
 
 msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element element) {
@@ -88,6 +126,8 @@ msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element elem
     throw cases::InputError(
         fmt::format("command line: Young's modulus is {:g}, must be at most 1e12 (MPa)", stiffness));
   request.uniaxial_reference = curve;
+  const auto nu = other_poissons_ratio(o);
+  if (o.youngs_modulus == 0 && !curve && nu && *nu < 0.5) request.options.poissons_ratio = nu;
   if (!curve && o.largest_strain)
     request.uniaxial_reference = msm::uniaxial_reference(request, o.largest_strain);
   return request;
@@ -106,7 +146,10 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");
   command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa")->check(number_between(1e-12, 1e12));
-  command.add_option("--poisson", o.poissons_ratio, "Poisson's ratio")->check(number_between(-0.9999, 0.5));
+  command
+      .add_option("--poisson", o.poissons_ratio,
+                  "Poisson's ratio; beside another material than --young: to design for in place of its own")
+      ->check(number_between(-0.9999, 0.5));
   command.add_option("--edge", o.edge, "edge of the cell, mm")
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();
@@ -128,8 +171,18 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
       ->expected(2)
       ->check(number_between(-1e12, 1e12));
   command.add_option("--yeoh", o.yeoh, "C1, C2, ..., MPa")->check(number_between(-1e12, 1e12));
-  command.add_option("--curve", o.curve_file,
-                     "measured uniaxial curve, CSV: log strain, Cauchy stress (MPa) [, lateral strain]");
+  command.add_option(
+      "--curve", o.curve_file,
+      "measured uniaxial curve, CSV: strain, stress [, lateral strain]; with --strain and --unit");
+  command.add_option("--strain", o.curve_strain, "what the strains of --curve are")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveStrain>()));
+  command
+      .add_option(
+          "--stress", o.curve_stress,
+          "what the stresses of --curve are; cauchy with logarithmic strains, else nominal, when left out")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveStress>()));
+  command.add_option("--unit", o.curve_unit, "unit of the stresses of --curve")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveUnit>()));
   command.add_option("--largest-strain", o.largest_strain,
                      "end of the reference curve's logarithmic strains");
   command.add_option("--paths", o.paths, "deformations that the multi-load method fits; all when left out")

@@ -71,7 +71,7 @@ cases::LinearElastic designed_material(const DesignRequest& request, double lowe
            fmt::format("Young's modulus {:f} MPa: must be positive and finite", material.youngs_modulus));
   if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
     refuse(request, fmt::format("Poisson's ratio {:f}: design = \"{}\" takes {:f} <= nu < 0.5; "
-                                "msm.poissons_ratio designs from another one",
+                                "msm.poissons_ratio (of `design`: --poisson) designs from another one",
                                 material.poissons_ratio, name_of(options.design), lowest_poissons_ratio));
   return material;
 }

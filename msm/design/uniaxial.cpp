@@ -5,6 +5,7 @@
 #include "mechanics/laws/ogden.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -22,12 +23,29 @@ std::vector<double> numbers_of(const cases::TextRow& row) {
   return numbers;
 }
 
-void check_row(const std::vector<double>& row, const UniaxialCurve& curve, const std::string& place) {
-  if (row.size() != 2 && row.size() != 3)
-    throw cases::InputError(fmt::format("{}{} columns; a curve has strain, stress and perhaps lateral strain",
-                                        place, row.size()));
-  if (!curve.axial_strain.empty() && !(row[0] > curve.axial_strain.back()))
-    throw cases::InputError(place + "the strains must increase from line to line");
+/// @param place  for messages
+double logarithmic(double strain, CurveStrain kind, const std::string& place) {
+  constexpr double largest = 2;
+  const double found = kind == CurveStrain::logarithmic   ? strain
+                       : kind == CurveStrain::engineering ? std::log1p(strain)
+                                                          : std::log(strain);
+  if (std::abs(found) <= largest) return found;
+  throw cases::InputError(fmt::format(
+      "{}{:g} as {} is a logarithmic strain of {:.3g}, must be from -{} to {}; strains are no percent", place,
+      strain, kind == CurveStrain::stretch ? "stretch" : cases::name_of(kind) + " strain", found, largest,
+      largest));
+}
+
+/// As UniaxialCurve has them: strain, stress, lateral strain.
+std::array<double, 3> converted(const std::vector<double>& row, const CurveColumns& columns,
+                                const std::string& place) {
+  constexpr double megapascals[] = {1e-6, 1e-3, 1};
+  const double strain = logarithmic(row[0], columns.strain, place);
+  const double lateral = columns.poissons_ratio ? -*columns.poissons_ratio * strain
+                         : row.size() == 3      ? logarithmic(row[2], columns.strain, place)
+                                                : -0.5 * strain;
+  const double stress = megapascals[static_cast<std::size_t>(columns.unit)] * row[1];
+  return {strain, columns.stress == CurveStress::nominal ? stress * std::exp(-2 * lateral) : stress, lateral};
 }
 
 bool all_zero(const std::vector<double>& values) {
@@ -67,14 +85,19 @@ UniaxialCurve sample(const StressLaw& law, double poissons_ratio, const StrainRa
   return curve;
 }
 
-UniaxialCurve read_curve(const std::string& text, const std::string& name) {
+UniaxialCurve read_curve(const std::string& text, const std::string& name, const CurveColumns& columns) {
   UniaxialCurve curve;
   const auto add = [&](const cases::TextRow& line) {
     const std::vector<double> row = numbers_of(line);
-    check_row(row, curve, line.place());
-    curve.axial_strain.push_back(row[0]);
-    curve.stress.push_back(row[1]);
-    curve.lateral_strain.push_back(row.size() == 3 ? row[2] : -0.5 * row[0]);
+    if (row.size() != 2 && row.size() != 3)
+      throw cases::InputError(fmt::format(
+          "{}{} columns; a curve has strain, stress and perhaps lateral strain", line.place(), row.size()));
+    const auto [strain, stress, lateral] = converted(row, columns, line.place());
+    if (!curve.axial_strain.empty() && !(strain > curve.axial_strain.back()))
+      throw cases::InputError(line.place() + "the strains must increase from line to line");
+    curve.axial_strain.push_back(strain);
+    curve.stress.push_back(stress);
+    curve.lateral_strain.push_back(lateral);
   };
   cases::read_rows(
       text, name, cases::Between::commas_or_blanks, [](const cases::TextRow&) {}, add);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "cases/case/names.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>
@@ -33,13 +34,33 @@ StressLaw yeoh_law(const std::vector<double>& coefficients);
 /// range
 UniaxialCurve sample(const StressLaw& law, double poissons_ratio, const StrainRange& range);
 
+SPRINGPROOF_ENUMERATION(CurveStrain,
+                        engineering, ///< change of length over the length at rest
+                        logarithmic,
+                        stretch ///< length over the length at rest
+)
+SPRINGPROOF_ENUMERATION(CurveStress,
+                        nominal, ///< force over the area at rest
+                        cauchy   ///< over the deformed area
+)
+SPRINGPROOF_ENUMERATION(CurveUnit, Pa, kPa, MPa)
+
+/// What the columns of a measured curve are.
+struct CurveColumns {
+  CurveStrain strain = CurveStrain::logarithmic; ///< along the axis, and lateral
+  CurveStress stress = CurveStress::cauchy;
+  CurveUnit unit = CurveUnit::MPa; ///< of the stresses
+  /// In place of lateral strains. Absent: they are in the third column, or else the material is
+  /// incompressible.
+  std::optional<double> poissons_ratio{};
+};
+
 /// A measured curve: columns strain, stress [, lateral strain], commas or blanks; lines that begin with #
-/// and a heading (the first line alone may be one) are skipped. Without the third column the material is
-/// taken for incompressible.
+/// and a heading (the first line alone may be one) are skipped.
 /// @param text  the file's content   @param name  of the file, for messages
-/// @throws InputError with the line: no numbers, a missing column, strains that do not increase, nothing but
-/// zeros
-UniaxialCurve read_curve(const std::string& text, const std::string& name);
+/// @throws InputError with the line: no numbers, a missing column, strains that do not increase or that are
+/// beyond e^2, nothing but zeros
+UniaxialCurve read_curve(const std::string& text, const std::string& name, const CurveColumns& columns = {});
 
 /// Equilibrium width of a stretched cell divided by its rest edge, Lx/L0: thesis eq. 5.3, solved by Newton's
 /// method within a bracket.  @param stretch  Lz/L0 > 0    @throws SolveError when no positive width is in

@@ -299,7 +299,7 @@ def links(attempt, chance):
         path.write_text(CASE.replace("poissons_ratio = 0.3\n", "poissons_ratio = 0.3\ndensity = 1000\n") + '[dynamics]\nscheme = "newmark"\nstep = 0.001\nend = 0.006\n')
         words += ["--replay", place / kind]
     elif kind == "curve.csv":
-        words = ["design", "--curve", place / kind]
+        words = ["design", "--curve", place / kind, "--strain", "logarithmic", "--unit", "MPa"]
     elif kind == "skin.vtp":
         path.write_text(CASE + '[surface]\nfile = "skin.vtp"\n')
     put(place / kind)

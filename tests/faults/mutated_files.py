@@ -364,7 +364,7 @@ class Curve(Kind):
 
     def given(self, content):
         (self.folder / "curve.csv").write_bytes(content)
-        return springproof("design", "--curve", self.folder / "curve.csv", "--method", "nonlinear_method")
+        return springproof("design", "--curve", self.folder / "curve.csv", "--strain", "stretch", "--unit", "MPa", "--method", "nonlinear_method")
 
 
 class Kept(Kind):

@@ -263,7 +263,12 @@ TEST_CASE("a design without a meaning ends with exit status 2 and the reason") {
       {"--young 0.3 --poisson 0.3 --neo-hookean 0.1", "one material"},
       {"--ogden-mu 0.1 0.2 --ogden-alpha 2", "equally many"},
       {"--neo-hookean -0.1 --method moduli", "--neo-hookean: is -0.1"},
-      {"--curve /nonexistent.csv --method nonlinear_method", "cannot be read"},
+      {"--curve /nonexistent.csv --method nonlinear_method --strain stretch --unit kPa", "cannot be read"},
+      {"--curve /nonexistent.csv", "--curve: say what the columns of /nonexistent.csv are: --strain"},
+      {"--curve /nonexistent.csv --strain stretch", "--unit \"Pa\" | \"kPa\" | \"MPa\""},
+      {"--curve /nonexistent.csv --strain percent --unit kPa", "--strain"},
+      {"--young 0.3 --poisson 0.3 --unit kPa", "are of the columns of --curve"},
+      {"--neo-hookean 0.1 --method linear_method", "--poisson"},
   }));
   CAPTURE(words);
   const ProgramRun outcome = run_program("design " + words);

@@ -5,6 +5,8 @@
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <fmt/format.h>
 
 using namespace springproof;
 
@@ -123,6 +125,47 @@ TEST_CASE("a measured curve is read with and without lateral strains") {
   CHECK(two.lateral_strain[1] == -0.05);
   const msm::UniaxialCurve three = msm::read_curve("# lab 3\n0.0 0.0 0.0\n0.1 0.02 -0.03\n", "curve.csv");
   CHECK(three.lateral_strain[1] == -0.03);
+}
+
+// A raw curve of a test bench in kPa and engineering strain was taken for MPa and logarithmic strain. Looked
+// for the same kind: every other file of numbers that is read; displacements, springs, pulls and recordings
+// have one unit each in their headings or pages.
+TEST_CASE("a measured curve in any kind of strain and stress and in any unit is the same curve") {
+  const msm::UniaxialCurve expected = msm::read_curve("-0.1 -0.02 0.04\n0.1 0.03 -0.04\n", "curve.csv");
+  for (const auto strain :
+       {msm::CurveStrain::engineering, msm::CurveStrain::logarithmic, msm::CurveStrain::stretch})
+    for (const auto stress : {msm::CurveStress::nominal, msm::CurveStress::cauchy})
+      for (const auto unit : {msm::CurveUnit::Pa, msm::CurveUnit::kPa, msm::CurveUnit::MPa}) {
+        CAPTURE(cases::name_of(strain), cases::name_of(stress), cases::name_of(unit));
+        const auto written = [&](double value) {
+          return strain == msm::CurveStrain::engineering ? std::exp(value) - 1
+                 : strain == msm::CurveStrain::stretch   ? std::exp(value)
+                                                         : value;
+        };
+        const double per_mpa = unit == msm::CurveUnit::Pa ? 1e6 : unit == msm::CurveUnit::kPa ? 1e3 : 1;
+        std::string text;
+        for (std::size_t i = 0; i < 2; ++i) {
+          const double area = std::exp(2 * expected.lateral_strain[i]); // over that at rest
+          const double force = expected.stress[i] * (stress == msm::CurveStress::nominal ? area : 1);
+          text += fmt::format("{:.17g},{:.17g},{:.17g}\n", written(expected.axial_strain[i]), per_mpa * force,
+                              written(expected.lateral_strain[i]));
+        }
+        const msm::UniaxialCurve found = msm::read_curve(text, "curve.csv", {strain, stress, unit});
+        for (std::size_t i = 0; i < 2; ++i) { // rounding of exp and log
+          CHECK(found.axial_strain[i] == Approx(expected.axial_strain[i]).epsilon(1e-13));
+          CHECK(found.stress[i] == Approx(expected.stress[i]).epsilon(1e-13));
+          CHECK(found.lateral_strain[i] == Approx(expected.lateral_strain[i]).epsilon(1e-13));
+        }
+      }
+  msm::CurveColumns columns{msm::CurveStrain::engineering, msm::CurveStress::nominal, msm::CurveUnit::kPa,
+                            0.3};
+  CHECK(msm::read_curve("0.1 1\n0.2 2\n", "curve.csv", columns).lateral_strain[0] ==
+        Approx(-0.3 * std::log(1.1)).epsilon(1e-13));
+  for (const std::string text : {"0 0\n10 1\n", "-1 0\n0 1\n", "-1.5 0\n0 1\n", "0 0 0\n0.1 1 -1\n"}) {
+    columns.poissons_ratio.reset();
+    CHECK_THROWS_WITH(msm::read_curve(text, "curve.csv", columns),
+                      Catch::Contains("curve.csv:") && Catch::Contains("as engineering strain is"));
+  }
 }
 
 TEST_CASE("a broken measured curve is refused with its line") {
