@@ -140,7 +140,9 @@ TEST_CASE("a kept file with any one bit flipped counts as none") {
 TEST_CASE("a kept file of another format counts as none, and its line says so") {
   const Kept kept;
   std::string other = compare::read_file(kept.file);
-  other.replace(other.find(" 3\n"), 3, " 2\n");
+  const std::size_t number = other.find(", format ") + 9;
+  REQUIRE(number < other.find('\n'));
+  other[number] = '0'; // none has it
   CHECK_THAT(find_in(kept, other).message, Catch::Contains("another format"));
   CHECK_THAT(find_in(kept, "as a program before it kept them").message, Catch::Contains("another format"));
 }
