@@ -7,8 +7,6 @@ namespace springproof::cases {
 
 const std::vector<DesignFacts>& all_designs() {
   using D = Design;
-  // linear_method is the default, of cases too whose springs nobody asks for, so that it refuses a negative
-  // Poisson's ratio when it designs and not when the file is read.
   static const std::vector<DesignFacts> all{
       {D::linear_method,
        "the springs whose linearised stiffness matrix is closest to the finite element's",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace springproof::cases {
 
@@ -233,9 +234,19 @@ void read_stiffness(Table& table, Msm& msm) {
     msm.stiffness = {k[0], k[1], k[2]};
 }
 
-Design default_design(const Material& material) {
-  if (std::holds_alternative<Ogden>(material)) return Design::nonlinear_method;
-  return is_isotropic(material) ? Design::linear_method : Design::transverse;
+/// Poisson's ratio at rest.
+double poissons_ratio_of(const Material& material) {
+  if (const auto* linear = std::get_if<LinearElastic>(&material)) return linear->poissons_ratio;
+  const auto& ogden = std::get<Ogden>(material);
+  if (!ogden.bulk_modulus) return 0.5;
+  const double mu = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0), kappa = *ogden.bulk_modulus;
+  return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
+}
+
+std::vector<Material> materials_in(const Case& definition) {
+  std::vector<Material> all{definition.material};
+  for (const RegionMaterial& region : definition.region_materials) all.push_back(region.material);
+  return all;
 }
 
 /// What a design that is asked for requires of the material. A default is refused when springs are designed:
@@ -277,7 +288,10 @@ Msm read_msm(Table& table, const Case& definition) {
   const Material& material = definition.material;
   Msm msm;
   msm.where = table.where();
-  msm.design = table.optional("design", read_name<Design>).value_or(default_design(material));
+  msm.poissons_ratio =
+      table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
+  const auto design = table.optional("design", read_name<Design>);
+  msm.design = design ? *design : default_design(materials_in(definition), msm.poissons_ratio);
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
@@ -285,8 +299,6 @@ Msm read_msm(Table& table, const Case& definition) {
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   read_relaxation(table, msm);
-  msm.poissons_ratio =
-      table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   msm.split =
       table.optional("split", Number{"a number from 0 to 1", [](double t) { return t >= 0 && t <= 1; }});
   read_stiffness(table, msm);
@@ -329,6 +341,19 @@ void check_region_materials(const Case& definition) {
 }
 
 } // namespace
+
+Design default_design(const std::vector<Material>& materials, std::optional<double> poissons_ratio) {
+  if (!is_isotropic(materials.front())) return Design::transverse;
+  bool is_hybrid = false;
+  for (const Material& material : materials) {
+    if (!is_isotropic(material)) continue; // refused where springs are designed
+    const double nu = poissons_ratio.value_or(poissons_ratio_of(material));
+    if (nu < 0) return Design::moduli;
+    // 0.36 loses its stability at a logarithmic strain of -0.2; below 0.25 the volume term is negative.
+    is_hybrid = is_hybrid || nu < 0.25 || (nu > 0.35 && !std::holds_alternative<Ogden>(material));
+  }
+  return is_hybrid ? Design::hybrid : Design::matched;
+}
 
 void read_models(Table& root, Case& result) {
   result.fem = root.optional_section("fem", [&](Table& table) { return read_fem(table, result); });

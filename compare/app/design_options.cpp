@@ -3,6 +3,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "cases/case/read_models.hpp"
 #include "compare/app/number_option.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
@@ -128,6 +129,9 @@ msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element elem
   request.uniaxial_reference = curve;
   const auto nu = other_poissons_ratio(o);
   if (o.youngs_modulus == 0 && !curve && nu && *nu < 0.5) request.options.poissons_ratio = nu;
+  // A curve is followed by one design alone; of the others a material's moduli are left.
+  request.options.design = curve ? cases::Design::nonlinear_method
+                                 : cases::default_design({request.material}, request.options.poissons_ratio);
   if (!curve && o.largest_strain)
     request.uniaxial_reference = msm::uniaxial_reference(request, o.largest_strain);
   return request;

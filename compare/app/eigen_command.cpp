@@ -68,6 +68,9 @@ int run(EigenOptions options) {
   if (!options.vibrating.empty()) return run_vibrations(options);
   if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
     options.design.youngs_modulus = 1;
+  if (options.design.case_file.empty() && options.design.method.empty())
+    options.design.method =
+        cases::name_of(cases::Design::linear_method); // whose eigenspaces the thesis prints
   const msm::DesignRequest request = request_from(options.design);
   const cases::LinearElastic material = msm::small_strain_material(request.material);
   if (!(material.poissons_ratio < 0.5))

@@ -5,6 +5,7 @@
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <iostream>
 #include <memory>
@@ -31,6 +32,7 @@ int export_case(const ExportOptions& options) {
   if (mpi_rank() != 0) return 0;
   const std::vector<std::string> said = export_springs(options.out, target, name, problem, motion);
   for (const std::string& line : said) print(std::cout, "{}\n", line);
+  for (const std::string& warning : design_for(scene).warnings) print(std::cout, "warning: {}\n", warning);
   return 0;
 }
 

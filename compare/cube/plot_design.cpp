@@ -63,11 +63,13 @@ std::optional<double> nominal_stress(const HomogeneousTest& test, const msm::Cel
 void plot_linear_method(const std::string& folder, cases::Element element) {
   const std::vector<double> ratios{0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.49}; // the thesis's
   std::vector<double> residuals;
+  cases::Msm options;
+  options.design = cases::Design::linear_method;
   write_csv_file(folder + "/linear_method_curves.csv", [&](CsvWriter& csv) {
     csv.row("# poissons_ratio", "engineering_strain", "stress_over_E", "lateral_strain");
     for (const double nu : ratios) {
       const msm::DesignResult design =
-          msm::design(design_request(cases::LinearElastic{1, nu}, msm::cube(1), cases::Msm{}, element));
+          msm::design(design_request(cases::LinearElastic{1, nu}, msm::cube(1), options, element));
       residuals.push_back(*design.residual);
       for (const double strain : equally_spaced(0, 0.1, 21)) {
         const msm::UniaxialCurve curve = msm::uniaxial_response(design.stiffness, 1, {std::log(1 + strain)});

@@ -180,7 +180,7 @@ Estimate estimate_springs(const BodySize& body) {
   const cases::Case& definition = body.outline.definition;
   const bool is_by_snes = definition.msm.solver == cases::Solver::snes;
   const bool is_assembled_motion = is_by_snes && definition.dynamics;
-  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(definition.msm) && !is_assembled_motion;
+  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline) && !is_assembled_motion;
   Estimate estimate;
   if (is_on_grid && body.n_nodes >= msm::multigrid_from)
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);

@@ -16,8 +16,9 @@ SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, volume, is_
 SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary, planes_of_node)
 SPRINGPROOF_FIELDS(springproof::mechanics::TransverseModuli, c11, c12, c13, c33, c44, c66, bulk_modulus)
 SPRINGPROOF_FIELDS(springproof::msm::NearestModuli, moduli, distance, misfit)
+SPRINGPROOF_FIELDS(springproof::msm::ModuliMisfit, largest, text)
 SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, warnings, cells, terms,
-                   by_fibre)
+                   by_fibre, misfit)
 SPRINGPROOF_FIELDS(springproof::compare::Answer, solution, setup_seconds, solve_seconds)
 SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reason)
 SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)

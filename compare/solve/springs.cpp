@@ -29,25 +29,46 @@ msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
   return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), options));
 }
 
-/// Cells of equal shape and material share one design. Every warning comes once, with the number of its
-/// cells.
+/// Cells of equal shape and material share one design. Where one has springs by axis, all are terms. Every
+/// warning comes once, with the number of its cells.
 msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
   msm::DesignResult all;
+  msm::BodyTerms terms;
+  bool are_terms = false;
   std::map<std::string, int> n_cells;
+  int n_misfits = 0;
   std::map<int, msm::DesignResult> of_material;
+  std::map<int, int> kind_of_material;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
     const int material = cases::material_of(scene, c);
     // Unless the mesh is a grid, every cell has its own shape.
-    if (of_material.count(material) == 0 || !scene.mesh.grid)
+    if (of_material.count(material) == 0 || !scene.mesh.grid) {
       of_material[material] = design_cell(scene, c, of_material[material].stiffness.exponents);
+      const msm::DesignResult& own = of_material[material];
+      terms.kinds.push_back(own.terms ? own.terms->kinds.front() : msm::terms_of(own.stiffness));
+      kind_of_material[material] = static_cast<int>(terms.kinds.size()) - 1;
+      are_terms = are_terms || own.terms;
+    }
+    terms.kind_of_cell.push_back(kind_of_material[material]);
     const msm::DesignResult& cell = of_material[material];
-    for (const std::string& warning : cell.warnings) ++n_cells[warning];
+    const bool misses = cell.misfit && !(cell.misfit->largest <= msm::told_moduli_misfit);
+    for (const std::string& warning : cell.warnings)
+      if (!misses || warning != cell.misfit->text) ++n_cells[warning];
+    if (misses) ++n_misfits;
+    if (cell.misfit && !(all.misfit && cell.misfit->largest <= all.misfit->largest)) all.misfit = cell.misfit;
     all.cells.push_back(cell.stiffness);
     if (c == 0) all.moduli = cell.moduli;
   }
   all.stiffness = all.cells.front();
+  if (are_terms) {
+    all.terms = std::move(terms);
+    all.cells.clear();
+  }
   for (const auto& [warning, n] : n_cells)
-    all.warnings.push_back(fmt::format("{} of {} cells: {}", n, all.cells.size(), warning));
+    all.warnings.push_back(fmt::format("{} of {} cells: {}", n, scene.mesh.cells.size(), warning));
+  if (n_misfits > 0)
+    all.warnings.push_back(
+        fmt::format("{} of {} cells, the worst: {}", n_misfits, scene.mesh.cells.size(), all.misfit->text));
   return all;
 }
 
@@ -71,6 +92,7 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
     return network;
   }
   msm::DesignResult all = design_cell(scene, 0);
+  if (!all.terms) all.terms = msm::BodyTerms{{msm::terms_of(all.stiffness)}};
   msm::BodyTerms& terms = *all.terms;
   const cases::Design design = scene.definition.msm.design;
   const bool is_by_axis = design == cases::Design::given || design == cases::Design::transverse;
@@ -187,13 +209,21 @@ cases::Scene with_design(cases::Scene scene, cases::Design design) {
   return scene;
 }
 
-bool is_assembled(const cases::Msm& options) {
-  const bool is_by_axis = options.design == cases::Design::given && options.axis_stiffness;
+bool is_assembled(const cases::Scene& scene) {
+  using D = cases::Design;
+  const cases::Msm& options = scene.definition.msm;
+  const auto& grid = scene.mesh.grid;
+  const bool has_cubes =
+      !grid || ((grid->spacing.array() - grid->spacing[0]).abs() <= 1e-9 * grid->spacing[0]).all();
+  const bool follows_cells =
+      options.design == D::moduli || options.design == D::hybrid || options.design == D::matched;
+  const bool is_by_axis =
+      (options.design == D::given && options.axis_stiffness) || (follows_cells && !has_cubes);
   return is_by_axis || cases::facts_of(options.design).cells != cases::DesignCells::four_stiffnesses;
 }
 
 msm::DesignResult design_for(const cases::Scene& scene) {
-  if (is_assembled(scene.definition.msm)) return design_terms(scene);
+  if (is_assembled(scene)) return design_terms(scene);
   const bool are_alike = scene.mesh.grid && scene.material_of_cell.empty();
   const bool is_given = cases::facts_of(scene.definition.msm.design).source == cases::DesignSource::file;
   if (are_alike || is_given) return design_cell(scene, 0);

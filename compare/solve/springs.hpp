@@ -15,14 +15,16 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
 cases::Scene with_design(cases::Scene scene, cases::Design design);
 
 /// The stiffnesses that a scene's [msm] block asks for. On a grid all cells of a material are alike; on
-/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, given), the result's own
-/// stiffness and moduli are those of the first cell, and its warnings count the cells they hold for.
+/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, matched, given), the
+/// result's own stiffness and moduli are those of the first cell, and its warnings count the cells they hold
+/// for.
 /// @throws InputError when the method cannot serve the material or the mesh's cells
 msm::DesignResult design_for(const cases::Scene& scene);
 
-/// Whether the cells of a design are other than four stiffnesses, so that its lattice is assembled and
-/// factorised on every mesh.
-bool is_assembled(const cases::Msm& options);
+/// Whether the cells of a scene's design are other than four stiffnesses, so that its lattice is assembled
+/// and factorised on a grid too: of some designs always, of others where the grid's cells are no cubes.
+/// @param scene  whose mesh may be without nodes
+bool is_assembled(const cases::Scene& scene);
 
 /// What make_lattice() takes: one stiffness for all cells, or one each.
 std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design);

@@ -19,7 +19,9 @@ Spectrum springs_spectrum(const msm::CellStiffness& stiffness) {
 
 CellAnalysis analyse_cell(double poissons_ratio) {
   const cases::LinearElastic material{cell_modulus, poissons_ratio};
-  const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), cases::Msm{});
+  cases::Msm options;
+  options.design = cases::Design::linear_method;
+  const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), options);
   const msm::CellStiffness stiffness = msm::design(request).stiffness;
   return {
       poissons_ratio, stiffness,

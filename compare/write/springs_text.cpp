@@ -45,15 +45,16 @@ std::string springs_text(const msm::DesignResult& design) {
   if (design.terms && design.terms->kinds.empty()) return "of the case's file";
   if (design.terms && design.terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
-  if (design.terms) return cell_text(design.terms->kinds.front());
   const msm::CellStiffness& k = design.stiffness;
+  const std::string exponents = k.exponents
+                                    ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
+                                                  k.exponents->face_diagonal, k.exponents->internal_diagonal)
+                                    : "";
+  if (design.terms) return cell_text(design.terms->kinds.front()) + exponents;
   std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
                                  1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
   if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
-  if (k.exponents)
-    text += fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge, k.exponents->face_diagonal,
-                        k.exponents->internal_diagonal);
-  return text;
+  return text + exponents;
 }
 
 nlohmann::ordered_json springs_to_json(const msm::DesignResult& design) {

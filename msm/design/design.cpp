@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
+#include "msm/design/by_axis.hpp"
 #include "msm/design/cut_cells.hpp"
 #include "msm/design/examine.hpp"
 #include "msm/design/homogeneous.hpp"
@@ -119,6 +120,11 @@ struct Designed {
   std::optional<NearestModuli> by_fibre{};
 };
 
+Designed in_cell(const DesignRequest& request, const CellStiffness& four, const CubicModuli& moduli) {
+  const auto k = by_axis_where_needed(four, moduli, split(request), request.cell);
+  return k ? Designed{{}, {}, BodyTerms{{terms_by_axis(k->springs, k->volume)}}} : Designed{four};
+}
+
 Designed from_linear_method(const DesignRequest& request) {
   const cases::LinearElastic material = designed_material(request, 0);
   const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
@@ -131,7 +137,8 @@ Designed from_moduli_method(const DesignRequest& request) {
   const cases::LinearElastic material =
       is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
   const double mu = mechanics::elastic_moduli(material).mu;
-  return {moduli_method(material.youngs_modulus, mu, split(request), request.cell), {}};
+  return in_cell(request, moduli_method(material.youngs_modulus, mu, split(request), request.cell),
+                 {c11_of_springs(material.youngs_modulus, mu), mu, 0});
 }
 
 /// Below nu = 1/4 the volume term is negative. In a cube the springs outweigh it; in another cell they may
@@ -139,13 +146,15 @@ Designed from_moduli_method(const DesignRequest& request) {
 Designed from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0);
   const auto [lambda, mu, kappa] = elastic_moduli(request);
-  const CellStiffness stiffness = hybrid_method(lambda, mu, split(request), request.cell);
-  if (stiffness.volume < 0 && signs_at_rest(cell_stiffness_matrix(request.cell, stiffness)).n_negative > 0)
+  Designed result =
+      in_cell(request, hybrid_method(lambda, mu, split(request), request.cell), {3 * mu, mu, lambda - mu});
+  const CellTerms cell = result.terms ? result.terms->kinds.front() : terms_of(result.stiffness);
+  if (cell.volume < 0 && signs_at_rest(cell_stiffness_matrix(request.cell, cell)).n_negative > 0)
     refuse(request,
            fmt::format("design = \"{}\": below nu = 0.25 the volume term is negative, and the springs "
                        "of this cell do not outweigh it",
                        name_of(request.options.design)));
-  return {stiffness, {}};
+  return result;
 }
 
 Designed from_matched_method(const DesignRequest& request) {
@@ -157,6 +166,7 @@ Designed from_matched_method(const DesignRequest& request) {
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
   result.stiffness.exponents = fit.exponents;
+  if (result.terms) set_exponents(result.terms->kinds.front(), fit.exponents);
   result.residual = fit.objective;
   return result;
 }
@@ -320,17 +330,6 @@ std::vector<cases::Design> methods(const cases::Material& material) {
   return all;
 }
 
-cases::LinearElastic small_strain_material(const cases::Material& material) {
-  if (const auto* linear = std::get_if<cases::LinearElastic>(&material)) return *linear;
-  if (std::holds_alternative<cases::TransverselyIsotropic>(material))
-    throw cases::InputError(
-        "material.model: is \"transversely_isotropic\", and an isotropic material is wanted here");
-  const auto& ogden = std::get<cases::Ogden>(material);
-  const double mu = mechanics::shear_modulus(ogden);
-  if (!ogden.bulk_modulus) return {3 * mu, 0.5};
-  return mechanics::linear_elastic(mu, *ogden.bulk_modulus);
-}
-
 UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<double> largest_strain) {
   if (request.uniaxial_reference) return *request.uniaxial_reference;
   const double nu =
@@ -375,6 +374,13 @@ DesignResult design(const DesignRequest& request) {
   result.warnings = result.terms ? examine(result.terms->kinds.front(), request.cell)
                                  : examine(result.stiffness, request.cell);
   result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
+  const auto material = elasticity_at_rest(request.material);
+  if (material && !request.uniaxial_reference && !result.by_fibre) { // which tells of its own misfit
+    result.misfit = moduli_misfit(result.terms ? cell_elasticity(result.terms->kinds, request.cell)
+                                               : cell_elasticity(result.stiffness, request.cell),
+                                  *material);
+    if (!(result.misfit->largest <= told_moduli_misfit)) result.warnings.push_back(result.misfit->text);
+  }
   const auto range = options.strain_range.value_or(matched_range);
   const double edge = cube_edge(request.cell);
   if (finds_exponents(options) && edge > 0 && !is_stable_over(range, result.stiffness, edge))

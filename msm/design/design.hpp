@@ -2,6 +2,7 @@
 
 #include "msm/cell_terms.hpp"
 #include "msm/design/linear_method.hpp"
+#include "msm/design/misfit.hpp"
 #include "msm/design/transverse.hpp"
 #include "msm/design/uniaxial.hpp"
 
@@ -33,6 +34,9 @@ struct DesignResult {
   std::optional<BodyTerms> terms{};
 
   std::optional<NearestModuli> by_fibre{}; ///< of the transverse design, in place of the moduli's means
+  /// Of the lattice's moduli; absent beside by_fibre and where a curve stands for the material. From
+  /// told_moduli_misfit on its text is one of the warnings.
+  std::optional<ModuliMisfit> misfit{};
 
   /// Whether `stiffness` says what the springs are far from the boundary.
   bool is_of_four_stiffnesses() const { return !terms || terms->boundary == Boundary::whole; }

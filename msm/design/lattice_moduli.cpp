@@ -52,11 +52,15 @@ LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices&
   return averaged_over_axes(cell_elasticity(stiffness, vertices));
 }
 
-LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
+Elasticity cell_elasticity(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
   Elasticity sum = Elasticity::Zero();
   for (const CellTerms& kind : kinds)
     sum += affine_elasticity(cell_stiffness_matrix(vertices, kind), vertices);
-  return averaged_over_axes(sum / static_cast<double>(kinds.size()));
+  return sum / static_cast<double>(kinds.size());
+}
+
+LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
+  return averaged_over_axes(cell_elasticity(kinds, vertices));
 }
 
 CellVertices cube(double edge) {

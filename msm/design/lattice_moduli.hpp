@@ -38,6 +38,9 @@ using Elasticity = Eigen::Matrix<double, 6, 6>;
 /// e^T C e.
 Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices);
 
+/// The same of cells of terms: the mean of their kinds.
+Elasticity cell_elasticity(const std::vector<CellTerms>& kinds, const CellVertices& vertices);
+
 /// Derived ratios from the three constants of a cubic solid (MPa).
 LatticeModuli cubic_moduli(double c11, double c12, double c44);
 

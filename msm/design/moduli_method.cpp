@@ -24,11 +24,14 @@ CellStiffness nearest_springs(double c11, double c44, double split, const CellVe
 
 } // namespace
 
+double c11_of_springs(double youngs_modulus, double shear_modulus) {
+  const double difference = youngs_modulus - shear_modulus, sum = youngs_modulus + shear_modulus;
+  return (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
+}
+
 CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
                             const CellVertices& vertices) {
-  const double difference = youngs_modulus - shear_modulus, sum = youngs_modulus + shear_modulus;
-  const double c11 = (difference + std::sqrt(sum * sum + 8 * shear_modulus * shear_modulus)) / 2;
-  return nearest_springs(c11, shear_modulus, split, vertices);
+  return nearest_springs(c11_of_springs(youngs_modulus, shear_modulus), shear_modulus, split, vertices);
 }
 
 CellStiffness hybrid_method(double lame_lambda, double lame_mu, double split, const CellVertices& vertices) {

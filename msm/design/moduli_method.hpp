@@ -17,6 +17,9 @@ namespace springproof::msm {
 CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
                             const CellVertices& vertices);
 
+/// That C11.
+double c11_of_springs(double youngs_modulus, double shear_modulus);
+
 /// Springs and a cell volume term nearest to the isotropic elasticity with the given Lamé constants, which
 /// they meet in a cube: C11 = 3 mu and C12 = C44 = mu of the springs, so that K_e = K_f + 8 K_d/3, and k_v =
 /// lambda - mu, which is negative below nu = 1/4, where lambda < mu.

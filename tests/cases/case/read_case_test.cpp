@@ -206,12 +206,12 @@ TEST_CASE("what a case file leaves out follows from its material") {
   CHECK(linear.fem.formulation == Formulation::log_strain);
   CHECK(linear.fem.element == Element::q1_bbar);
   CHECK(linear.fem.refine == 0);
-  CHECK(linear.msm.design == Design::linear_method);
+  CHECK(linear.msm.design == Design::matched);
   const Case ogden =
       read_text(cut(bare, "[material]", "[[fixed]]") + "[material]\nmodel = 'ogden'\nmu=[0.04]\nalpha=[2]");
   CHECK(ogden.fem.formulation == Formulation::hyperelastic);
   CHECK(ogden.fem.element == Element::q1_p0);
-  CHECK(ogden.msm.design == Design::nonlinear_method);
+  CHECK(ogden.msm.design == Design::matched);
 }
 
 TEST_CASE("a body of a mesh file takes the names of groups as regions, and finds the file beside the case") {

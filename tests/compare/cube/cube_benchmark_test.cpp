@@ -223,7 +223,7 @@ TEST_CASE(
   CHECK(design.terms->kind_of_cell[10] == 1); // along y
   CHECK(design.terms->kind_of_cell[11] == 0);
   CHECK(design.terms->kind_of_cell[100] == 1); // along z
-  CHECK(compare::is_assembled(definition.msm));
+  CHECK(compare::is_assembled(scene));
   cases::Scene no_grid = scene;
   no_grid.mesh.grid.reset();
   CHECK_THROWS_WITH(compare::design_for(no_grid), Catch::Contains("grids of equal cells"));

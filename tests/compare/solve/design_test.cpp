@@ -1,5 +1,6 @@
 #include "compare/solve/springs.hpp"
 
+#include "cases/case/read_models.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
@@ -33,8 +34,10 @@ std::vector<PublishedRow> published_pseudo_stiffness() {
 }
 
 msm::DesignResult linear_design(double youngs_modulus, double poissons_ratio, double edge) {
+  cases::Msm options;
+  options.design = cases::Design::linear_method;
   return msm::design(compare::design_request(cases::LinearElastic{youngs_modulus, poissons_ratio},
-                                             msm::cube(edge), cases::Msm{}));
+                                             msm::cube(edge), options));
 }
 
 } // namespace
@@ -61,10 +64,45 @@ TEST_CASE("pseudo-stiffnesses depend neither on Young's modulus nor on the edge"
   CHECK(other.internal_diagonal == Approx(one.internal_diagonal).epsilon(1e-12));
 }
 
+// What else answers without a design that is named: case files, `new`, Python's design(), all by
+// default_design(); `tables`, `sweep` and `run --designs` name theirs.
+TEST_CASE(
+    "the design without a name has the material's moduli and a lattice that is stable over the strains of "
+    "its exponents") {
+  const auto designed = [](const cases::Material& material) {
+    cases::Msm options;
+    options.design = cases::default_design({material});
+    return std::pair(options.design, msm::design(compare::design_request(material, msm::cube(1), options)));
+  };
+  for (int percent = 0; percent < 50; ++percent) {
+    const double nu = percent / 100.;
+    CAPTURE(nu);
+    const auto [name, result] = designed(cases::LinearElastic{0.005, nu});
+    CHECK(name == (nu > 0.245 && nu < 0.355 ? cases::Design::matched : cases::Design::hybrid));
+    CHECK(result.misfit->largest < 1e-9); // closed forms
+    for (const std::string& warning : result.warnings) CHECK_THAT(warning, Catch::StartsWith("volume term"));
+    if (nu >= 0.255) CHECK(result.warnings.empty()); // below 0.25 the volume term is negative
+  }
+  for (const double alpha : {-10., -2., 0.1, 2., 5.7, 25.}) {
+    CAPTURE(alpha);
+    const auto [name, result] = designed(cases::Ogden{{0.04}, {alpha}, std::nullopt});
+    CHECK(name == cases::Design::matched);
+    CHECK(result.misfit->largest < 0.003); // lambda = 200 mu stands for incompressible: nu = 0.4975
+    CHECK(result.warnings.empty());
+  }
+  CHECK(cases::default_design({cases::LinearElastic{0.3, -0.1}}) ==
+        cases::Design::moduli); // hybrid has it not
+  CHECK(cases::default_design({cases::LinearElastic{0.3, 0.3}, cases::LinearElastic{3, 0.45}}) ==
+        cases::Design::hybrid); // of both materials
+  CHECK(cases::default_design({cases::LinearElastic{0.3, 0.45}}, 0.3) == cases::Design::matched);
+  CHECK(cases::default_design({cases::Ogden{{0.04}, {2}, 0.05}}) == cases::Design::hybrid); // nu = 0.18
+}
+
 TEST_CASE("a box's design is that of its cell") {
   cases::Case definition;
   definition.body = cases::Box{{3, 2, 1}, {3, 2, 1}};
   definition.material = cases::LinearElastic{0.3, 0.35};
+  definition.msm.design = cases::Design::linear_method;
   const msm::DesignResult result = compare::design_for(cases::make_scene(definition));
   CHECK(result.stiffness.edge ==
         Approx(linear_design(0.3, 0.35, 1).stiffness.edge).epsilon(1e-14)); // the same sums
@@ -86,7 +124,10 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
     x += 0.03 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
   const msm::DesignResult design = compare::design_for(scene);
   REQUIRE(compare::stiffness_of_cells(design).size() == 8);
-  CHECK(design.warnings.empty());
+  if (definition.msm.design == cases::Design::hybrid)
+    CHECK(design.warnings.empty());
+  else // whatever the mesh: springs alone have no nu = 0.35
+    CHECK_THAT(design.warnings.at(0), Catch::StartsWith("8 of 8 cells, the worst: the lattice's moduli"));
   for (const msm::CellStiffness& k : design.cells) {
     CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
     CHECK(k.edge != cube.edge);

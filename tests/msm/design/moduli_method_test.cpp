@@ -59,7 +59,7 @@ TEST_CASE("an incompressible Ogden material has moduli E = 3 mu and G = mu") {
   const msm::DesignResult result = msm::design(moduli);
   CHECK(result.moduli.youngs_modulus == Approx(3 * 0.04332).epsilon(round_off));
   CHECK(result.moduli.shear_modulus == Approx(0.04332).epsilon(round_off));
-  CHECK(result.warnings.empty());
+  CHECK(result.warnings == std::vector<std::string>{result.misfit->text}); // of nu: springs alone have 1/4
 }
 
 TEST_CASE("below nu = 1/4 the hybrid's volume term is negative, and cell and lattice are stable at rest",
@@ -76,11 +76,11 @@ TEST_CASE("below nu = 1/4 the hybrid's volume term is negative, and cell and lat
 }
 
 TEST_CASE(
-    "the hybrid method refuses Poisson's ratios below 0 and of 1/2, and cells whose springs do not outweigh "
-    "a negative volume term") {
+    "the hybrid method refuses Poisson's ratios below 0 and of 1/2, and tells what flat cells miss where the "
+    "volume term is negative") {
   msm::DesignRequest flat = request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.});
   for (Eigen::Vector3d& x : flat.cell) x.z() *= 0.05;
-  CHECK_THROWS_WITH(msm::design(flat), Catch::Contains("outweigh"));
+  CHECK(msm::design(flat).misfit->largest > 0.5);
   CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, -0.01})),
                   cases::InputError);
   CHECK_THROWS_AS(msm::design(request(cases::Design::hybrid, cases::LinearElastic{0.3, 0.5})),

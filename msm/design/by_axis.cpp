@@ -1,0 +1,176 @@
+#include "msm/design/by_axis.hpp"
+
+#include "msm/design/linear_method.hpp"
+#include "msm/design/misfit.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace springproof::msm {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A lattice whose face diagonals or edges carry nothing has waves without energy: what each kind carries at
+/// least, as a part of c44.
+constexpr double least_part = 0.05;
+
+/// Of a box the energies of uniform strains leave one of the seven stiffnesses free.
+constexpr double split_weight = 0.01;
+
+/// Mean edges along the cell's own axes, mm.
+Vector3d mean_edges(const CellVertices& x) {
+  Vector3d edges = Vector3d::Zero();
+  for (std::size_t v = 0; v < 8; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      if (((v >> axis) & 1U) == 0) edges[axis] += (x[v + (1U << axis)] - x[v]).norm() / 4;
+  return edges;
+}
+
+/// The two axes of the faces across an axis.
+std::array<int, 2> axes_across(int axis) {
+  return {(axis + 1) % 3, (axis + 2) % 3};
+}
+
+/// Stiffness of every kind that carries 1 MPa: edges C_ii, face diagonals and internal diagonals the shear
+/// modulus, the latter in the largest face.
+std::array<double, 7> unit_stiffness(const Vector3d& l) {
+  const double volume = l.prod(), largest_face = (volume / l.array()).maxCoeff();
+  std::array<double, 7> unit{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [i, j] = axes_across(axis);
+    unit[static_cast<std::size_t>(axis)] = volume / (4 * l[axis] * l[axis]);
+    unit[static_cast<std::size_t>(3 + axis)] =
+        (l[i] * l[i] + l[j] * l[j]) * volume / (4 * l[i] * l[i] * l[j] * l[j]);
+  }
+  unit[6] = l.squaredNorm() * volume / (4 * largest_face * largest_face);
+  return unit;
+}
+
+Elasticity elasticity_by_axis(const AxisStiffness& k, const CellVertices& vertices) {
+  return cell_elasticity({terms_by_axis(k.springs, k.volume)}, vertices);
+}
+
+/// In an orthonormal basis of the strains: Mandel's.
+Elasticity in_mandel(Elasticity c) {
+  c.bottomRows<3>() *= std::sqrt(2.);
+  c.rightCols<3>() *= std::sqrt(2.);
+  return c;
+}
+
+/// The x >= 0 that minimises |A x - b|: of the minima with some of its numbers 0 and the others free, the
+/// least whose free ones are not negative. The numbers are so few that every choice is tried.
+Eigen::VectorXd least_squares_from_zero(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target) {
+  const Eigen::Index n = matrix.cols();
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(n);
+  double least = target.norm();
+  for (unsigned choice = 1; choice < 1U << n; ++choice) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if ((choice >> i & 1U) != 0) free.push_back(i);
+    const Eigen::MatrixXd columns = matrix(Eigen::all, free);
+    const Eigen::VectorXd x = columns.householderQr().solve(target);
+    const double distance = (columns * x - target).norm();
+    if (!(x.minCoeff() >= 0 && distance < least)) continue;
+    least = distance;
+    best.setZero();
+    best(free) = x;
+  }
+  return best;
+}
+
+} // namespace
+
+bool is_box(const CellVertices& x) {
+  const Vector3d edges = mean_edges(x);
+  for (std::size_t v = 1; v < 8; ++v) {
+    const Vector3d ideal((v & 1U) != 0 ? edges[0] : 0, (v & 2U) != 0 ? edges[1] : 0,
+                         (v & 4U) != 0 ? edges[2] : 0);
+    if (!((x[v] - x[0] - ideal).norm() <= 1e-9 * edges.norm())) return false;
+  }
+  return true;
+}
+
+Elasticity elasticity_of(const CubicModuli& moduli) {
+  Elasticity c = Elasticity::Zero();
+  c.topLeftCorner<3, 3>().setConstant(moduli.c44 + moduli.volume);
+  c.diagonal() << Vector3d::Constant(moduli.c11 + moduli.volume), Vector3d::Constant(moduli.c44);
+  return c;
+}
+
+std::optional<AxisStiffness> exact_by_axis(const CubicModuli& moduli, double split,
+                                           const CellVertices& vertices) {
+  const Vector3d l = mean_edges(vertices), squared = l.array().square();
+  if (!is_box(vertices)) return std::nullopt;
+  const double largest_face = (l.prod() / l.array()).maxCoeff(), least = least_part * moduli.c44;
+  // 4 k_e l_i²/V = c11 - c44 sum l_i²/l_j² + t c44 l_i⁴/largest face²
+  double part = split;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [i, j] = axes_across(axis);
+    const double without = moduli.c11 - moduli.c44 * squared[axis] * (1 / squared[i] + 1 / squared[j]);
+    const double by_part = moduli.c44 * std::pow(squared[axis] / largest_face, 2);
+    part = std::max(part, (least - without) / by_part);
+  }
+  if (part > std::max(split, 1 - least_part)) return std::nullopt;
+  const double d = part * moduli.c44 / (largest_face * largest_face);
+  const std::array<double, 7> unit = unit_stiffness(l);
+  AxisStiffness result{{}, moduli.volume};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [i, j] = axes_across(axis);
+    const auto n = static_cast<std::size_t>(axis);
+    const double edges = moduli.c11 - moduli.c44 * squared[axis] * (1 / squared[i] + 1 / squared[j]) +
+                         d * squared[axis] * squared[axis];
+    result.springs[n] = edges * unit[n];
+    result.springs[3 + n] = (moduli.c44 - d * squared[i] * squared[j]) * unit[3 + n];
+  }
+  result.springs[6] = part * moduli.c44 * unit[6];
+  return result;
+}
+
+AxisStiffness nearest_by_axis(const CubicModuli& moduli, double split, const CellVertices& vertices) {
+  const Elasticity target = elasticity_of(moduli);
+  const Elasticity root = Eigen::SelfAdjointEigenSolver<Elasticity>(in_mandel(target)).operatorInverseSqrt();
+  const auto relative = [&](const Elasticity& c) -> Elasticity { return root * in_mandel(c) * root; };
+  const Vector3d l = mean_edges(vertices);
+  const std::array<double, 7> unit = unit_stiffness(l);
+  // What every kind has at least; a face diagonal stiffens the face's longer edge by the square of their
+  // ratio.
+  AxisStiffness result{{}, moduli.volume};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [i, j] = axes_across(axis);
+    const double ratio = std::min(l[i], l[j]) / std::max(l[i], l[j]);
+    const auto n = static_cast<std::size_t>(axis);
+    result.springs[n] = least_part * moduli.c44 * unit[n];
+    result.springs[3 + n] = least_part * moduli.c44 * ratio * ratio * unit[3 + n];
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(37, 7);
+  for (std::size_t n = 0; n < 7; ++n) {
+    AxisStiffness one{{}, 0};
+    one.springs[n] = moduli.c44 * unit[n];
+    columns.col(static_cast<Eigen::Index>(n)).head<36>() =
+        relative(elasticity_by_axis(one, vertices)).reshaped();
+  }
+  columns(36, 6) = split_weight;
+  Eigen::VectorXd missing(37);
+  missing << relative(target - elasticity_by_axis(result, vertices)).reshaped(), split_weight * split;
+  const Eigen::VectorXd parts = least_squares_from_zero(columns, missing);
+  for (std::size_t n = 0; n < 7; ++n)
+    result.springs[n] += parts[static_cast<Eigen::Index>(n)] * moduli.c44 * unit[n];
+  return result;
+}
+
+std::optional<AxisStiffness> by_axis_where_needed(const CellStiffness& four, const CubicModuli& moduli,
+                                                  double split, const CellVertices& vertices) {
+  if (cube_edge(vertices) > 0) return std::nullopt;
+  if (auto exact = exact_by_axis(moduli, split, vertices)) return exact;
+  if (!is_box(vertices) &&
+      moduli_misfit(cell_elasticity(four, vertices), elasticity_of(moduli)).largest <= told_moduli_misfit)
+    return std::nullopt;
+  return nearest_by_axis(moduli, split, vertices);
+}
+
+} // namespace springproof::msm
