@@ -53,7 +53,10 @@ RankedDesign rank_one(const cases::Scene& scene, const Answers& fem) {
   ranked.gates = comparison.gates;
   const cases::Solution& solution = answers.msm.solution;
   ranked.milliseconds = 1e3 * answers.msm.seconds();
-  if (answers.design) ranked.springs = springs_text(*answers.design);
+  if (answers.design) {
+    ranked.springs = springs_text(*answers.design);
+    if (answers.design->misfit) ranked.misfit = answers.design->misfit->largest;
+  }
   if (!answers.msm.converged()) {
     ranked.failure = fmt::format("{} (reached: {:.2f} of the load)", solution.message, solution.load_reached);
     return ranked;
@@ -89,31 +92,78 @@ std::string reference_text(const Ranking& ranking) {
                      has_limit ? "" : " on the same mesh");
 }
 
-/// The finite elements' own worst error on the mesh of the springs, percent, where there is a limit.
-std::optional<double> worst_of_fem(const RankedDesign& ranked) {
-  std::optional<double> worst;
-  for (const MeasuredValue& measured : ranked.measures)
-    if (measured.fem_error_percent)
-      worst = std::max(worst.value_or(0), std::abs(*measured.fem_error_percent));
-  return worst;
+/// The finite elements' own error on the mesh of the springs, after "which": the largest that there may be,
+/// of the measures whose limit is known. What has no limit is unknown, whatever another measure's error.
+std::string error_of_fem_text(const RankedDesign& ranked) {
+  std::size_t n = 0, n_known = 0;
+  double worst = 0, bar = 0;
+  for (const MeasuredValue& measured : ranked.measures) {
+    if (!measured.fem) continue;
+    ++n;
+    if (!measured.fem_error_percent || !measured.fem_limit) continue;
+    const double error = std::abs(*measured.fem_error_percent);
+    const double own = 100 * measured.fem_limit->uncertainty / std::abs(measured.fem_limit->value);
+    if (n_known++ > 0 && !(error + own > worst + bar)) continue;
+    worst = error;
+    bar = own;
+  }
+  if (n_known == 0) return "whose own error on this mesh is not known";
+  return fmt::format("which themselves err by up to {:.2f} +- {:.2g} % on this mesh{}", worst, bar,
+                     n_known < n ? fmt::format(" in the {} of {} measures whose limit is known", n_known, n)
+                                 : "");
 }
 
-/// Stable designs whose error bars meet the best one's.
-std::vector<std::string> as_good_as(const Ranking& ranking, const RankedDesign& best) {
-  std::vector<std::string> names;
-  for (const RankedDesign& ranked : ranking.designs)
-    if (&ranked != &best && ranked.worst && ranked.is_stable &&
-        *ranked.worst - ranked.worst_bar.value_or(0) < *best.worst + best.worst_bar.value_or(0))
-      names.push_back(ranked.name);
-  return names;
+bool has_moduli(const RankedDesign& ranked) {
+  return ranked.misfit && *ranked.misfit <= msm::told_moduli_misfit;
+}
+
+/// What the reference's uncertainty does not tell from the smallest error, and what speaks for the
+/// recommended design.  @param all  Ranking::best()
+std::string others_text(const std::vector<const RankedDesign*>& all, const RankedDesign& own) {
+  if (all.size() < 2) return "";
+  std::vector<std::string> names, without_moduli;
+  std::size_t n_alike = 0;
+  for (const RankedDesign* one : all) {
+    if (one != all.front()) names.push_back(one->name);
+    if (has_moduli(*one) == has_moduli(own))
+      ++n_alike;
+    else
+      without_moduli.push_back(one->name);
+  }
+  std::vector<std::string> reasons;
+  if (!without_moduli.empty())
+    reasons.push_back(fmt::format("the lattice of {} has the material's moduli, unlike that of {}", own.name,
+                                  fmt::join(without_moduli, ", ")));
+  if (n_alike > 1)
+    reasons.push_back(
+        fmt::format("{} is the fastest of {}", own.name, without_moduli.empty() ? "them" : "the rest"));
+  return fmt::format(" The uncertainty of the reference does not tell {} from {}: {}.",
+                     &own == all.front() ? "it" : "the smallest error, of " + all.front()->name + ",",
+                     fmt::join(names, ", "), fmt::join(reasons, ", and "));
 }
 
 } // namespace
 
+std::vector<const RankedDesign*> Ranking::best() const {
+  std::vector<const RankedDesign*> found;
+  for (const RankedDesign& ranked : designs) {
+    if (!ranked.worst || !ranked.is_stable) continue;
+    if (found.empty() || *ranked.worst - ranked.worst_bar.value_or(0) <
+                             *found.front()->worst + found.front()->worst_bar.value_or(0))
+      found.push_back(&ranked);
+  }
+  return found;
+}
+
 const RankedDesign* Ranking::recommended() const {
-  for (const RankedDesign& ranked : designs)
-    if (ranked.worst && ranked.is_stable) return &ranked;
-  return nullptr;
+  const std::vector<const RankedDesign*> all = best();
+  const auto place = [](const RankedDesign* ranked) {
+    return std::tuple(!has_moduli(*ranked), ranked->milliseconds);
+  };
+  const auto first =
+      std::min_element(all.begin(), all.end(),
+                       [&](const RankedDesign* a, const RankedDesign* b) { return place(a) < place(b); });
+  return first == all.end() ? nullptr : *first;
 }
 
 bool Ranking::is_sound() const {
@@ -166,13 +216,11 @@ std::string verdict_of(const Comparison& comparison) {
   own.measures = comparison.measures;
   add_errors(own, comparison);
   if (!own.worst) return "Both models are in equilibrium; " + own.failure + ".";
-  const std::optional<double> fem_error = worst_of_fem(own);
-  return fmt::format(
-      "The springs err by up to {} % ({}){} against {}{}.", worst_text(own), own.worst_at,
-      own.worst_volume ? fmt::format(", in volume by up to {} %", two_digits(own.worst_volume)) : "",
-      own.worst_bar ? "the limit of the finite elements" : "finite elements on the same mesh",
-      fem_error ? fmt::format(", which themselves err by up to {} % on this mesh", two_digits(fem_error))
-                : "");
+  return fmt::format("The springs err by up to {} % ({}){} against {}, {}.", worst_text(own), own.worst_at,
+                     own.worst_volume ? fmt::format(", in volume by up to {} %", two_digits(own.worst_volume))
+                                      : "",
+                     own.worst_bar ? "the limit of the finite elements" : "finite elements on the same mesh",
+                     error_of_fem_text(own));
 }
 
 std::string advice_of(const Ranking& ranking) {
@@ -180,30 +228,33 @@ std::string advice_of(const Ranking& ranking) {
     return fmt::format("There is no reference: finite elements: {}", ranking.fem.solution.message);
   const RankedDesign* best = ranking.recommended();
   if (!best) return "No design has a stable equilibrium under the whole load here.";
-  const std::vector<std::string> others = as_good_as(ranking, *best);
-  const std::optional<double> fem_error = worst_of_fem(*best);
+  const double milliseconds = 1e3 * ranking.fem.seconds();
   return fmt::format(
-      "Use {} here: errors up to {} % ({}){}, stable, in {:.0f} ms against {:.0f} ms of the finite "
-      "elements{}.{}",
+      "Use {} here: errors up to {} % ({}){}, stable, in {:.1f} ms, {} than the {:.1f} ms of the finite "
+      "elements, {}.{}{}",
       best->name, worst_text(*best), best->worst_at,
       best->worst_volume ? fmt::format(", volume within {} %", two_digits(best->worst_volume)) : "",
-      best->milliseconds, 1e3 * ranking.fem.seconds(),
-      fem_error ? fmt::format(", which err by up to {} % on this mesh", two_digits(fem_error)) : "",
-      others.empty() ? ""
-                     : fmt::format(" The uncertainty of the reference does not tell it from {}.",
-                                   fmt::join(others, ", ")));
+      best->milliseconds, best->milliseconds < milliseconds ? "less" : "not less", milliseconds,
+      error_of_fem_text(*best), others_text(ranking.best(), *best),
+      has_moduli(*best) || !best->misfit ? ""
+                                         : " Its lattice has other moduli than the material's: what it errs "
+                                           "by elsewhere is another matter.");
 }
 
 void write_ranking_text(std::ostream& out, const Ranking& ranking) {
   print(out, "{}: designs by their worst error against {}\n", ranking.case_name, reference_text(ranking));
-  print(out, "  {:<17}{:>14}  {:<12}{:>9}{:>8}{:>9}  {}\n", "design", "worst %", "where", "volume %",
-        "stable", "ms", "springs");
+  print(out, "  {:<17}{:>14}  {:<12}{:>9}{:>8}{:>8}{:>9}  {}\n", "design", "worst %", "where", "volume %",
+        "stable", "moduli", "ms", "springs");
   const RankedDesign* best = ranking.recommended();
   for (const RankedDesign& ranked : ranking.designs)
     if (ranked.worst)
-      print(out, "{} {:<17}{:>14}  {:<12}{:>9}{:>8}{:>9.1f}  {}\n", &ranked == best ? ">" : " ", ranked.name,
-            worst_text(ranked), ranked.worst_at, two_digits(ranked.worst_volume),
-            ranked.is_stable ? "yes" : "NO", ranked.milliseconds, ranked.springs);
+      print(out, "{} {:<17}{:>14}  {:<12}{:>9}{:>8}{:>8}{:>9.1f}  {}\n", &ranked == best ? ">" : " ",
+            ranked.name, worst_text(ranked), ranked.worst_at, two_digits(ranked.worst_volume),
+            ranked.is_stable ? "yes" : "NO",
+            !ranked.misfit       ? "-"
+            : has_moduli(ranked) ? "yes"
+                                 : "NO",
+            ranked.milliseconds, ranked.springs);
     else
       print(out, "  {:<17}{}: {}\n", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
             ranked.refusal.empty() ? ranked.failure : ranked.refusal);
@@ -227,6 +278,7 @@ nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
                        {"worst_at", text_or_null(ranked.worst_at)},
                        {"worst_volume_error_percent", ranked.worst_volume},
                        {"stable", is_solved ? Json(ranked.is_stable) : Json(nullptr)},
+                       {"has_moduli", ranked.misfit ? Json(has_moduli(ranked)) : Json(nullptr)},
                        {"milliseconds", is_solved ? Json(ranked.milliseconds) : Json(nullptr)},
                        {"springs", text_or_null(ranked.springs)},
                        {"errors_percent", errors}});

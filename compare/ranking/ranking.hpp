@@ -20,7 +20,8 @@ struct RankedDesign {
   std::string worst_at{};                        ///< the measure
   std::optional<double> worst_bar{};             ///< points: what the reference's uncertainty leaves of worst
   bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
-  double milliseconds = 0;                       ///< design, setup and solve
+  std::optional<double> misfit{}; ///< msm::ModuliMisfit::largest of the lattice, where it is known
+  double milliseconds = 0;        ///< design, setup and solve
   std::vector<MeasuredValue> measures{};
   std::vector<Gate> gates{}; ///< of the case's expectations; empty when it was refused
 };
@@ -33,7 +34,10 @@ struct Ranking {
   std::vector<Gate> gates{}; ///< of the case's expectations, by the case's own design; where that is not
                              ///< among the designs, what is expected of springs is not judged
 
-  /// The stable design of the smallest worst error; null when there is none.
+  /// The stable design of the smallest worst error and those whose error bars meet its own.
+  std::vector<const RankedDesign*> best() const;
+  /// Of the best: one whose lattice has the material's moduli before others, then the fastest; null when
+  /// there is none.
   const RankedDesign* recommended() const;
   /// The success of `run --designs`: a design is recommended, and no expectation is missed.
   bool is_sound() const;
@@ -57,10 +61,11 @@ void sort_by_error(std::vector<RankedDesign>& designs);
 void write_ranking_text(std::ostream& out, const Ranking& ranking);
 
 /// What a case's own springs come to, in a sentence: their worst errors, with the reference's uncertainty,
-/// and the finite elements' own; or why there is nothing to compare.
+/// and the finite elements' own, of the measures whose limit is known; or why there is nothing to compare.
 std::string verdict_of(const Comparison& comparison);
 
-/// The sentence. Of designs that the reference's uncertainty does not tell apart from the best it says so.
+/// The sentence: the design, its numbers as the table has them, the finite elements' own error as far as it
+/// is known, what the reference's uncertainty does not tell it from, and why it and not those.
 std::string advice_of(const Ranking& ranking);
 
 nlohmann::ordered_json ranking_to_json(const Ranking& ranking);

@@ -15,7 +15,7 @@ function verdict() {
       [what, unknowns, is_cut_off ? `; ${solver_words(of.message)}` : ""]);
   };
   const met = one_case.expectations.filter((one) => one.met).length;
-  return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replace("+-", "±"))),
+  return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replaceAll("+-", "±"))),
     make("div", { class: "tiles" }, side("finite elements", one_case.fem, words(one_case.formulation)),
       side("springs", one_case.msm, one_case.msm.source ? `displacements of ${one_case.msm.source}` : in_words(one_case.design)),
       one_case.expectations.length > 0 &&
@@ -75,14 +75,14 @@ function measures() {
 function ranked() {
   if (!report.ranking) return null;
   const { designs: all, recommended, advice: sentence, reference } = report.ranking;
-  const name = (d) => (d.design === recommended ? make("strong", null, in_words(d.design), " (best)") : in_words(d.design));
+  const name = (d) => (d.design === recommended ? make("strong", null, in_words(d.design), " (recommended)") : in_words(d.design));
   const reason = (d) => (d.refused ? "refused: " + d.refused : d.failed ? "failed: " + solver_words(d.failed) : null);
   const with_bar = (value, bar) => (missing(value) ? "–" : number(value) + (missing(bar) ? "" : ` ± ${general(bar, 2)}`));
   const line = (d) => row([row_head([name(d), reason(d) && make("small", { class: "reason" }, reason(d))]),
     cell(with_bar(d.worst_error_percent, d.worst_error_uncertainty_percent)), text_cell(d.worst_at ? typeset(d.worst_at) : "–"),
-    cell(number(d.worst_volume_error_percent)), text_cell(missing(d.stable) || d.failed ? "–" : d.stable ? "stable" : "unstable"),
+    cell(number(d.worst_volume_error_percent)), text_cell(missing(d.stable) || d.failed ? "–" : (d.stable ? "stable" : "unstable") + (d.has_moduli === false ? ", other moduli" : "")),
     cell(missing(d.milliseconds) ? "–" : general(d.milliseconds, 3))], d.design === recommended ? "recommended" : undefined);
-  return [make("p", { class: "answer" }, typeset(sentence.replace("+-", "±"))),
+  return [make("p", { class: "answer" }, typeset(sentence.replaceAll("+-", "±"))),
     table("ranking", ["Designs by their worst error against ", words(reference)], row([text_head("design"), head("worst |error|, %"),
       text_head("of"), head("volume, %"), text_head("equilibrium"), head("time, ms")]), body(all.map(line)))];
 }

@@ -5,7 +5,12 @@
 #include "compare/provenance/machine.hpp"
 #include "tests/support/largest.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
+#include <random>
+#include <regex>
+#include <set>
 #include <sstream>
 
 using namespace springproof;
@@ -57,7 +62,92 @@ TEST_CASE("the sentence names the designs that the reference's uncertainty does 
   CHECK_THAT(compare::advice_of(ranking), !Catch::Contains("does not tell"));
   for (RankedDesign& ranked : ranking.designs) ranked.worst_bar = 0.3;
   CHECK_THAT(compare::advice_of(ranking), Catch::Contains("errors up to 3.00 +- 0.3 %") &&
-                                              Catch::Contains("does not tell it from close."));
+                                              Catch::Contains("does not tell it from close: "));
+}
+
+// Other sentences that advise: verdict_of(), which shares the clause on the finite elements, and the advice
+// of `tables`, which ranks by both load sets and has no bars.
+TEST_CASE("the advice has the numbers of the table, and its reasons hold for them") {
+  std::mt19937 chance(7);
+  const auto any = [&](double most) { return most * (double(chance()) / 4294967295.0); };
+  for (int round = 0; round < 200; ++round) {
+    compare::Ranking ranking{"case", {}, {}};
+    ranking.fem.solution.status = cases::Status::converged;
+    ranking.fem.solve_seconds = any(0.02);
+    const bool has_limits = any(1) < 0.8;
+    for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
+      RankedDesign ranked = with_error(name, any(10), any(1) < 0.8);
+      ranked.worst_at = "shift";
+      if (has_limits) ranked.worst_bar = any(4);
+      if (any(1) < 0.8) ranked.misfit = any(0.1);
+      ranked.milliseconds = any(20);
+      ranking.designs.push_back(ranked);
+    }
+    compare::sort_by_error(ranking.designs);
+    const std::string advice = compare::advice_of(ranking);
+    CAPTURE(advice);
+    std::map<std::string, const RankedDesign*> row;
+    for (const RankedDesign& ranked : ranking.designs) row[ranked.name] = &ranked;
+    std::smatch use;
+    if (!std::regex_search(advice, use,
+                           std::regex("Use (.) here: errors up to ([0-9.]+)( \\+- ([0-9.]+))? %.* in "
+                                      "([0-9.]+) ms, (less|not less) than the ([0-9.]+) ms"))) {
+      for (const RankedDesign& ranked : ranking.designs) CHECK_FALSE(ranked.is_stable);
+      continue;
+    }
+    const RankedDesign& best = *row.at(use[1]);
+    const auto has_moduli = [](const RankedDesign& r) { return r.misfit && *r.misfit <= 0.05; };
+    CHECK(best.is_stable);
+    CHECK(std::stod(use[2]) == Approx(*best.worst).margin(0.005)); // as printed
+    CHECK(use[4].matched == has_limits);
+    CHECK((use[6] == "less") == (best.milliseconds < 1e3 * ranking.fem.seconds()));
+    CHECK_THAT(advice, Catch::Contains("whose own error on this mesh is not known"));
+    std::smatch listed;
+    std::set<std::string> others;
+    if (std::regex_search(advice, listed,
+                          std::regex("does not tell (it|the smallest error, of .,) from ([^:]+):")))
+      for (const char c : listed.str(2))
+        if (row.count(std::string(1, c)) > 0) others.insert(std::string(1, c));
+    const auto lowest = std::find_if(ranking.designs.begin(), ranking.designs.end(),
+                                     [](const RankedDesign& r) { return r.is_stable; });
+    const double reach = *lowest->worst + lowest->worst_bar.value_or(0);
+    for (const RankedDesign& ranked : ranking.designs) {
+      const bool is_close = &ranked == &*lowest || *ranked.worst - ranked.worst_bar.value_or(0) < reach;
+      CHECK((&ranked == &*lowest || others.count(ranked.name) > 0) == (ranked.is_stable && is_close));
+      if (&ranked != &*lowest && others.count(ranked.name) == 0) continue;
+      CHECK((has_moduli(best) || !has_moduli(ranked)));
+      if (has_moduli(best) == has_moduli(ranked)) CHECK(best.milliseconds <= ranked.milliseconds);
+    }
+    CHECK((advice.find("Its lattice has other moduli") != std::string::npos) ==
+          (best.misfit && !has_moduli(best)));
+  }
+}
+
+TEST_CASE(
+    "the finite elements' error is of the measures whose limit is known, and the sentence counts them") {
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  RankedDesign own = with_error("hybrid", 3, true);
+  own.measures = {{"shift", "mm", 1, 1.03, 3}, {"volume", "mm3", 1000, 1000, 0}};
+  own.measures[1].fem_limit = compare::Limit{};
+  own.measures[1].fem_limit->value = 1000;
+  own.measures[1].fem_limit->uncertainty = 1;
+  own.measures[1].fem_error_percent = 0;
+  ranking.designs = {own};
+  CHECK_THAT(
+      compare::advice_of(ranking),
+      Catch::Contains("which themselves err by up to 0.00 +- 0.1 % on this mesh in the 1 of 2 measures whose "
+                      "limit is known."));
+  own.measures[0].fem_limit = own.measures[1].fem_limit;
+  own.measures[0].fem_limit->value = 1.02;
+  own.measures[0].fem_limit->uncertainty = 0.0204;
+  own.measures[0].fem_error_percent = -1.96;
+  ranking.designs = {own};
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("err by up to 1.96 +- 2 % on this mesh."));
+  for (compare::MeasuredValue& measured : own.measures)
+    measured.fem_limit.reset(), measured.fem_error_percent.reset();
+  ranking.designs = {own};
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("whose own error on this mesh is not known."));
 }
 
 TEST_CASE("without a stable design none is recommended, and the sentence says so") {
