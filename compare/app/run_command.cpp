@@ -58,9 +58,22 @@ int run_designs(const RunOptions& options) {
   check_memory(questions);
   nlohmann::ordered_json document{{"schema", 1}, {"cases", nlohmann::ordered_json::array()}};
   bool failed = false;
+  ProgressLine line(1);
+  const auto models_of = [&](const Question& question) {
+    std::vector<Estimate> models = estimate(question);
+    models.insert(models.end(), designs_of(options.designs, question.scene.definition).size(),
+                  estimate_springs(size_of(question.scene)));
+    return models;
+  };
+  for (const Question& question : questions) line.expect({1, total_seconds(models_of(question))});
   for (const Question& question : questions) {
+    const cases::Case& definition = question.scene.definition;
+    std::optional<ProgressLine::Shown> shown(std::in_place, line, definition.name,
+                                             total_seconds(models_of(question)),
+                                             long_solve_text(definition.name, estimate(question)));
     const Ranking ranking =
-        rank_designs(question.scene, designs_of(options.designs, question.scene.definition), options.meshes);
+        rank_designs(question.scene, designs_of(options.designs, definition), options.meshes);
+    shown.reset();
     if (mpi_rank() != 0) {
       failed = failed || !ranking.fem.converged();
       continue;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds interval(300); ///< between two drawings; what is shorter shows none
 constexpr int bar_width = 20;
+constexpr double long_seconds = 60; ///< of work that is told of where there is no terminal
 constexpr double prior_seconds = 2; ///< finished work that corrects estimates half way
 
 std::size_t columns() {
@@ -58,7 +59,16 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", minutes / 60, minutes % 60, s % 60);
 }
 
-ProgressLine::ProgressLine(int n_workers) : is_shown_(mpi_rank() == 0 && isatty(STDERR_FILENO) == 1) {
+double told_first(double estimated_seconds) {
+  return estimated_seconds > long_seconds ? 0 : long_seconds;
+}
+
+double told_next(double told) {
+  return std::max(long_seconds, 2 * told);
+}
+
+ProgressLine::ProgressLine(int n_workers)
+    : is_here_(mpi_rank() == 0), is_terminal_(isatty(STDERR_FILENO) == 1) {
   remaining_.n_workers = n_workers;
 }
 
@@ -85,10 +95,10 @@ void ProgressLine::skip(double estimated_seconds) {
 }
 
 void ProgressLine::begin(const std::string& name, double estimated_seconds, const std::string& note) {
-  if (!is_shown_) return;
+  if (!is_here_) return;
   const std::lock_guard lock(mutex_);
-  running_.push_back({name, estimated_seconds, now()});
-  if (!note.empty()) {
+  running_.push_back({name, note, estimated_seconds, now(), told_first(estimated_seconds)});
+  if (is_terminal_ && !note.empty()) {
     clear();
     show(within_columns(one_line(note)) + '\n');
   }
@@ -96,7 +106,7 @@ void ProgressLine::begin(const std::string& name, double estimated_seconds, cons
 }
 
 void ProgressLine::finish(const std::string& name) {
-  if (!is_shown_) return;
+  if (!is_here_) return;
   const std::lock_guard lock(mutex_);
   const auto piece = std::find_if(running_.begin(), running_.end(),
                                   [&](const Piece& running) { return running.name == name; });
@@ -115,8 +125,26 @@ double ProgressLine::now() const {
 
 void ProgressLine::draw_now_and_then() {
   std::unique_lock lock(mutex_);
-  while (!wake_.wait_for(lock, interval, [this] { return is_over_; }))
-    if (!running_.empty()) draw();
+  while (!wake_.wait_for(lock, interval, [this] { return is_over_; })) {
+    if (running_.empty()) continue;
+    if (is_terminal_)
+      draw();
+    else
+      tell_of_long_pieces();
+  }
+}
+
+void ProgressLine::tell_of_long_pieces() {
+  for (Piece& piece : running_) {
+    const double ran = now() - piece.begun_at;
+    if (ran < piece.tell_after) continue;
+    const std::string what =
+        piece.tell_after > 0  ? fmt::format("{}: {} so far", piece.name, clock_text(ran))
+        : !piece.note.empty() ? piece.note
+                              : fmt::format("{}: about {}", piece.name, clock_text(piece.estimated_seconds));
+    show(one_line(what) + '\n');
+    piece.tell_after = told_next(piece.tell_after);
+  }
 }
 
 void ProgressLine::draw() {

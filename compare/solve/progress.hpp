@@ -33,9 +33,14 @@ struct Remaining {
 /// "0:42", "12:05", "1:02:03"
 std::string clock_text(double seconds);
 
+/// When a piece of work that is not shown on a terminal is told of, seconds after its beginning: at once if
+/// it is expected to take more than a minute, else after one; then whenever it has taken twice as long again.
+double told_first(double estimated_seconds);
+double told_next(double told);
+
 /// One line on standard error about what a command is doing, how much is done, and about how long the rest
-/// takes: on a terminal, by rank 0, while a piece of work is being done; nothing anywhere else, and nothing
-/// that stays.
+/// takes: on a terminal, by rank 0, while a piece of work is being done, and nothing that stays. Elsewhere,
+/// in a pipe or a file, lines that stay, of pieces of more than a minute alone.
 class ProgressLine {
  public:
   explicit ProgressLine(int n_workers);
@@ -68,15 +73,17 @@ class ProgressLine {
 
  private:
   struct Piece {
-    std::string name;
-    double estimated_seconds, begun_at;
+    std::string name, note;
+    double estimated_seconds, begun_at, tell_after;
   };
   double now() const;
   void draw_now_and_then();
   void draw();
+  void tell_of_long_pieces();
   void clear();
 
-  const bool is_shown_;
+  const bool is_here_;     ///< on rank 0
+  const bool is_terminal_; ///< else a pipe or a file
   Remaining remaining_;
   std::list<Piece> running_;
   std::size_t n_drawn_ = 0; ///< characters of the line that stands there

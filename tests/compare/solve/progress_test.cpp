@@ -4,6 +4,18 @@
 
 using springproof::compare::clock_text;
 using springproof::compare::Remaining;
+using springproof::compare::told_first;
+using springproof::compare::told_next;
+
+TEST_CASE("without a terminal, work of more than a minute is told of at its beginning or when the minute is "
+          "over, and "
+          "again and again") {
+  CHECK(told_first(61) == 0);
+  CHECK(told_first(59) == 60);
+  CHECK(told_next(0) == 60);
+  CHECK(told_next(60) == 120);
+  CHECK(told_next(120) == 240);
+}
 
 TEST_CASE("before anything is finished, what is left is what was estimated") {
   Remaining r;
