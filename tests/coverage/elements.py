@@ -352,16 +352,23 @@ class Body:
     def at(self, point):
         return self.grid.sample(self.u, [[x] for x in point])[0, 0, 0]
 
-    def stress_at(self, point, component):
-        """Cauchy stress at a point of a box, which lies inside of a material."""
-        h, law = self.grid.sample(self.u, [[x] for x in point], gradient=True)[0, 0, 0], self.laws[0]
+    def cell_stress(self, point, component):
+        """Mean of the Cauchy stress of a linear body over the cell of the case's own mesh that holds a point of a box."""
+        size, cells = self.grid.body["size"], self.grid.body["cells"]
+        places, weights = [], []
+        for d in range(3):
+            h = size[d] / cells[d]
+            low = np.floor(point[d] / h + 1e-9) * h
+            ends = np.array([low, *(x for x in self.grid.lines[d] if low + 1e-9 < x < low + h - 1e-9), low + h])
+            g, w = legendre.leggauss(self.grid.p + 1)
+            places.append(((ends[:-1, None] + ends[1:, None]) / 2 + (ends[1:, None] - ends[:-1, None]) / 2 * g).ravel())
+            weights.append(((ends[1:, None] - ends[:-1, None]) / 2 * w).ravel())
+        law = self.laws[0]
         for n, ((low, high), _) in enumerate(self.problem["inclusions"], 1):
             if all(low[d] < point[d] < high[d] for d in range(3)):
                 law = self.laws[n]
-        stress, f = law.stress(h), h + np.eye(3)
-        if not law.linear:
-            stress = stress @ f.T / np.linalg.det(f)
-        return stress[AXES.index(component[0]), AXES.index(component[1])]
+        stress = law.stress(self.grid.sample(self.u, places, gradient=True))[..., AXES.index(component[0]), AXES.index(component[1])]
+        return np.einsum("abc,a,b,c", stress, *weights) / np.prod([w.sum() for w in weights])
 
     def measure(self, m):
         kind = m["kind"]
@@ -376,7 +383,7 @@ class Body:
         if kind == "reaction":
             return (self.internal_force - self.load)[self.grid.nodes_on(m)].sum(0)[AXES.index(m["component"])]
         if kind == "stress":
-            return self.stress_at(m["point"], m["component"])
+            return self.cell_stress(m["point"], m["component"])
         if kind == "tilt":
             after = self.grid.map(np.array(m["top"], float))[0] - self.grid.map(np.array(m["bottom"], float))[0]
             after = after + self.at(m["top"]) - self.at(m["bottom"])
