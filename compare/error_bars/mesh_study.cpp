@@ -15,9 +15,10 @@ using VectorField = std::vector<Eigen::Vector3d>;
 
 constexpr double mesh_ratio = 2;
 constexpr double with_order = 1.25, without_order = 3; ///< safety factors on what is left to the limit
-constexpr double highest_power = 4; ///< mesh_ratio to the order 2 of trilinear elements: more is an accident
-constexpr double same_order = 0.3;  ///< in how far the orders of two steps may differ
-constexpr double rounding = 1e-9;   ///< of a value, that a solve leaves undecided
+constexpr double highest_power = 4;  ///< mesh_ratio to the order 2 of trilinear elements: more is an accident
+constexpr double same_order = 0.3;   ///< in how far the orders of two steps may differ
+constexpr double rounding = 1e-9;    ///< of a value, that a solve leaves undecided
+constexpr double above_formal = 0.3; ///< of an observed order: more is an accident
 
 /// a + factor (a - b)
 VectorField beyond(const VectorField& a, double factor, const VectorField& b) {
@@ -39,6 +40,16 @@ bool is_confirmed(double power, double power_before) {
 }
 
 const char* const unconfirmed = "an order that no second step confirms";
+const char* const turning = "the values oscillate";
+
+std::string accident(double power, double formal_order) {
+  return fmt::format("an order of {:.1f}, which elements of order {:.0f} show by accident", std::log2(power),
+                     formal_order);
+}
+
+bool is_accident(double power, double formal_order) {
+  return power > std::pow(mesh_ratio, formal_order + above_formal);
+}
 
 } // namespace
 
@@ -70,7 +81,12 @@ double discretisation_error_percent(double value, const MeshLimit& limit) {
   return 100 * safety_factor * std::abs((value - limit.extrapolated) / value);
 }
 
-std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine, double highest_order) {
+double formal_order(cases::Element element) {
+  return element == cases::Element::q2 || element == cases::Element::q2_p1 ? 4 : 2;
+}
+
+std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine, double highest_order,
+                                            double formal_order) {
   assert(!coarse_to_fine.empty());
   const std::size_t n = coarse_to_fine.size();
   const auto value = [&](std::size_t from_finest) { return coarse_to_fine[n - 1 - from_finest]; };
@@ -85,7 +101,9 @@ std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to
   if (!(std::abs(power) > 1))
     return fmt::format("the values do not draw nearer: {:.6g}, {:.6g}, {:.6g} from coarse to fine", value(2),
                        value(1), value(0));
-  if (power < 0) return Limit{value(0), without_order * std::abs(last), "the values oscillate"};
+  if (power < 0) return Limit{value(0), std::abs(change(1)), turning, true}; // the larger change
+  if (is_accident(power, formal_order))
+    return Limit{value(0), std::abs(change(1)), accident(power, formal_order), true};
   const double step = last / (std::min(power, std::pow(mesh_ratio, highest_order)) - 1);
   const bool confirmed = n > 3 && is_confirmed(power, change(2) / change(1));
   return Limit{value(0) + step, (confirmed ? with_order : without_order) * std::abs(step),
@@ -93,7 +111,8 @@ std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to
 }
 
 std::variant<FieldLimit, std::string>
-find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm) {
+find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm,
+           double formal_order) {
   assert(!coarse_to_fine.empty());
   const std::size_t n = coarse_to_fine.size();
   const auto field = [&](std::size_t from_finest) -> const VectorField& {
@@ -108,8 +127,15 @@ find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fin
     return FieldLimit{field(0), three_changes, "the two finest meshes agree"};
   if (n == 2) return FieldLimit{field(0), three_changes, "two meshes, which show no order"};
   // The distances of two meshes to a third, finer one are in the ratio (r^2p - 1)/(r^p - 1) = r^p + 1.
-  const double power = distance(0, 2) / last - 1;
-  if (!(power > 1)) return "the displacements do not draw nearer to each other";
+  const double power = distance(0, 2) / last - 1, before = distance(1, 2);
+  if (!(last < before))
+    return fmt::format(
+        "the displacements do not draw nearer to each other: they change by {:.4g} and {:.4g} mm in "
+        "the mean over the last meshes",
+        before, last);
+  if (!(power > 1) || is_accident(power, formal_order))
+    return FieldLimit{field(0), difference(1, field(1), field(2)),
+                      power > 1 ? accident(power, formal_order) : turning, true};
   const bool confirmed = n > 3 && is_confirmed(power, distance(1, 3) / distance(1, 2) - 1);
   const double part = 1 / (std::min(power, highest_power) - 1);
   return FieldLimit{beyond(field(0), part, field(1)),
@@ -120,13 +146,17 @@ find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fin
 namespace {
 
 /// The order and the error bar of the finite elements on the case's own mesh.
-void find_order(StudiedMeasure& studied, std::size_t own) {
+void find_order(StudiedMeasure& studied, std::size_t own, double formal_order) {
   if (studied.values.size() < 3) {
     studied.reason = "fewer than three meshes show no order";
     return;
   }
   const MeshVerdict verdict = judge_refinement(studied.values, mesh_ratio);
   if (const auto* limit = std::get_if<MeshLimit>(&verdict)) {
+    if (const double power = std::pow(mesh_ratio, limit->order); is_accident(power, formal_order)) {
+      studied.reason = accident(power, formal_order);
+      return;
+    }
     studied.limit = *limit;
     studied.discretisation_error_percent = discretisation_error_percent(studied.values[own], *limit);
   } else {
@@ -136,23 +166,26 @@ void find_order(StudiedMeasure& studied, std::size_t own) {
 
 /// Norms of the displacement have the limit of the field.
 void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const FieldNorm& norm,
-                    const std::variant<FieldLimit, std::string>& field) {
+                    const std::variant<FieldLimit, std::string>& field, double formal_order) {
   if (!is_field_norm(kind)) {
-    auto limit = find_limit(studied.values);
+    auto limit = find_limit(studied.values, 2, formal_order);
     if (const auto* found = std::get_if<Limit>(&limit))
       studied.reference = *found;
     else
       studied.no_reference = std::get<std::string>(limit);
   } else if (const auto* found = std::get_if<FieldLimit>(&field)) {
-    studied.reference = Limit{norm(found->value), norm(found->uncertainty), found->note};
-  } else {
-    studied.no_reference = std::get<std::string>(field);
+    studied.reference = Limit{norm(found->value), norm(found->uncertainty), found->note, found->turns};
+  } else { // the norm's own values may show an order that the field does not have
+    studied.reason = studied.no_reference = std::get<std::string>(field);
+    studied.limit.reset();
+    studied.discretisation_error_percent.reset();
   }
 }
 
 } // namespace
 
 MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine) {
+  const double order = formal_order(scene.definition.fem.element);
   MeshStudy study;
   study.refine = meshes.refine;
   std::vector<const VectorField*> fields;
@@ -169,7 +202,7 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
   const auto& measures = scene.definition.measures;
   if (!fields.empty() && std::any_of(measures.begin(), measures.end(),
                                      [](const cases::Measure& m) { return is_field_norm(m.kind); }))
-    field = find_limit(fields, norm_of(cases::MeasureKind::displacement_field_l2));
+    field = find_limit(fields, norm_of(cases::MeasureKind::displacement_field_l2), order);
   for (const cases::Measure& measure : measures) {
     StudiedMeasure& studied = study.measures.emplace_back();
     studied.name = measure.name;
@@ -185,8 +218,8 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
           is_everywhere ? meshes.reason : "its course over time has no such number on some mesh";
       continue;
     }
-    find_order(studied, cases::index(own_refine - meshes.refine.front()));
-    find_reference(studied, measure.kind, norm_of(measure.kind), field);
+    find_order(studied, cases::index(own_refine - meshes.refine.front()), order);
+    find_reference(studied, measure.kind, norm_of(measure.kind), field, order);
   }
   if (auto* found = std::get_if<FieldLimit>(&field)) study.field = std::move(*found);
   return study;

@@ -39,19 +39,26 @@ struct Limit {
   double value;       ///< in the quantity's unit
   double uncertainty; ///< >= 0, in the same unit: the limit is expected within value -+ uncertainty
   std::string note;   ///< how it was found; empty: extrapolated with an order that two steps confirm
+  /// Whether the last two changes show no convergence: of opposite sign, or of an order that the elements do
+  /// not have. Two parts of the error then nearly cancel, and one more mesh has to show where the values go.
+  bool turns = false;
 };
+
+/// The highest order of an element's displacements, 2 or 4; a higher one that is observed is an accident.
+double formal_order(cases::Element element);
 
 /// The limit of a sequence, or why none is approached. From three meshes that draw nearer to each other the
 /// extrapolated value, with Roache's factor of 1.25 times its distance to the finest value once the mesh
 /// before shows the same order to within 0.3, and of 3 as long as the order is not confirmed (Oberkampf and
-/// Roy, Verification and Validation in Scientific Computing, 2010, section 8.7); an observed order above 2,
-/// that of trilinear elements, counts as 2. From two meshes, and where the values oscillate but draw nearer,
-/// the finest value -+ three times the last change: the order 1 is assumed, the least that an edge of the
-/// boundary leaves.
+/// Roy, Verification and Validation in Scientific Computing, 2010, section 8.7); an observed order above
+/// `highest_order` counts as that. From two meshes the finest value -+ three times the last change: the order
+/// 1 is assumed, the least that an edge of the boundary leaves. Where the values turn, the finest value -+
+/// the larger of the last two changes.
 /// @param coarse_to_fine  one value or more, of meshes each of half the width of the one before
 /// @param highest_order   what an observed order above it counts as
+/// @param formal_order    the elements': values whose observed order is more than 0.3 above it turn
 std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine,
-                                            double highest_order = 2);
+                                            double highest_order = 2, double formal_order = 2);
 
 /// The same of a field of vectors on nodes that all meshes have. The order is that of the distances in the
 /// norm, so that the field is extrapolated as a whole.
@@ -59,10 +66,12 @@ struct FieldLimit {
   std::vector<Eigen::Vector3d> value;
   std::vector<Eigen::Vector3d> uncertainty; ///< whose norm, in any norm, is the uncertainty in that norm
   std::string note;
+  bool turns = false; ///< as of Limit
 };
 using FieldNorm = std::function<double(const std::vector<Eigen::Vector3d>&)>;
 std::variant<FieldLimit, std::string>
-find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm);
+find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fine, const FieldNorm& norm,
+           double formal_order = 2);
 
 /// One measure on the meshes of a study.
 struct StudiedMeasure {

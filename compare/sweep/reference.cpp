@@ -56,7 +56,7 @@ std::optional<double> difference_percent(const cases::Scene& scene, const Field&
 
 /// The finest value with three times the last change where no limit is approached.
 ReferenceValue judge(const std::string& name, const std::string& unit, const std::vector<double>& values) {
-  const auto found = find_limit(values, 4); // of triquadratic elements, where everything is smooth
+  const auto found = find_limit(values, 4, 4); // of triquadratic elements, where everything is smooth
   const double finest = values.back();
   const auto percent = [&](double uncertainty) { return 100 * std::abs(uncertainty / finest); };
   if (const auto* limit = std::get_if<Limit>(&found))
