@@ -1,5 +1,6 @@
 #include "fem_reference/element_fields.hpp"
 
+#include "cases/scene/masses.hpp"
 #include "mechanics/hexahedron.hpp"
 
 namespace springproof::fem_reference {
@@ -54,11 +55,29 @@ void ElementFields::add(const ElementState& element) {
   sum.energy() += energy;
 }
 
+namespace {
+
+/// Loads that elements share out among nodes as the scene does: all, but for what regions of a refined mesh
+/// share by its own nodes, and the weight of cells that are no boxes.
+mechanics::Balance balance_of(const cases::Scene& scene) {
+  const bool has_gravity = !cases::gravity(scene).isZero(0);
+  bool is_shared_by_nodes = has_gravity && !scene.masses.empty();
+  for (const auto& applied : scene.loads)
+    is_shared_by_nodes = is_shared_by_nodes || applied.load.kind == cases::LoadKind::total_force;
+  const bool differs =
+      (scene.definition.fem.refine > 0 && is_shared_by_nodes) || (has_gravity && !scene.mesh.grid);
+  return differs ? mechanics::Balance::as_a_whole : mechanics::Balance::at_nodes;
+}
+
+} // namespace
+
 cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_factor) {
-  return mechanics::fields_of(scene_, std::move(sums_), sharing, load_factor,
-                              kinematics_ == Kinematics::linear ? mechanics::StrainMeasure::linear
-                                                                : mechanics::StrainMeasure::logarithmic,
-                              cases::PointMass::cells);
+  return mechanics::fields_of(scene_, std::move(sums_), sharing,
+                              {load_factor,
+                               kinematics_ == Kinematics::linear ? mechanics::StrainMeasure::linear
+                                                                 : mechanics::StrainMeasure::logarithmic,
+                               cases::PointMass::cells,
+                               load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene_)});
 }
 
 } // namespace springproof::fem_reference

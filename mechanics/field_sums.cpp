@@ -1,12 +1,15 @@
 #include "mechanics/field_sums.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/scene/masses.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace springproof::mechanics {
 
@@ -42,20 +45,62 @@ std::vector<CellSums> cells_here(FieldSums& sums, const cases::Sharing* sharing)
   return here;
 }
 
-/// @param force  of the nodes that are here, N
+constexpr double tolerance_at_nodes = 1e-6, ///< far above that of solvers, and far below a forgotten load
+    tolerance_as_a_whole = 0.05;
+
+/// Forces on nodes as one, and how large they are.
+struct Resultant {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< N
+  double norm = 0;                                 ///< of all nodes' forces as one vector, N
+};
+
+/// @param forces  of the nodes that are here
+Resultant resultant(const std::vector<Eigen::Vector3d>& forces, const cases::Share& here,
+                    const cases::Sharing* sharing) {
+  Resultant sum;
+  for (std::size_t n = here.own_nodes.begin; n < here.own_nodes.end; ++n) {
+    sum.force += forces[n - here.nodes.begin];
+    sum.norm += forces[n - here.nodes.begin].squaredNorm();
+  }
+  if (sharing) {
+    for (double& component : sum.force) component = sharing->sum(component);
+    sum.norm = sharing->sum(sum.norm);
+  }
+  sum.norm = std::sqrt(sum.norm);
+  return sum;
+}
+
+/// Splits internal forces less applied ones (N, of the nodes that are here) into the supports' reactions and
+/// what is left on free degrees of freedom, which must be nothing of an equilibrium.
 std::vector<Eigen::Vector3d> reactions(const cases::Scene& scene, std::vector<Eigen::Vector3d> force,
-                                       const cases::Range& here, double load_factor,
-                                       cases::PointMass shared) {
-  for (const auto& [node, load] : cases::applied_forces(scene, shared))
-    if (here.has(cases::index(node))) force[cases::index(node) - here.begin] -= load_factor * load;
-  std::vector<Eigen::Vector3d> reaction(force.size(), Eigen::Vector3d::Zero());
+                                       const cases::Share& here, const cases::Sharing* sharing,
+                                       const FieldsOf& of) {
+  std::vector<Eigen::Vector3d> applied(force.size(), Eigen::Vector3d::Zero()), reaction = applied;
+  for (const auto& [node, load] : cases::applied_forces(scene, of.shared))
+    if (here.nodes.has(cases::index(node)))
+      applied[cases::index(node) - here.nodes.begin] += of.load_factor * load;
+  for (std::size_t n = 0; n < force.size(); ++n) force[n] -= applied[n];
   for (const auto& [selection, components] : scene.constrained)
     for (const int node : selection.nodes) {
-      if (!here.has(cases::index(node))) continue;
-      const std::size_t at = cases::index(node) - here.begin;
-      for (std::size_t a = 0; a < 3; ++a)
-        if (components[a]) reaction[at][Eigen::Index(a)] = force[at][Eigen::Index(a)];
+      if (!here.nodes.has(cases::index(node))) continue;
+      const std::size_t at = cases::index(node) - here.nodes.begin;
+      for (Eigen::Index a = 0; a < 3; ++a)
+        if (components[cases::index(static_cast<int>(a))] && force[at][a] != 0)
+          reaction[at][a] = std::exchange(force[at][a], 0);
     }
+  if (of.balance == Balance::not_asked) return reaction;
+  const Resultant loads = resultant(applied, here, sharing), supports = resultant(reaction, here, sharing),
+                  left = resultant(force, here, sharing);
+  const bool is_balanced = of.balance == Balance::at_nodes
+                               ? left.norm <= tolerance_at_nodes * std::max(loads.norm, supports.norm)
+                               : (loads.force + supports.force).norm() <=
+                                     tolerance_as_a_whole * std::max(loads.norm, supports.norm);
+  if (!is_balanced)
+    throw cases::SolveError(fmt::format(
+        "the supports bear ({:.6g}, {:.6g}, {:.6g}) N, and ({:.6g}, {:.6g}, {:.6g}) N are applied: they do "
+        "not balance, by {:.2g} N on the nodes; no answer to this case, and a defect to report",
+        supports.force.x(), supports.force.y(), supports.force.z(), loads.force.x(), loads.force.y(),
+        loads.force.z(), left.norm));
   return reaction;
 }
 
@@ -72,17 +117,16 @@ Matrix3d logarithmic_strain(const Matrix3d& h) {
 }
 
 cases::Fields fields_of(const cases::Scene& scene, FieldSums sums, const cases::Sharing* sharing,
-                        double load_factor, StrainMeasure measure, cases::PointMass shared) {
+                        const FieldsOf& of) {
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   cases::Fields fields;
-  fields.reaction =
-      reactions(scene, forces_here(sums, sharing, scene.mesh.nodes.size()), here.nodes, load_factor, shared);
+  fields.reaction = reactions(scene, forces_here(sums, sharing, scene.mesh.nodes.size()), here, sharing, of);
   for (CellSums& cell : cells_here(sums, sharing)) {
     const Matrix3d gradient = cell.gradient() / cell.rest_volume();
     fields.strain_energy.push_back(cell.energy());
     fields.stress.push_back(in_order(cell.virial() / cell.volume()));
     fields.strain.push_back(
-        in_order(measure == StrainMeasure::linear ? gradient : logarithmic_strain(gradient)));
+        in_order(of.measure == StrainMeasure::linear ? gradient : logarithmic_strain(gradient)));
   }
   fields.total_energy = std::accumulate(fields.strain_energy.begin(), fields.strain_energy.end(), 0.0);
   if (sharing) fields.total_energy = sharing->sum(fields.total_energy);

@@ -57,13 +57,30 @@ class FieldSums {
 /// Linear: small_strain, whose stress and strain do not tell the deformed body from the one at rest.
 enum class StrainMeasure { logarithmic, linear };
 
-/// The fields of an equilibrium under the scene's loads times a factor, each rank's share of them. Reactions
-/// are internal forces less the applied ones, on constrained degrees of freedom. Collective.
+/// How reactions have to balance the loads of the scene.
+enum class Balance {
+  not_asked,  ///< an answer after a given number of iterations, or a state without loads
+  as_a_whole, ///< the model's share of a load differs from node to node from the scene's: forces as sums, to
+              ///< 5 %
+  at_nodes    ///< on every node of the body's own mesh, to 1e-6: so forces and moments do
+};
+
+/// What fields are of.
+struct FieldsOf {
+  double load_factor; ///< of the scene's loads
+  StrainMeasure measure;
+  cases::PointMass shared; ///< how the model's nodes share the mass that gravity acts on
+  Balance balance;
+};
+
+/// The fields of a solution, each rank's share of them. Reactions are internal forces less the applied ones,
+/// on constrained degrees of freedom. On the others an equilibrium leaves nothing: internal forces are held
+/// against the loads of the scene, which the solver had from elsewhere. Collective.
 /// @param sums     what this rank adds; where nobody shares the answer, of all cells
 /// @param sharing  of the solution
-/// @param shared   how the model's nodes share the mass that gravity acts on
+/// @throws SolveError where an equilibrium's reactions do not balance the loads
 cases::Fields fields_of(const cases::Scene& scene, FieldSums sums, const cases::Sharing* sharing,
-                        double load_factor, StrainMeasure measure, cases::PointMass shared);
+                        const FieldsOf& of);
 
 /// ln V of a displacement gradient H, F = I + H, V² = F F^T. Finite for every finite H: where F is singular
 /// its stretch counts as 1.5e-8.

@@ -2,6 +2,7 @@
 
 #include "mechanics/field_sums.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace springproof::msm {
@@ -27,34 +28,23 @@ struct SeenCell {
   }
 };
 
-/// Gradient of a cell's energy with respect to its vertices, N; the energy is added to `energy`, N mm.
-CellPositions cell_gradient(const CellTerms& terms, const SeenCell& cell, double rest_volume,
-                            double& energy) {
-  CellPositions force;
-  force.fill(Vector3d::Zero());
+/// The cell alone as a lattice, whose points are its vertices.
+void make_cell_lattice(const CellTerms& terms, const SeenCell& cell, double rest_volume, Lattice& lattice) {
+  lattice.rest.assign(cell.rest.begin(), cell.rest.end());
+  lattice.links.clear();
+  lattice.tetrahedra.clear();
+  lattice.volume_cells.clear();
   for (const auto& [vertices, stiffness, exponent] : terms.springs) {
     if (stiffness == 0) continue;
-    const auto from = index(vertices[0]), to = index(vertices[1]);
-    const Spring spring{stiffness, (cell.rest[to] - cell.rest[from]).norm(), exponent};
-    const Vector3d along = cell.now[to] - cell.now[from], pull = spring_force(along, spring);
-    force[from] -= pull;
-    force[to] += pull;
-    energy += spring_energy(along, spring);
+    const auto [i, j] = std::minmax({vertices[0], vertices[1]});
+    lattice.links.push_back(
+        {i, j, {stiffness, (cell.rest[index(j)] - cell.rest[index(i)]).norm(), exponent}});
   }
-  for (const auto& [vertices, lambda, mu] : terms.tetrahedra) {
-    const Tetrahedron made =
-        make_tetrahedron(vertices, Points(cell.rest.begin(), cell.rest.end()), lambda, mu);
-    const TetrahedronPositions now = tetrahedron_positions(made, Points(cell.now.begin(), cell.now.end()));
-    const auto pulls = biquadratic_forces(now, made.rest_lengths, made.stiffness);
-    for (std::size_t v = 0; v < 4; ++v) force[index(vertices[v])] -= pulls[v];
-    energy += biquadratic_energy(now, made.rest_lengths, made.stiffness);
-  }
-  if (terms.volume == 0) return force;
-  const VolumeLaw law = volume_law(trilinear_volume(cell.now) / rest_volume, terms.is_logarithmic);
-  const auto gradient = trilinear_volume_gradient(cell.now);
-  for (std::size_t v = 0; v < 8; ++v) force[v] += terms.volume * law.pressure * gradient[v];
-  energy += terms.volume * rest_volume * law.integral;
-  return force;
+  for (const auto& [vertices, lambda, mu] : terms.tetrahedra)
+    lattice.tetrahedra.push_back(make_tetrahedron(vertices, lattice.rest, lambda, mu));
+  if (terms.volume != 0)
+    lattice.volume_cells.push_back(
+        {{0, 1, 2, 3, 4, 5, 6, 7}, terms.volume, rest_volume, terms.is_logarithmic});
 }
 
 /// What there is to say of a cell without its springs.
@@ -65,6 +55,13 @@ void add_shape(mechanics::CellSums& sum, const SeenCell& cell) {
   for (std::size_t v = 0; v < 8; ++v) sum.gradient() += cell.motion[v] * mean_gradient[v].transpose();
 }
 
+mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& solution, double load_factor) {
+  return {load_factor, mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass,
+          solution.status == cases::Status::converged && solution.is_equilibrium()
+              ? mechanics::Balance::at_nodes
+              : mechanics::Balance::not_asked};
+}
+
 /// @param for_each  for_each(range, action) calls action(number, terms) for cells
 template<class ForEachCell>
 cases::Fields fields_of_cells(const cases::Scene& scene, const cases::Solution& solution, double load_factor,
@@ -72,19 +69,21 @@ cases::Fields fields_of_cells(const cases::Scene& scene, const cases::Solution& 
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   mechanics::FieldSums sums(here.nodes, here.cells);
+  Lattice lattice;
   for_each(here.cells, [&](std::size_t c, const CellTerms& terms) {
     const SeenCell cell(scene.mesh, c, solution.displacement, here.nodes.begin);
     mechanics::CellSums& sum = sums.cell(c);
     add_shape(sum, cell);
-    const CellPositions force = cell_gradient(terms, cell, sum.rest_volume(), sum.energy());
+    make_cell_lattice(terms, cell, sum.rest_volume(), lattice);
+    const Points motion(cell.motion.begin(), cell.motion.end()), force = internal_force_at(lattice, motion);
+    sum.energy() += energy_at(lattice, motion);
     const std::array<int, 8> nodes = scene.mesh.cells[c];
     for (std::size_t v = 0; v < 8; ++v) {
-      sum.virial() += force[v] * cell.now[v].transpose();
-      sums.force(index(nodes[v])) += force[v];
+      sum.virial() -= force[v] * cell.now[v].transpose();
+      sums.force(index(nodes[v])) -= force[v];
     }
   });
-  return mechanics::fields_of(scene, std::move(sums), sharing, load_factor,
-                              mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass);
+  return mechanics::fields_of(scene, std::move(sums), sharing, how_of(scene, solution, load_factor));
 }
 
 } // namespace
@@ -121,8 +120,7 @@ cases::Fields network_fields(const cases::Scene& scene, const Lattice& network,
   for (std::size_t node = here.own_nodes.begin; node < here.own_nodes.end; ++node)
     sums.force(node) = -force[node];
   cases::Fields fields =
-      mechanics::fields_of(scene, std::move(sums), sharing, load_factor,
-                           mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass);
+      mechanics::fields_of(scene, std::move(sums), sharing, how_of(scene, solution, load_factor));
   fields.total_energy = energy_at(network, all);
   fields.has_stress = false;
   fields.strain_energy.clear();

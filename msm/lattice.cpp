@@ -197,17 +197,40 @@ Points force_of(const Lattice& lattice, const Between& from_to) {
   return force;
 }
 
-/// Largest change of a spring's vector, of its length; infinite where springs are under tension at rest.
-double largest_gradient(const Lattice& lattice, const Points& displacement) {
-  double largest = 0;
+/// Whether no spring's vector, cell's edge or tetrahedron's edge changes by midpoint_below of its length, and
+/// no spring is under tension at rest.
+bool is_small(const Lattice& lattice, const Points& displacement) {
+  const auto is_small_between = [&](int i, int j) {
+    return (displacement[index(j)] - displacement[index(i)]).norm() <
+           midpoint_below * (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
+  };
   for (const Link& link : lattice.links) {
     const double length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
-    if (!(std::abs(length - link.spring.rest_length) <= 1e-12 * length))
-      return std::numeric_limits<double>::infinity();
-    const double change = (displacement[index(link.j)] - displacement[index(link.i)]).norm();
-    largest = std::max(largest, change / length);
+    if (!(std::abs(length - link.spring.rest_length) <= 1e-12 * length) || !is_small_between(link.i, link.j))
+      return false;
   }
-  return largest;
+  const auto are_small = [&](const auto& nodes, const auto& edges) {
+    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      return is_small_between(nodes[index(edge[0])], nodes[index(edge[1])]);
+    });
+  };
+  return std::all_of(lattice.volume_cells.begin(), lattice.volume_cells.end(),
+                     [&](const VolumeCell& cell) { return are_small(cell.nodes, cases::cell_edges); }) &&
+         std::all_of(lattice.tetrahedra.begin(), lattice.tetrahedra.end(),
+                     [&](const Tetrahedron& t) { return are_small(t.nodes, tetrahedron_edges); });
+}
+
+/// K(u part) u, with the tangent at a part of the way to the displacement.
+Points tangent_product(const Lattice& lattice, const Points& displacement, double part) {
+  Points at = lattice.rest, product(at.size(), Vector3d::Zero());
+  for (std::size_t p = 0; p < at.size(); ++p) at[p] += part * displacement[p];
+  visit_tangent_blocks(lattice, at, TransverseTerm::exact,
+                       [&](int row, int column, const Eigen::Matrix3d& block) {
+                         product[index(row)] += block * displacement[index(column)];
+                         if (row != column)
+                           product[index(column)] += block.transpose() * displacement[index(row)];
+                       });
+  return product;
 }
 
 } // namespace
@@ -217,7 +240,11 @@ double energy(const Lattice& lattice, const Points& positions) {
 }
 
 double energy_at(const Lattice& lattice, const Points& displacement) {
-  return energy_of(lattice, between(lattice.rest, displacement));
+  if (!is_small(lattice, displacement)) return energy_of(lattice, between(lattice.rest, displacement));
+  const Points force = tangent_product(lattice, displacement, 1. / 3);
+  double sum = 0;
+  for (std::size_t p = 0; p < force.size(); ++p) sum += force[p].dot(displacement[p]) / 2;
+  return sum;
 }
 
 double small_motion_energy(const Lattice& lattice, const Points& motion) {
@@ -250,16 +277,9 @@ Points internal_force(const Lattice& lattice, const Points& positions) {
 }
 
 Points internal_force_at(const Lattice& lattice, const Points& displacement) {
-  if (!(largest_gradient(lattice, displacement) < midpoint_below))
-    return force_of(lattice, between(lattice.rest, displacement));
-  Points middle = lattice.rest, force(middle.size(), Vector3d::Zero());
-  for (std::size_t p = 0; p < middle.size(); ++p) middle[p] += 0.5 * displacement[p];
-  visit_tangent_blocks(lattice, middle, TransverseTerm::exact,
-                       [&](int row, int column, const Eigen::Matrix3d& block) {
-                         force[index(row)] -= block * displacement[index(column)];
-                         if (row != column)
-                           force[index(column)] -= block.transpose() * displacement[index(row)];
-                       });
+  if (!is_small(lattice, displacement)) return force_of(lattice, between(lattice.rest, displacement));
+  Points force = tangent_product(lattice, displacement, 0.5);
+  for (Vector3d& of_point : force) of_point = -of_point;
   return force;
 }
 

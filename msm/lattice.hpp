@@ -133,11 +133,12 @@ Points internal_force(const Lattice& lattice, const Points& positions);
 
 /// The same at a displacement (mm) from rest. Far from the origin positions have lost digits that the
 /// differences of displacements still have: springs of 1 mm in a column of 1 m lose three.
-double energy_at(const Lattice& lattice, const Points& displacement);
 ///
 /// Forces of small motions are a product of the displacement: K(u/2) u, the midpoint rule for the integral of
 /// the tangent from rest to u, errs by the square of the displacement's gradient relative to itself, where
 /// lengths less rest lengths err by rounding over that gradient. Both are below 1e-10 where the rule changes.
+/// Their energy is u K(u/3) u / 2, which has the terms of second and third order.
+double energy_at(const Lattice& lattice, const Points& displacement);
 Points internal_force_at(const Lattice& lattice, const Points& displacement);
 constexpr double midpoint_below = 1e-5; ///< changes of a spring's vector over its length
 

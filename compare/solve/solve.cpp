@@ -99,8 +99,8 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   return {solve_side([&] { return make_finite_elements(scene); },
                      [&](const auto& model) {
                        cases::Solution solution = model->solve(settings);
-                       if (scene.definition.has_fields)
-                         solution.fields = model->fields(solution.sharing.get());
+                       cases::Fields fields = model->fields(solution.sharing.get()); // which checks them
+                       if (scene.definition.has_fields) solution.fields = std::move(fields);
                        return solution;
                      }),
           scene.definition.fem,

@@ -1,5 +1,6 @@
 #include "compare/solve/springs.hpp"
 
+#include "cases/scene/regions.hpp"
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/larger.hpp"
@@ -116,11 +117,7 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
     }
     terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
   }
-  const auto& symmetry = scene.definition.symmetry;
-  if (!symmetry.empty()) terms.planes_of_node.resize(scene.mesh.nodes.size());
-  for (std::size_t plane = 0; plane < symmetry.size(); ++plane)
-    for (const int node : cases::select(scene.mesh, symmetry[plane].region).nodes)
-      terms.planes_of_node[cases::index(node)] |= 1 << plane;
+  terms.planes_of_node = cases::planes_of_nodes(scene.mesh, scene.definition.symmetry);
   return all;
 }
 
@@ -278,13 +275,14 @@ mechanics::EquilibriumSettings limited(const cases::Case& definition,
 
 cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
                             cases::Solution solution) {
-  if (!scene.definition.has_fields) return solution;
-  if (scene.definition.msm.design == cases::Design::network)
-    solution.fields = msm::network_fields(scene, assembled_lattice(scene, design), solution);
-  else if (design.terms)
-    solution.fields = msm::fields(scene, *design.terms, solution);
-  else
-    solution.fields = msm::fields(scene, stiffness_of_cells(design), solution);
+  const auto make_fields = [&] {
+    if (scene.definition.msm.design == cases::Design::network)
+      return msm::network_fields(scene, assembled_lattice(scene, design), solution);
+    if (design.terms) return msm::fields(scene, *design.terms, solution);
+    return msm::fields(scene, stiffness_of_cells(design), solution);
+  };
+  cases::Fields fields = make_fields(); // in any case: reactions are held against the loads
+  if (scene.definition.has_fields) solution.fields = std::move(fields);
   return solution;
 }
 
