@@ -277,13 +277,35 @@ void check_boundary(Table& root, const Case& result) {
   const bool is_held = rigid_class(result.body) != nullptr || root.has("moved");
   if (result.fixed.empty() && result.symmetry.empty() && !is_held && !may_fly)
     root.entry("fixed").refuse("one or more tables [[fixed]] or [[symmetry]]: nothing holds the body");
+  const auto has_begun = [&](const History& history) { // before the end
+    if (!result.dynamics ||
+        (result.dynamics->start == MotionStart::equilibrium && history.just_before(0) != 0))
+      return true;
+    const auto [least, most] = factors_between(history, 0, result.dynamics->end);
+    return least != 0 || most != 0;
+  };
   const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
-  if (std::any_of(result.moved.begin(), result.moved.end(), moves)) return;
-  if (result.loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
-  if (std::all_of(result.loads.begin(), result.loads.end(), is_zero)) {
+  const auto refuse_late = [&](const char* list) {
+    Table first(root.entry(list).elements("tables").front(), "a table");
+    first.entry("history").refuse(fmt::format("other than 0 at some time from 0 to the end, {} s, here or in "
+                                              "another [[load]] or [[moved]]: nothing would move",
+                                              result.dynamics->end));
+  };
+  const auto& moved = result.moved;
+  const auto& loads = result.loads;
+  const bool has_moves = std::any_of(moved.begin(), moved.end(), moves);
+  if (std::any_of(moved.begin(), moved.end(),
+                  [&](const Moved& one) { return moves(one) && has_begun(one.history); }))
+    return;
+  if (loads.empty() && has_moves) refuse_late("moved");
+  if (loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
+  if (std::all_of(loads.begin(), loads.end(), is_zero) && !has_moves) {
     Table first(root.entry("load").elements("tables").front(), "a table");
     first.entry("value").refuse("other than 0, here or in another [[load]]: nothing would move");
   }
+  if (std::none_of(loads.begin(), loads.end(),
+                   [&](const Load& load) { return !is_zero(load) && has_begun(load.history); }))
+    refuse_late(has_moves ? "moved" : "load");
 }
 
 } // namespace springproof::cases

@@ -43,9 +43,13 @@ TriangleMesh joined(const Surface& surface) {
 }
 
 TriangleMesh outer_surface(const HexMesh& mesh) {
+  return triangles_of_faces(mesh, boundary_faces(mesh));
+}
+
+TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
   TriangleMesh outer;
   Numbers<int> numbers; // of nodes
-  for (const std::array<int, 4>& face : boundary_faces(mesh)) {
+  for (const std::array<int, 4>& face : faces) {
     std::array<int, 4> vertices;
     for (std::size_t v = 0; v < 4; ++v) {
       const auto [number, is_new] = numbers.of(face[v]);

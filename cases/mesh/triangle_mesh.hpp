@@ -18,6 +18,7 @@ TriangleMesh joined(const Surface& surface);
 
 /// The faces of a body that belong to one cell only, each as two triangles.
 TriangleMesh outer_surface(const HexMesh& mesh);
+TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces);
 
 /// Barycentre of a triangle at given positions of the vertices, mm.
 Eigen::Vector3d barycentre(const std::array<int, 3>& triangle, const std::vector<Eigen::Vector3d>& positions);

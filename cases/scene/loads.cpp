@@ -1,10 +1,12 @@
 #include "cases/scene/loads.hpp"
 
+#include "cases/mesh/triangle_mesh.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace springproof::cases {
 
@@ -64,16 +66,32 @@ void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>&
   }
 }
 
+/// Area that a patch's sphere cuts from the case's [surface], mm²; without one, of a flat circle of its
+/// radius, or the modelled half or quarter of it where planes of symmetry go through its centre.
+double area_within(const Scene& scene, const Region& region) {
+  if (!scene.surface.triangles.empty()) {
+    double sum = 0;
+    for (const std::array<int, 3>& triangle : scene.surface.triangles)
+      if ((barycentre(triangle, scene.surface.vertices) - *region.near).norm() <= *region.radius)
+        sum += cases::doubled_area(triangle, scene.surface.vertices).norm() / 2;
+    return sum;
+  }
+  double circle = std::acos(-1.0) * *region.radius * *region.radius;
+  for (const Fixed& plane : scene.definition.symmetry) {
+    const int axis = plane.region.name[0] - 'x';
+    const int node = select_on_planes(scene.mesh, {plane.region.name}).nodes.front();
+    if (std::abs(scene.mesh.nodes[index(node)][axis] - (*region.near)[axis]) < 1e-6 * *region.radius)
+      circle /= 2; // the other half is the mirror image's
+  }
+  return circle;
+}
+
 } // namespace
 
 std::function<double(int node)> modelled_share(const Scene& scene) {
-  std::vector<std::vector<int>> planes;
-  for (const Fixed& plane : scene.definition.symmetry)
-    planes.push_back(sorted(select(scene.mesh, plane.region).nodes));
-  return [planes](int node) {
+  return [planes = planes_of_nodes(scene.mesh, scene.definition.symmetry)](int node) {
     double share = 1;
-    for (const std::vector<int>& nodes : planes)
-      if (std::binary_search(nodes.begin(), nodes.end(), node)) share /= 2;
+    for (int left = planes.empty() ? 0 : planes[index(node)]; left != 0; left &= left - 1) share /= 2;
     return share;
   };
 }
@@ -104,6 +122,26 @@ double area(const HexMesh& mesh, const Selection& selection) {
   integrate(mesh, selection,
             [&](const auto&, const Vector3d&, const auto&, double weight) { sum += weight; });
   return sum;
+}
+
+std::vector<std::string> warnings_of_loads(const Scene& scene) {
+  constexpr double most = 0.1; // of the area
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const auto& [selection, load, part, points] = scene.loads[i];
+    if (load.kind != LoadKind::traction || !load.region.radius) continue;
+    const double found = area(scene.mesh, selection), wanted = area_within(scene, load.region);
+    if (std::abs(found - wanted) <= most * wanted) continue;
+    warnings.push_back(
+        fmt::format("load[{}] acts on faces of {:.6g} mm2, and {} {:.6g} mm2 ({:+.0f} %): so does its force; "
+                    "a finer mesh comes nearer, and kind = \"total_force\" says the force itself",
+                    i, found,
+                    scene.surface.triangles.empty()
+                        ? fmt::format("a flat circle of radius {} mm has", *load.region.radius)
+                        : "the [surface] has there",
+                    wanted, 100 * (found / wanted - 1)));
+  }
+  return warnings;
 }
 
 double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {

@@ -34,6 +34,10 @@ std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene
 /// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.
 double area(const HexMesh& mesh, const Selection& selection);
 
+/// One sentence for each traction on a patch whose faces have another area, by more than a tenth, than the
+/// sphere cuts from the case's [surface] or than a flat circle has: faces of voxels are stairs.
+std::vector<std::string> warnings_of_loads(const Scene& scene);
+
 /// The point forces (nodal_force, total_force) alone.
 std::vector<NodeVector> nodes_with_point_forces(const Scene& scene);
 

@@ -21,7 +21,11 @@ std::vector<double> shared_out(const Scene& scene, PointMass shared, const OfVol
     total += value;
     for (const int node : mesh.cells[c]) shares[index(node)] += value / 8;
   }
-  if (shared == PointMass::uniform) shares.assign(shares.size(), total / static_cast<double>(shares.size()));
+  if (shared != PointMass::uniform) return shares;
+  const auto modelled = modelled_share(scene);
+  double divisor = 0;
+  for (std::size_t n = 0; n < shares.size(); ++n) divisor += shares[n] = modelled(static_cast<int>(n));
+  for (double& share : shares) share *= total / divisor;
   return shares;
 }
 

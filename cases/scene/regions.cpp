@@ -2,7 +2,6 @@
 
 #include "cases/case/error.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -96,6 +95,12 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
 
 } // namespace
 
+Eigen::AlignedBox3d bounding_box(const HexMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& node : mesh.nodes) box.extend(node);
+  return box;
+}
+
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
   const std::size_t nearest = nearest_node(mesh, point);
@@ -110,8 +115,7 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
 
 Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
   if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
-  Eigen::AlignedBox3d body;
-  for (const Vector3d& node : mesh.nodes) body.extend(node);
+  const Eigen::AlignedBox3d body = bounding_box(mesh);
   const double rounding = 1e-9 * body.sizes().norm(); // far above that of i * spacing, far below a cell
   Selection selection;
   std::vector<bool> is_selected;
@@ -131,9 +135,30 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
   return selection;
 }
 
-Selection select_patch(const HexMesh& mesh, const Region& region) {
+std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry) {
+  std::vector<int> planes(symmetry.empty() ? 0 : mesh.nodes.size(), 0);
+  for (std::size_t plane = 0; plane < symmetry.size(); ++plane)
+    for (const int node : select_on_planes(mesh, {symmetry[plane].region.name}).nodes)
+      planes[index(node)] |= 1 << plane;
+  return planes;
+}
+
+std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::vector<Fixed>& symmetry) {
+  std::vector<std::array<int, 4>> faces = boundary_faces(mesh);
+  const std::vector<int> planes = planes_of_nodes(mesh, symmetry);
+  const auto is_mirrored = [&](const std::array<int, 4>& face) {
+    int common = ~0;
+    for (const int node : face) common &= planes[index(node)];
+    return common != 0;
+  };
+  if (!planes.empty()) faces.erase(std::remove_if(faces.begin(), faces.end(), is_mirrored), faces.end());
+  return faces;
+}
+
+Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
+                       const Region& region) {
   Selection patch;
-  for (const auto& face : boundary_faces(mesh)) {
+  for (const auto& face : surface) {
     if (!((centre_of(mesh, face) - *region.near).norm() <= *region.radius)) continue;
     patch.faces.push_back(face);
     for (std::size_t v = 0; v < 4; ++v) {
@@ -170,8 +195,7 @@ Selection select_part(const HexMesh& mesh, const Region& region) {
     return part.cell_class.empty() ||
            (!mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == part.cell_class);
   };
-  Eigen::AlignedBox3d body;
-  for (const Vector3d& node : mesh.nodes) body.extend(node);
+  const Eigen::AlignedBox3d body = bounding_box(mesh);
   const double rounding = 1e-9 * body.sizes().norm(); // as select_on_planes()
   std::vector<bool> is_in_class(mesh.nodes.size(), part.cell_class.empty());
   for (std::size_t c = 0; c < mesh.cells.size() && !part.cell_class.empty(); ++c)

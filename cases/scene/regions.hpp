@@ -3,10 +3,14 @@
 #include "cases/case/case.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 
+#include <Eigen/Geometry>
 #include <functional>
 
 /// What the kinds of regions select on a mesh; select() in scene.hpp knows which kind one is.
 namespace springproof::cases {
+
+/// Of all nodes at rest, mm.
+Eigen::AlignedBox3d bounding_box(const HexMesh& mesh);
 
 /// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
 Selection select_near(const HexMesh& mesh, const Region& region);
@@ -16,8 +20,16 @@ Selection select_near(const HexMesh& mesh, const Region& region);
 /// @param faces  of the box, such as "z+" and "x-"
 Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces);
 
-/// The faces of the mesh's surface whose centre lies in the region's sphere, with their edges and nodes.
-Selection select_patch(const HexMesh& mesh, const Region& region);
+/// Bits of the planes of symmetry that each node is on, by their place in the list; empty without planes.
+std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
+
+/// Faces of the body's surface: of one cell only, and on no plane of symmetry, beyond which the body goes on.
+std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
+
+/// The faces of the surface whose centre lies in the region's sphere, with their edges and nodes.
+/// @param surface  surface_faces()
+Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
+                       const Region& region);
 
 /// Nodes with the edges and faces between them of some of the cells.
 Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,

@@ -7,6 +7,7 @@
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
+#include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
 #include "cases/scene/surface.hpp"
 
@@ -34,15 +35,20 @@ bool are_faces(const std::vector<std::string>& words) {
 
 /// Patches become groups of the mesh, so that refined meshes keep the same patches.
 void add_patches(Scene& scene) {
+  std::optional<std::vector<std::array<int, 4>>> surface;
   const auto add_patches_of = [&](const auto& conditions) {
-    for (const auto& condition : conditions)
-      if (const Region& region = condition.region; region.radius)
-        scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, region));
+    for (const auto& condition : conditions) {
+      const Region& region = condition.region;
+      if (!region.radius) continue;
+      if (!surface) surface = surface_faces(scene.mesh, scene.definition.symmetry);
+      scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, *surface, region));
+    }
   };
   add_patches_of(scene.definition.fixed);
   add_patches_of(scene.definition.moved);
   add_patches_of(scene.definition.loads);
   add_patches_of(scene.definition.masses);
+  add_patches_of(scene.definition.measures);
 }
 
 bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
@@ -120,9 +126,20 @@ void check_motions(const Scene& scene) {
 void check_sizes(const Scene& scene) {
   constexpr double least_force = 1e-140; // N: solvers square it
   constexpr double least_motion = 1e-9;  // mm: supports are where they have to be within 1e-12
-  double force = 0;
+  const std::vector<bool> is_held = constrained_dofs(scene);
+  double force = 0, free_force = gravity(scene).cwiseAbs().maxCoeff();
   for (const NodeVector& loaded : loaded_nodes(scene))
-    force = std::max(force, loaded.value.cwiseAbs().maxCoeff());
+    for (int a = 0; a < 3; ++a) {
+      const double size = std::abs(loaded.value[a]);
+      force = std::max(force, size);
+      if (!is_held[3 * index(loaded.node) + index(a)]) free_force = std::max(free_force, size);
+    }
+  const bool has_unknowns = std::find(is_held.begin(), is_held.end(), false) != is_held.end();
+  if (force > 0 && free_force == 0 && scene.moved.empty() && has_unknowns)
+    throw InputError(
+        scene.definition.loads.front().region.where,
+        "every node that is loaded is held in the direction of its force: nothing would move; load "
+        "nodes that are free, or leave the direction out of the support's components");
   if (force > 0 && force < least_force)
     throw InputError(
         scene.definition.loads.front().region.where,
@@ -218,8 +235,6 @@ Selection select(const HexMesh& mesh, const Region& region) {
     selection = select_part(mesh, region);
   } else if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
     selection = group->second;
-  } else if (region.radius) {
-    selection = select_patch(mesh, region);
   } else if (const auto words = words_of(region.name); are_faces(words)) {
     selection = select_on_planes(mesh, words);
   } else {

@@ -2,10 +2,32 @@
 
 #include "cases/mesh/label_surface.hpp"
 #include "cases/mesh/read_surface.hpp"
+#include "cases/scene/regions.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace springproof::cases {
+
+namespace {
+
+/// Drops triangles on planes of symmetry: no part of the surface, beyond them the body goes on.
+void open_at_symmetry(const HexMesh& mesh, const std::vector<Fixed>& symmetry, TriangleMesh& surface) {
+  for (const Fixed& plane : symmetry) {
+    const int axis = plane.region.name[0] - 'x';
+    const double at = mesh.nodes[index(select_on_planes(mesh, {plane.region.name}).nodes.front())][axis];
+    const auto is_on_plane = [&](const std::array<int, 3>& triangle) {
+      return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
+        return std::abs(surface.vertices[index(vertex)][axis] - at) <= 1e-6 * (1 + std::abs(at));
+      });
+    };
+    auto& triangles = surface.triangles;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_on_plane), triangles.end());
+  }
+}
+
+} // namespace
 
 void read_surface_of(Scene& scene) {
   constexpr std::size_t most = 5'000'000;
@@ -23,6 +45,7 @@ void read_surface_of(Scene& scene) {
   }
   if (scene.surface.triangles.size() > most)
     refuse(fmt::format("has {} triangles, must have at most {}", scene.surface.triangles.size(), most));
+  open_at_symmetry(scene.mesh, scene.definition.symmetry, scene.surface);
 }
 
 } // namespace springproof::cases

@@ -1,5 +1,6 @@
 #include "compare/measure/landmarks.hpp"
 
+#include "cases/scene/regions.hpp"
 #include "mechanics/surface/rays.hpp"
 
 #include <algorithm>
@@ -93,8 +94,11 @@ std::vector<Vector3d> equilibrium_of(const cases::Solution& springs) {
 
 mechanics::EmbeddedSurface embedded_surface(const cases::Scene& scene) {
   const auto& file = scene.definition.surface;
+  const auto outer = [&] {
+    return cases::triangles_of_faces(scene.mesh, cases::surface_faces(scene.mesh, scene.definition.symmetry));
+  };
   try {
-    return mechanics::embed(file ? scene.surface : cases::outer_surface(scene.mesh), scene.mesh);
+    return mechanics::embed(file ? scene.surface : outer(), scene.mesh);
   } catch (const std::runtime_error& error) {
     if (!file) throw;
     throw cases::InputError(file->where, file->path + ": " + error.what());

@@ -126,6 +126,9 @@ Eigen::VectorXd mode_masses(const cases::Scene& scene) {
 
 Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::VectorXd& masses, int n_modes) {
   const auto size = static_cast<int>(body.stiffness.rows());
+  if (size == 0)
+    throw cases::InputError(
+        "vibrations: every node is held in all components, and nothing vibrates; hold fewer");
   const Spectrum spectrum =
       lowest_vibrations(body.stiffness, body.mass, std::min(size, n_modes + n_rigid_motions));
   const double zero =

@@ -4,6 +4,7 @@
 #include "cases/scene/histories.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
+#include "cases/scene/regions.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/write/springs_text.hpp"
 #include "compare/write/write_gates.hpp"
@@ -11,6 +12,7 @@
 #include "compare/write/write_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace springproof::compare {
@@ -102,14 +104,39 @@ std::string with_bar(const std::optional<double>& value, const char* format,
   return number(value, format) + (bar ? fmt::format(" +- {:.2g}", *bar) : "");
 }
 
-/// The applied force as a whole, unless a load follows a history, and the areas that loads and motions act
-/// on: a patch has those of its faces, not of its circle.
+/// The body's size: one in metres is told from one in millimetres.
+void write_body(std::ostream& out, const cases::HexMesh& mesh) {
+  const Eigen::AlignedBox3d box = cases::bounding_box(mesh);
+  double volume = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    volume += cases::cell_volume(cases::cell_vertices(mesh, c));
+  print(out, "  body {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm3, {} cells, {} nodes\n", box.sizes().x(),
+        box.sizes().y(), box.sizes().z(), volume, mesh.cells.size(), mesh.nodes.size());
+}
+
+/// The applied loads as one force and one moment, unless a load follows a history, and the areas that loads
+/// and motions act on: a patch has those of its faces, not of its circle.
 void write_loads(std::ostream& out, const cases::Scene& scene) {
   std::vector<std::string> all;
+  const auto components = [](Eigen::Vector3d v, double scale) {
+    for (double& component : v)
+      if (std::abs(component) < 1e-12 * scale) component = 0; // what rounding leaves
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
+  };
   if (!scene.loads.empty() && !cases::has_load_histories(scene)) {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (const auto& [node, of_node] : cases::applied_forces(scene)) force += of_node;
-    all.push_back(fmt::format("applied force ({:.6g}, {:.6g}, {:.6g}) N", force.x(), force.y(), force.z()));
+    const Eigen::Vector3d centre = cases::bounding_box(scene.mesh).center();
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    double size = 0, turning = 0;
+    for (const auto& [node, of_node] : cases::applied_forces(scene)) {
+      const Eigen::Vector3d arm = scene.mesh.nodes[cases::index(node)] - centre;
+      force += of_node;
+      moment += arm.cross(of_node);
+      size += of_node.norm();
+      turning += arm.norm() * of_node.norm();
+    }
+    all.push_back(fmt::format("applied force {} N", components(force, size)));
+    all.push_back(
+        fmt::format("moment about ({}) {} N mm", fmt::join(centre, ", "), components(moment, turning)));
   }
   const auto add_areas = [&](const char* list, const auto& conditions) {
     for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -204,7 +231,9 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   const auto& [scene, answers, measures, gates, mesh_study, landmarks, surface] = comparison;
   const cases::Case& definition = scene.definition;
   print(out, "{}: {}\n", definition.name, definition.description);
+  write_body(out, scene.mesh);
   write_loads(out, scene);
+  for (const std::string& warning : cases::warnings_of_loads(scene)) print(out, "  warning: {}\n", warning);
   write_side(out, "fem",
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
              answers.fem, definition.dynamics.has_value());

@@ -86,6 +86,7 @@ class MovingLattice : public MovingSprings {
 
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double /*forcing*/,
                  mechanics::Convexity convexity, Vector& step) override {
+    if (tangent_.n_free() == 0) return false; // every point goes where its support goes
     const auto term =
         convexity == mechanics::Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
     Points positions = to_points(problem_, at);

@@ -182,3 +182,29 @@ TEST_CASE("a motion that cannot be followed says how far it came") {
   settings.newton.max_newton_per_step = 0;
   CHECK_THROWS_WITH(follow(scene, settings), Catch::Contains("motion, after 0 s"));
 }
+
+TEST_CASE("a body without unknowns goes where its supports go") {
+  cases::Scene scene =
+      bar(gravity_in_time({}), dynamics_of(cases::Scheme::newmark, 0.01, 0.1, cases::MotionStart::rest),
+          {1000., 1, 0.001});
+  scene.mesh = cases::make_box_mesh({10, 10, 10}, {1, 1, 1});
+  scene.constrained = {{cases::select(scene.mesh, region_named("x-")), {true, true, true}},
+                       {cases::select(scene.mesh, region_named("x+")), {true, true, true}}};
+  const cases::Solution motion = follow(scene);
+  CHECK(motion.status == cases::Status::converged);
+  CHECK_FALSE(motion.trajectory->slowest);
+  for (const Vector3d& u : motion.displacement) CHECK(u.isZero(0));
+}
+
+TEST_CASE("springs under loads near nothing move as under a thousand times as much", "[verification]") {
+  // Strains of 1e-13 and less, which positions cannot hold.
+  const auto tip = [](double factor) {
+    cases::Load load = gravity_in_time({});
+    load.value *= factor;
+    const cases::Scene scene = bar(
+        load, dynamics_of(cases::Scheme::newmark, 0.01, 0.1, cases::MotionStart::rest), {1000., 1, 0.001});
+    return follow(scene).trajectory->displacement.back().z() / factor;
+  };
+  CHECK(tip(1e-9) == Approx(tip(1e-6)).epsilon(1e-6));
+  CHECK(tip(1e-12) == Approx(tip(1e-9)).epsilon(1e-6));
+}

@@ -284,3 +284,12 @@ TEST_CASE("300 damaged dynamic cases each end in a case or in one line that says
   CHECK(n_refused > 150);
   CHECK(n_read > 10);
 }
+
+TEST_CASE("loads that are 0 until the end, and motions, are refused") {
+  const std::string gravity = "kind = 'gravity'\nvalue = [0, 0, -9.81]\n",
+                    late = "history = [[0, 0], [2.5, 0], [2.5, 1]]\n";
+  const std::string still =
+      replaced(replaced(dynamic_case, gravity, gravity + late), "history = [[0, 1], [0, 0]]\n", late);
+  CHECK_THROWS_WITH(read_text(still), Catch::Contains("nothing would move"));
+  CHECK_NOTHROW(read_text(replaced(still, "[2.5, 0], [2.5, 1]", "[1.9, 0], [1.9, 1]")));
+}

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 using namespace springproof;
@@ -168,6 +169,14 @@ TEST_CASE("what has no mass does not vibrate") {
   cases::Scene scene = bar(true);
   scene.definition.material_dynamics.density.reset();
   CHECK_THROWS_AS(compare::study_vibrations(scene, {}, 4), cases::InputError);
+}
+
+TEST_CASE("what is held at all nodes does not vibrate") {
+  cases::Scene scene = bar(true);
+  scene.constrained.front().selection.nodes.resize(scene.mesh.nodes.size());
+  std::iota(scene.constrained.front().selection.nodes.begin(),
+            scene.constrained.front().selection.nodes.end(), 0);
+  CHECK_THROWS_WITH(compare::study_vibrations(scene, {}, 4), Catch::Contains("nothing vibrates"));
 }
 
 TEST_CASE("quadratic finite elements on a finer mesh are compared on the body's nodes", "[verification]") {

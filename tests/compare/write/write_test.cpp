@@ -116,7 +116,10 @@ TEST_CASE("the text says what force is applied and on what area") {
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   std::ostringstream out;
   compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains("  applied force (0, 0.25, -4) N; load[0] on 1 mm2\n"));
+  CHECK_THAT(out.str(), Catch::Contains("  body 1 x 1 x 1 mm, 1 mm3, 1 cells, 8 nodes\n"));
+  CHECK_THAT(out.str(),
+             Catch::Contains("  applied force (0, 0.25, -4) N; moment about (0.5, 0.5, 0.5) (-0.125, 0, 0) "
+                             "N mm; load[0] on 1 mm2\n"));
 }
 
 TEST_CASE("forces that follow a history are not added up as if their factors were 1") {
