@@ -1,5 +1,7 @@
 #include "fem_reference/assembled_body.hpp"
 
+#include "fem_reference/cuboid.hpp"
+
 #include <algorithm>
 
 namespace springproof::fem_reference {
@@ -40,6 +42,14 @@ std::vector<cases::Numbered<double>> AssembledBody::cell_volumes(const State& st
   return volumes;
 }
 
+std::optional<cases::FieldNorms> AssembledBody::norms(const State& state, const cases::Sharing* sharing) {
+  const int degree = discretisation.element.degree;
+  if (!has_own_norms(scene.definition, degree)) return std::nullopt;
+  DisplacementNorms norms(degree, discretisation.nodes.in_unit_cube());
+  equations.add_norms(state, norms);
+  return norms.norms(sharing);
+}
+
 cases::Fields AssembledBody::fields(const State& state, const cases::Sharing* sharing, double load_factor) {
   cases::Range cells;
   const int shift = 3 * scene.definition.fem.refine;
@@ -51,6 +61,18 @@ cases::Fields AssembledBody::fields(const State& state, const cases::Sharing* sh
   ElementFields sums(scene, formulations.front().kinematics, discretisation.nodes.in_unit_cube(), cells);
   equations.add_fields(state, scene.definition.fem.refine, sums);
   return sums.fields(sharing, load_factor);
+}
+
+std::optional<cases::FieldNorms> norms_of(const grid::GridModel& model, const cases::Sharing* sharing) {
+  const cases::Scene& scene = model.scene();
+  const ElementType type = element_type(scene.definition.fem, formulations_of(scene).front());
+  if (!has_own_norms(scene.definition, type.degree)) return std::nullopt;
+  const Cuboid cuboid(type, scene.mesh.grid->spacing / (1 << scene.definition.fem.refine));
+  DisplacementNorms norms(type.degree, cuboid.nodes());
+  model.for_each_element(sharing, [&](const grid::GridModel::Element& element) {
+    norms.add(cuboid.geometry(), element.displacement.data());
+  });
+  return norms.norms(sharing);
 }
 
 } // namespace springproof::fem_reference

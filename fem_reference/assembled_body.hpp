@@ -3,6 +3,7 @@
 #include "cases/mesh/sharing.hpp"
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/equations.hpp"
+#include "fem_reference/grid/grid_model.hpp"
 
 namespace springproof::fem_reference {
 
@@ -24,8 +25,13 @@ struct AssembledBody {
   std::vector<cases::Numbered<Eigen::Vector3d>> displacement(const State& state) const;
   /// Deformed volumes that this rank's elements add to the body's cells, mm³.
   std::vector<cases::Numbered<double>> cell_volumes(const State& state);
+  /// When the case measures norms that the body's nodes do not tell. Collective.
+  std::optional<cases::FieldNorms> norms(const State& state, const cases::Sharing* sharing);
   /// Of an equilibrium. Collective.  @param sharing  of its solution
   cases::Fields fields(const State& state, const cases::Sharing* sharing, double load_factor);
 };
+
+/// The same of the elements on a grid, in the state last found.
+std::optional<cases::FieldNorms> norms_of(const grid::GridModel& model, const cases::Sharing* sharing);
 
 } // namespace springproof::fem_reference

@@ -32,13 +32,17 @@ const double* Assembly::pressure(int cell, const State& state) const {
   return state.data() + n_displacements() + cell * discretisation_.element.n_pressure_modes;
 }
 
-const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted) {
-  const auto& d = discretisation_;
-  const auto n = index(d.nodes.per_cell);
+const double* Assembly::displacement(int cell, const State& state) {
+  const Nodes& nodes = discretisation_.nodes;
+  const auto n = index(nodes.per_cell);
   for (std::size_t a = 0; a < n; ++a)
-    std::copy_n(state.data() + 3 * d.nodes.of_cell[index(cell) * n + a], 3,
-                cell_displacement_.data() + 3 * a);
-  return kernel(cell).evaluate(d.geometry.of(cell), cell_displacement_.data(), pressure(cell, state), wanted);
+    std::copy_n(state.data() + 3 * nodes.of_cell[index(cell) * n + a], 3, cell_displacement_.data() + 3 * a);
+  return cell_displacement_.data();
+}
+
+const CellResult& Assembly::evaluate(int cell, const State& state, Wanted wanted) {
+  return kernel(cell).evaluate(discretisation_.geometry.of(cell), displacement(cell, state),
+                               pressure(cell, state), wanted);
 }
 
 /// Rows and columns of constrained degrees of freedom are left out.
@@ -116,8 +120,14 @@ void Assembly::pressures_are_balanced() {
 std::vector<double> Assembly::cell_volumes(const State& state) {
   std::vector<double> volumes;
   for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
-    volumes.push_back(evaluate(cell, state, Wanted::stress).volume);
+    volumes.push_back(
+        CellKernel::deformed_volume(discretisation_.geometry.of(cell), displacement(cell, state)));
   return volumes;
+}
+
+void Assembly::add_norms(const State& state, DisplacementNorms& norms) {
+  for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
+    norms.add(discretisation_.geometry.of(cell), displacement(cell, state));
 }
 
 void Assembly::add_fields(const State& state, int n_refinements, ElementFields& fields) {
@@ -127,7 +137,7 @@ void Assembly::add_fields(const State& state, int n_refinements, ElementFields& 
     const CellGeometry geometry = d.geometry.of(cell);
     const double* displacement = cell_displacement_.data();
     fields.add({place_of(index(d.nodes.mesh_cell[index(cell)]), n_refinements), geometry, displacement,
-                result.plain_force.data(), result.volume,
+                result.plain_force.data(),
                 kernel(cell).energy(geometry, displacement, pressure(cell, state))});
   }
 }

@@ -35,6 +35,7 @@ class Assembly {
   /// Adds this rank's cells to fields on the body's own mesh.
   /// @param n_refinements  of the discretisation's mesh
   void add_fields(const State& state, int n_refinements, ElementFields& fields);
+  void add_norms(const State& state, DisplacementNorms& norms);
 
   std::size_t n_pressures() const { return pressure_residual_.size(); }
   Mat tangent() const { return tangent_.get(); }
@@ -42,6 +43,8 @@ class Assembly {
  private:
   CellKernel& kernel(int cell) const;
   const double* pressure(int cell, const State& state) const;
+  /// Displacement of a cell's nodes, mm, kept until the next call.
+  const double* displacement(int cell, const State& state);
   const CellResult& evaluate(int cell, const State& state, Wanted wanted);
   void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
                    const WriteEntries& condensed);

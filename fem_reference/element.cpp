@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numeric>
 
 /// Of BLAS: C = A B, each as it is ("N") or transposed ("T"), by columns.
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* rows, const int* columns,
@@ -57,6 +56,15 @@ Matrix3 CellKernel::displacement_gradient(const CellGeometry& g, int q, const do
     for (int a = 0; a < g.n_nodes; ++a)
       for (int i = 0; i < 3; ++i) h(i, j) += displacement[3 * a + i] * gradient[j * g.n_nodes + a];
   return h;
+}
+
+double CellKernel::deformed_volume(const CellGeometry& g, const double* displacement) {
+  double rest = 0, growth = 0;
+  for (int q = 0; q < g.n_points; ++q) {
+    rest += g.weights[q];
+    growth += g.weights[q] * dilatation(Kinematics::finite, displacement_gradient(g, q, displacement));
+  }
+  return rest + growth;
 }
 
 void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
@@ -131,8 +139,6 @@ const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* disp
   result_.force.setZero();
   result_.valid = add_points(g, displacement, pressure, wanted);
   if (!result_.valid) return result_;
-  result_.volume = std::accumulate(g.weights, g.weights + g.n_points, 0.) +
-                   std::inner_product(g.weights, g.weights + g.n_points, dilatation_.begin(), 0.);
   result_.volume_mismatch = 0;
   result_.plain_force = result_.force;
   if (wanted == Wanted::stress_and_tangent) add_stiffness(g);

@@ -43,7 +43,6 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 /// What a cell contributes, and what the condensed pressure needs afterwards.
 struct CellResult {
   bool valid;             ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
-  double volume;          ///< deformed, mm³
   double volume_mismatch; ///< largest |integral of mode (J - J(p))| / rest volume
   Eigen::VectorXd force;  ///< internal, N; has the condensed pressure imbalance when a tangent is wanted
   RowMajorMatrix tangent; ///< N/mm
@@ -70,6 +69,8 @@ class CellKernel {
   /// volume ratios that belong to the pressures.
   virtual double energy(const CellGeometry& geometry, const double* displacement,
                         const double* pressure) const = 0;
+  /// Volume that the cell has where its nodes have gone, mm³, whatever the kinematics of its law.
+  static double deformed_volume(const CellGeometry& geometry, const double* displacement);
 
  protected:
   /// Calls add_point() for every point.  @return false at one that is inverted or not a number

@@ -2,6 +2,10 @@
 
 #include "cases/scene/masses.hpp"
 #include "mechanics/hexahedron.hpp"
+#include "mechanics/larger.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace springproof::fem_reference {
 
@@ -25,7 +29,7 @@ ElementFields::ElementFields(const cases::Scene& scene, Kinematics kinematics, s
       sums_(cases::vertices_of(scene.mesh, cells), cells) {}
 
 void ElementFields::add(const ElementState& element) {
-  const auto& [place, geometry, displacement, force, volume, energy] = element;
+  const auto& [place, geometry, displacement, force, energy] = element;
   const std::array<int, 8> vertices = scene_.mesh.cells[place.cell];
   const std::array<Vector3d, 8> corners = cases::cell_vertices(scene_.mesh, place.cell);
   const bool is_linear = kinematics_ == Kinematics::linear; // the virial is that of the body at rest
@@ -51,7 +55,7 @@ void ElementFields::add(const ElementState& element) {
       }
   }
   sum.rest_volume() += rest_volume;
-  sum.volume() += is_linear ? rest_volume : volume;
+  sum.volume() += is_linear ? rest_volume : CellKernel::deformed_volume(geometry, displacement);
   sum.energy() += energy;
 }
 
@@ -78,6 +82,55 @@ cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_f
                                                                  : mechanics::StrainMeasure::logarithmic,
                                cases::PointMass::cells,
                                load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene_)});
+}
+
+namespace {
+
+/// On the unit interval, the polynomial that is 1 at one of the nodes 0, 1/degree, ... 1 and 0 at the others.
+double lagrange(int degree, double node, double x) {
+  double value = 1;
+  for (int other = 0; other <= degree; ++other)
+    if (const double at = double(other) / degree; std::abs(at - node) > 1e-9) value *= (x - at) / (node - at);
+  return value;
+}
+
+} // namespace
+
+DisplacementNorms::DisplacementNorms(int degree, const std::vector<Vector3d>& nodes) {
+  const int n = degree + 1; // Gauss points along an axis, x fastest
+  const double offset = degree == 1 ? 0.5 / std::sqrt(3.) : std::sqrt(0.15);
+  for (int q = 0; q < n * n * n; ++q)
+    for (const Vector3d& node : nodes) {
+      double& value = shape_.emplace_back(1);
+      const int place[3] = {q % n, q / n % n, q / (n * n)};
+      for (int a = 0; a < 3; ++a)
+        value *= lagrange(degree, node[a], 0.5 + (2. * place[a] / degree - 1) * offset);
+    }
+}
+
+void DisplacementNorms::add(const CellGeometry& geometry, const double* displacement) {
+  const int n = geometry.n_nodes;
+  for (int q = 0; q < geometry.n_points; ++q) {
+    Vector3d value = Vector3d::Zero();
+    for (int a = 0; a < n; ++a) value += shape_[index(q * n + a)] * Vector3d(displacement + 3 * a);
+    integral_ += geometry.weights[q] * value.squaredNorm();
+    volume_ += geometry.weights[q];
+  }
+  for (int a = 0; a < n; ++a) largest_ = mechanics::larger(largest_, Vector3d(displacement + 3 * a).norm());
+}
+
+cases::FieldNorms DisplacementNorms::norms(const cases::Sharing* sharing) const {
+  if (!sharing) return {std::sqrt(integral_ / volume_), largest_};
+  return {std::sqrt(sharing->sum(integral_) / sharing->sum(volume_)), sharing->largest(largest_)};
+}
+
+bool has_own_norms(const cases::Case& definition, int degree) {
+  const auto is_norm = [](const cases::Measure& measure) {
+    return measure.kind == cases::MeasureKind::displacement_field_l2 ||
+           measure.kind == cases::MeasureKind::displacement_field_max;
+  };
+  return (degree > 1 || definition.fem.refine > 0) &&
+         std::any_of(definition.measures.begin(), definition.measures.end(), is_norm);
 }
 
 } // namespace springproof::fem_reference

@@ -22,7 +22,6 @@ struct ElementState {
   CellGeometry geometry;
   const double* displacement; ///< mm
   const double* force;        ///< internal, N: CellResult::plain_force
-  double volume;              ///< deformed, mm³
   double energy;              ///< N mm
 };
 
@@ -46,5 +45,23 @@ class ElementFields {
   std::vector<Eigen::Vector3d> nodes_;
   mechanics::FieldSums sums_;
 };
+
+/// Norms of the elements' own displacement over the body at rest, of all of its nodes.
+class DisplacementNorms {
+ public:
+  /// @param nodes  of an element, in its unit cube
+  DisplacementNorms(int degree, const std::vector<Eigen::Vector3d>& nodes);
+  /// @param displacement  mm, as of CellKernel::evaluate()
+  void add(const CellGeometry& geometry, const double* displacement);
+  /// Collective.
+  cases::FieldNorms norms(const cases::Sharing* sharing) const;
+
+ private:
+  std::vector<double> shape_; ///< N_a at Gauss point q: [q*n_nodes + a]
+  double integral_ = 0, volume_ = 0, largest_ = 0;
+};
+
+/// Whether a case measures norms of the displacement that the nodes of the body's mesh do not tell.
+bool has_own_norms(const cases::Case& definition, int degree);
 
 } // namespace springproof::fem_reference

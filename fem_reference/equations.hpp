@@ -56,6 +56,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
 
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
+  void add_norms(const State& state, DisplacementNorms& norms) { assembly_.add_norms(state, norms); }
   /// As of Assembly.
   void add_fields(const State& state, int n_refinements, ElementFields& fields) {
     assembly_.add_fields(state, n_refinements, fields);

@@ -87,7 +87,6 @@ cases::Fields Model::OnGrid::fields(const cases::Sharing* sharing) {
               geometry,
               displacement,
               result.plain_force.data(),
-              result.volume,
               kernel.energy(geometry, displacement, &element.pressure)});
   });
   return sums.fields(sharing, model.load_factor());
@@ -99,7 +98,9 @@ cases::Fields Model::OnGrid::fields(const cases::Sharing* sharing) {
 /// once more.
 cases::Solution Model::OnGrid::solve(double load_factor, mechanics::EquilibriumSettings settings) {
   if (!assembled) try {
-      return model.solve(load_factor, settings);
+      cases::Solution solution = model.solve(load_factor, settings);
+      solution.norms = norms_of(model, solution.sharing.get());
+      return solution;
     } catch (const cases::SolveError& error) {
       const bool may_be_multigrid =
           grid::bulk_over_shear(model.scene()) > most_incompressible ||
@@ -147,6 +148,7 @@ cases::Solution Model::Assembled::solve(double load_factor, mechanics::Equilibri
   solution.displacement =
       cases::deal(sharing, body.displacement(last), scene.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
   solution.cell_volume = cases::deal(sharing, body.cell_volumes(last), scene.mesh.cells.size(), 0.);
+  solution.norms = body.norms(last, sharing);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = body.equations.negative_eigenvalues();
   solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement, sharing);

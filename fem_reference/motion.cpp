@@ -44,6 +44,7 @@ cases::Solution follow_assembled(const cases::Scene& scene, const mechanics::Int
   cases::Solution solution = mechanics::to_solution(followed.work);
   solution.displacement = displacement(followed.end);
   solution.cell_volume = cell_volumes(followed.end);
+  solution.norms = body.norms(followed.end, nullptr);
   solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
   solution.trajectory = followed.trajectory;
   return solution;
@@ -62,7 +63,9 @@ cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSe
   if (backend_of(scene, backend) == Backend::assembled) return follow_assembled(scene, settings);
   grid::GridModel model(scene, MPI_COMM_SELF, 1);
   try {
-    return model.follow(settings);
+    cases::Solution solution = model.follow(settings);
+    solution.norms = norms_of(model, nullptr);
+    return solution;
   } catch (const cases::SolveError&) {
     if (backend == Backend::grid || !model.linear_solver_failed()) throw;
   }

@@ -24,6 +24,7 @@ struct Box {
 struct MeshFile {
   std::string path; ///< as opened: relative paths are resolved against the case file
   Where where;
+  double scale = 1; ///< mm of a unit of the file
 };
 
 /// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts at the lower corner
@@ -32,6 +33,7 @@ struct Voxels {
   std::string path; ///< as opened: relative paths are resolved against the case file
   double edge;      ///< mm, > 0
   Where where;
+  double scale = 1; ///< mm of a unit of the file
 };
 
 /// A class of voxels, and of the cells that they fill.
@@ -57,6 +59,7 @@ struct Labels {
   Keep keep = Keep::all;
   Eigen::Vector3d seed = Eigen::Vector3d::Zero(); ///< mm
   Where where;
+  double scale = 1; ///< on the lengths that the file says
 };
 
 using Body = std::variant<Box, MeshFile, Voxels, Labels>;
@@ -342,6 +345,7 @@ struct BodySurface {
   std::string path; ///< of the file or the picture, as opened: relative paths are resolved
   std::optional<PictureContour> contour;
   Where where;
+  double scale = 1; ///< mm of a unit of the file
 };
 
 /// A place of the body's surface at which the surfaces of both models are compared.

@@ -78,10 +78,17 @@ Labels read_labels(Table& table, const std::string& case_path) {
   if (table.has("crop")) labels.crop = read_corners(table.entry("crop"));
   if (table.has("keep")) read_keep(table.entry("keep"), labels);
   table.know({"crop", "keep"});
+  labels.scale = read_scale(table);
   return labels;
 }
 
 } // namespace
+
+double read_scale(Table& table) {
+  const Number scale{"a number from 1e-9 to 1e9, the mm of a unit of the file",
+                     [](double value) { return value >= 1e-9 && value <= 1e9; }};
+  return table.optional("scale", scale).value_or(1);
+}
 
 Body read_body(Table& table, const std::string& case_path) {
   const std::string shape = table.entry("shape").word({"box", "mesh", "voxels", "labels"});
@@ -90,10 +97,10 @@ Body read_body(Table& table, const std::string& case_path) {
   const Entry file = table.entry(shape == "mesh" ? "file" : "surface");
   if (shape == "mesh")
     return MeshFile{read_file_name(file, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path),
-                    file.where};
+                    file.where, read_scale(table)};
   return Voxels{read_file_name(file, {".stl"}, "a closed surface in STL, .stl", case_path),
                 table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive}),
-                file.where};
+                file.where, read_scale(table)};
 }
 
 } // namespace springproof::cases

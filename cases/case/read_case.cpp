@@ -189,15 +189,18 @@ BodySurface read_contour(Table& table, const Labels& picture) {
       static_cast<std::size_t>(
           table.optional("triangles", WholeNumber{"a whole number, 100 to 5000000", 100, 5'000'000})
               .value_or(0))};
-  table.refuse_unless(false, {"file"}, "left out: the surface is the contour of the body's picture");
-  return {picture.path, contour, intensity.where};
+  table.refuse_unless(false, {"file", "scale"}, "left out: the surface is the contour of the body's picture");
+  return {picture.path, contour, intensity.where, 1};
 }
 
 BodySurface read_surface_file(Table& table, const std::string& case_path) {
   table.refuse_unless(false, {"intensity", "smoothing", "triangles"},
                       "left out: with shape = \"labels\" alone there is a picture to make a contour of");
   const Entry file = table.entry("file");
-  return {read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", case_path), {}, file.where};
+  return {read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", case_path),
+          {},
+          file.where,
+          read_scale(table)};
 }
 
 void read_surface(Table& root, Case& result) {

@@ -77,6 +77,13 @@ struct FromEquilibrium {
   std::vector<Eigen::Vector3d> displacement{}; ///< of that equilibrium, mm, one per node; empty: not known
 };
 
+/// Norms of a displacement over all of the body at rest, where the body's nodes do not tell them: of elements
+/// with nodes between these.
+struct FieldNorms {
+  double root_mean_square; ///< mm
+  double largest;          ///< mm, of the elements' nodes
+};
+
 /// Result of a solve of either model. A failed one has a message and the counters of the work done, but no
 /// displacement.
 struct Solution {
@@ -104,6 +111,8 @@ struct Solution {
   std::optional<Trajectory> trajectory{}; ///< of a dynamic case: the rest is of its end
   /// Of an answer that was asked for after a number of iterations, equilibrium or not.
   std::optional<FromEquilibrium> from_equilibrium{};
+
+  std::optional<FieldNorms> norms{}; ///< when the case measures them, of quadratic elements and finer meshes
 
   bool is_equilibrium() const { return !from_equilibrium || residual <= from_equilibrium->tolerance; }
 

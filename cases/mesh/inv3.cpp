@@ -1,5 +1,7 @@
 #include "cases/mesh/inv3.hpp"
 
+#include "cases/case/rows.hpp"
+
 #include <archive.h>
 #include <archive_entry.h>
 #include <cstring>
@@ -72,9 +74,13 @@ std::array<double, 3> numbers_of(vtkXMLDataElement& dictionary, const std::strin
   vtkXMLDataElement& list = value_of_key(dictionary, key);
   if (list.GetNumberOfNestedElements() != 3) refuse_archive("main.plist has no three numbers of " + key);
   std::array<double, 3> numbers{};
-  for (int i = 0; i < 3; ++i)
-    numbers[static_cast<std::size_t>(i)] =
-        std::strtod(text_of(*list.GetNestedElement(i), key).c_str(), nullptr);
+  for (int i = 0; i < 3; ++i) {
+    const std::string text = text_of(*list.GetNestedElement(i), key);
+    const auto number = number_in<double>(text);
+    if (!number)
+      refuse_archive("main.plist says " + key + " '" + text.substr(0, 100) + "', must be a number");
+    numbers[static_cast<std::size_t>(i)] = *number;
+  }
   return numbers;
 }
 

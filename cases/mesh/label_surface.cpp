@@ -79,7 +79,7 @@ TriangleMesh label_surface(const Labels& labels, const PictureContour& contour) 
   const VolumeBytes bytes = bytes_of_volume(labels.path);
   const auto& functions = vtk(); // loaded before the child is confined
   const auto make = [&] {
-    const Volume volume = functions.read_volume(labels.path, bytes);
+    const Volume volume = read_scaled_volume(labels, bytes);
     LabelGrid grid = label_cells(volume, labels);
     keep_piece(grid, labels);
     const Picture picture = picture_about(volume, grid, labels.edge, contour.intensity);

@@ -3,7 +3,7 @@
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
 #include "cases/mesh/pieces.hpp"
-#include "cases/mesh/volume_files.hpp"
+#include "cases/mesh/scale_hint.hpp"
 #include "cases/mesh/vtk.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell, lowest, highest)
+SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell, lowest, highest, size)
 
 } // namespace cereal
 
@@ -84,14 +84,15 @@ LabelGrid empty_label_grid(const Volume& volume, const Labels& labels) {
   const Vector3d to = labels.crop ? labels.crop->at(1) : size;
   LabelGrid grid;
   grid.origin = from;
+  grid.size = size;
   double n_cells = 1;
   for (int a = 0; a < 3; ++a) {
     const double n = std::max(1.0, std::ceil((to[a] - from[a]) / labels.edge - 1e-6));
     n_cells *= n;
     if (!(n_cells <= Grid::most_cells))
-      refuse_labels(fmt::format("{:.6g} x {:.6g} x {:.6g} mm need more than {:.0e} cells of edge {} mm",
+      refuse_labels(fmt::format("{:.6g} x {:.6g} x {:.6g} mm need more than {:.0e} cells of edge {} mm: {}",
                                 to[0] - from[0], to[1] - from[1], to[2] - from[2], Grid::most_cells,
-                                labels.edge));
+                                labels.edge, scale_hint(size)));
     grid.cells[index(a)] = static_cast<int>(n);
   }
   grid.class_of_cell.assign(static_cast<std::size_t>(n_cells), 0);
@@ -119,6 +120,12 @@ std::optional<std::size_t> place_at(const LabelGrid& grid, double edge, const Ve
 }
 
 } // namespace
+
+Volume read_scaled_volume(const Labels& labels, const VolumeBytes& bytes) {
+  Volume volume = vtk().read_volume(labels.path, bytes);
+  volume.spacing *= labels.scale;
+  return volume;
+}
 
 LabelGrid label_cells(const Volume& volume, const Labels& labels) {
   LabelGrid grid = empty_label_grid(volume, labels);
@@ -156,8 +163,8 @@ void keep_piece(LabelGrid& grid, const Labels& labels) {
   const Pieces pieces = pieces_of(grid_of(grid, labels.edge));
   const auto& sizes = pieces.sizes;
   if (sizes.empty())
-    refuse_labels(fmt::format("no cell of edge {} mm is filled by a class for the most part; {}", labels.edge,
-                              intensities_text(grid)));
+    refuse_labels(fmt::format("no cell of edge {} mm is filled by a class for the most part; {}; {}",
+                              labels.edge, intensities_text(grid), scale_hint(grid.size)));
   int kept = 0;
   if (labels.keep == Keep::all) {
     if (sizes.size() == 1) return;
@@ -203,7 +210,7 @@ LabelGrid label_grid_from(const std::string& bytes, std::size_t n_classes) {
   double n = 1;
   for (const int cells : grid.cells) n *= cells > 0 ? cells : 0;
   const bool is_sound = n > 0 && n == static_cast<double>(grid.class_of_cell.size()) &&
-                        grid.origin.allFinite() && std::isfinite(grid.lowest) &&
+                        grid.origin.allFinite() && grid.size.allFinite() && std::isfinite(grid.lowest) &&
                         std::isfinite(grid.highest) &&
                         std::all_of(grid.class_of_cell.begin(), grid.class_of_cell.end(),
                                     [&](std::uint8_t c) { return c <= n_classes; });
@@ -218,10 +225,8 @@ std::string bytes_of(const LabelGrid& grid) {
 LabelGrid read_label_grid(const Labels& labels) {
   try {
     const VolumeBytes bytes = bytes_of_volume(labels.path);
-    const auto& functions = vtk(); // loaded before the child is confined
-    const auto read = [&] {
-      return bytes_of(label_cells(functions.read_volume(labels.path, bytes), labels));
-    };
+    vtk(); // loaded before the child is confined
+    const auto read = [&] { return bytes_of(label_cells(read_scaled_volume(labels, bytes), labels)); };
     LabelGrid grid =
         label_grid_from(run_confined(read, limits_to_read(bytes.in_files)), labels.classes.size());
     keep_piece(grid, labels);

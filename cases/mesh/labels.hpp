@@ -3,6 +3,7 @@
 #include "cases/case/case.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/volume.hpp"
+#include "cases/mesh/volume_files.hpp"
 
 #include <cstdint>
 
@@ -15,7 +16,11 @@ struct LabelGrid {
   std::vector<std::uint8_t>
       class_of_cell;             ///< x fastest; 0: none, else one more than a place in Labels::classes
   float lowest = 0, highest = 0; ///< intensity of the whole picture, what is no number left out
+  Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< of the whole picture, mm
 };
+
+/// Reads the picture of a body, at the body's scale.
+Volume read_scaled_volume(const Labels& labels, const VolumeBytes& bytes);
 
 /// The classes of the cells that cover a volume, or its crop: each cell takes the class that fills most of
 /// it. A voxel is of the first class whose interval has its intensity; what lies outside of the volume or in

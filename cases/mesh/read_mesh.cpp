@@ -1,15 +1,16 @@
 #include "cases/mesh/read_mesh.hpp"
 
+#include "cases/mesh/check_mesh.hpp"
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/gmsh.hpp"
 #include "cases/mesh/mesh_bytes.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <numeric>
 #include <unordered_map>
 
 namespace springproof::cases {
@@ -29,8 +30,8 @@ class Builder {
   HexMesh build() {
     read_cells();
     read_nodes();
-    check_cells();
-    check_in_one_piece();
+    faces_ = faces_of_cells(mesh_);
+    check_mesh(mesh_, faces_, numbers_);
     read_groups();
     return std::move(mesh_);
   }
@@ -46,7 +47,7 @@ class Builder {
       }
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
         cell_number_[elements.tags[e]] = mesh_.cells.size();
-        cell_tags_.push_back(elements.tags[e]);
+        numbers_.of_cells.push_back(elements.tags[e]);
         std::array<int, 8>& cell = mesh_.cells.stored().emplace_back();
         for (std::size_t v = 0; v < 8; ++v) {
           const std::size_t tag = elements.nodes[e][around_cell[v]];
@@ -57,7 +58,11 @@ class Builder {
     }
     if (!others.empty())
       refuse(fmt::format("has cells other than eight-node hexahedra: {}", fmt::join(others, ", ")));
-    if (mesh_.cells.empty()) refuse("has no hexahedra");
+    if (mesh_.cells.empty())
+      refuse("has no hexahedra. A file that gmsh has saved has its physical groups alone, where there are "
+             "any: one of them must be the body, Physical Volume(\"body\") = {...};, or Mesh.SaveAll must be "
+             "1. A geometry needs a volume that is meshed by hexahedra (Transfinite or extruded, and "
+             "Recombine)");
   }
 
   /// The nodes that hexahedra have, in the order of their tags.
@@ -73,64 +78,54 @@ class Builder {
       if (found == place.end())
         refuse(fmt::format("has a hexahedron with node {}, which does not exist", tag));
       node_number_[index(tag)] = static_cast<int>(mesh_.nodes.size());
+      numbers_.of_nodes.push_back(index(tag));
       mesh_.nodes.stored().emplace_back(&coordinates[3 * found->second]);
     }
     for (auto& cell : mesh_.cells.stored())
       for (int& node : cell) node = node_number_[index(node)];
   }
 
-  /// The Jacobian is positive at every corner of a cell that is neither inside out nor folded.
-  void check_cells() const {
-    Tags inverted;
-    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      if (!(smallest_corner_jacobian(cell_vertices(mesh_, c)) > 0)) inverted.push_back(cell_tags_[c]);
-    if (inverted.empty()) return;
-    const std::size_t n_shown = std::min<std::size_t>(5, inverted.size());
-    refuse(fmt::format(
-        "{} of {} hexahedra are inverted or degenerate (a corner whose Jacobian is not positive): "
-        "elements {}{}",
-        inverted.size(), mesh_.cells.size(), fmt::join(inverted.data(), inverted.data() + n_shown, " "),
-        inverted.size() > n_shown ? " ..." : ""));
-  }
-
-  /// A piece that shares no node with the rest is unconstrained: most often coincident nodes were not merged.
-  void check_in_one_piece() const {
-    std::vector<int> root(mesh_.nodes.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int n) {
-      while (root[index(n)] != n) n = root[index(n)] = root[index(root[index(n)])];
-      return n;
-    };
-    for (const auto& cell : mesh_.cells)
-      for (const int node : cell) root[index(find(node))] = find(cell[0]);
-    int n_pieces = 0;
-    for (std::size_t n = 0; n < root.size(); ++n) n_pieces += index(root[n]) == n;
-    if (n_pieces != 1)
-      refuse(
-          fmt::format("falls into {} pieces that share no node; where they touch, merge their nodes (gmsh: "
-                      "Coherence Mesh)",
-                      n_pieces));
-  }
-
   void read_groups() {
-    for (const auto& cell : mesh_.cells)
-      for (const auto& local : cell_faces) {
-        const std::array<int, 4> face = pick(cell, local);
-        faces_.emplace(sorted(face), face);
-      }
-    for (const GmshGroup& group : gmsh().groups())
+    std::map<std::string, std::map<int, Selection>> by_name; // and dimension
+    for (const GmshGroup& group : gmsh().groups()) {
+      const std::string name = group.name.empty() ? std::to_string(group.number) : group.name;
       for (const int entity : group.entities)
         for (const GmshElements& elements : gmsh().elements_of(group.dimension, entity))
-          add_to_group(group.name.empty() ? std::to_string(group.number) : group.name, elements);
-    for (auto& [name, group] : mesh_.groups) {
-      make_set(group.nodes);
-      make_set(group.edges);
-      make_set(group.faces);
+          add_to_group(name, elements, by_name[name][group.dimension]);
+    }
+    for (auto& [name, of_dimensions] : by_name) {
+      for (auto& entry : of_dimensions) make_set(entry.second.nodes);
+      const bool is_one = are_one_region(of_dimensions);
+      for (auto& [dimension, part] : of_dimensions) {
+        if (!is_one && dimension == 3) continue; // in group_of_cell
+        Selection& group = mesh_.groups[is_one ? name : name_in_dimension(name, dimension)];
+        group.nodes.insert(group.nodes.end(), part.nodes.begin(), part.nodes.end());
+        group.edges.insert(group.edges.end(), part.edges.begin(), part.edges.end());
+        group.faces.insert(group.faces.end(), part.faces.begin(), part.faces.end());
+      }
+    }
+    for (auto& entry : mesh_.groups) {
+      make_set(entry.second.nodes);
+      make_set(entry.second.edges);
+      make_set(entry.second.faces);
     }
   }
 
-  void add_to_group(const std::string& name, const GmshElements& elements) {
-    Selection& group = mesh_.groups[name];
+  /// Points and curves that lie in a surface of the same name change nothing of what it holds or loads; a
+  /// volume holds far more than its surface.
+  static bool are_one_region(const std::map<int, Selection>& of_dimensions) {
+    const auto& [highest, largest] = *of_dimensions.rbegin();
+    if (highest == 3)
+      return std::all_of(of_dimensions.begin(), std::prev(of_dimensions.end()),
+                         [](const auto& entry) { return entry.second.nodes.empty(); });
+    return std::all_of(of_dimensions.begin(), of_dimensions.end(),
+                       [&nodes = largest.nodes](const auto& entry) {
+                         const std::vector<int>& some = entry.second.nodes;
+                         return std::includes(nodes.begin(), nodes.end(), some.begin(), some.end());
+                       });
+  }
+
+  void add_to_group(const std::string& name, const GmshElements& elements, Selection& group) {
     for (std::size_t e = 0; e < elements.tags.size(); ++e) {
       std::vector<int> nodes; // -1: of no hexahedron
       for (const std::size_t tag : elements.nodes[e])
@@ -141,10 +136,13 @@ class Builder {
       if (elements.type == line) {
         group.edges.push_back(sorted(std::array<int, 2>{nodes[0], nodes[1]}));
       } else if (elements.type == quadrangle) {
-        const auto found = faces_.find(sorted(std::array<int, 4>{nodes[0], nodes[1], nodes[2], nodes[3]}));
-        if (found == faces_.end())
+        const auto wanted = sorted(std::array<int, 4>{nodes[0], nodes[1], nodes[2], nodes[3]});
+        const auto found =
+            std::lower_bound(faces_.begin(), faces_.end(), wanted,
+                             [](const CellFace& face, const auto& key) { return face.vertices < key; });
+        if (found == faces_.end() || found->vertices != wanted)
           refuse(fmt::format("element {} of group '{}' is no face of a hexahedron", elements.tags[e], name));
-        const std::array<int, 4>& face = found->second;
+        const std::array<int, 4>& face = found->around;
         group.faces.push_back(face);
         for (std::size_t v = 0; v < 4; ++v)
           group.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
@@ -160,11 +158,10 @@ class Builder {
   }
 
   HexMesh mesh_;
-  Tags cell_tags_;
+  MeshNumbers numbers_;                              ///< gmsh's tags
   std::unordered_map<std::size_t, int> node_number_; ///< by gmsh's tag; nodes of hexahedra only
   std::unordered_map<std::size_t, std::size_t> cell_number_;
-  std::map<std::array<int, 4>, std::array<int, 4>>
-      faces_; ///< by sorted vertices, as seen from outside of one of their cells
+  std::vector<CellFace> faces_;
 };
 
 /// gmsh reads every format it ever wrote; older ones lose the entities of groups.
@@ -178,15 +175,22 @@ void check_format(std::istream& stream) {
 }
 
 /// The mesh of a file, as bytes.
-std::string mesh_bytes(const std::string& path, bool is_geometry) {
-  std::ifstream stream(path);
+std::string mesh_bytes(const MeshFile& file, bool is_geometry) {
+  std::ifstream stream(file.path);
   if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!is_geometry) check_format(stream);
-  gmsh().open(path, is_geometry);
-  return bytes_of_mesh(Builder().build());
+  gmsh().open(file.path, is_geometry);
+  HexMesh mesh = Builder().build();
+  for (Eigen::Vector3d& node : mesh.nodes.stored()) node *= file.scale;
+  return bytes_of_mesh(mesh);
 }
 
 } // namespace
+
+std::string name_in_dimension(const std::string& name, int dimension) {
+  constexpr std::array<const char*, 3> kinds{"point", "curve", "surface"};
+  return name + " (" + kinds[index(dimension)] + ")";
+}
 
 HexMesh read_mesh(const MeshFile& file) {
   std::error_code absent;
@@ -200,7 +204,7 @@ HexMesh read_mesh(const MeshFile& file) {
     gmsh(); // loaded before the child is confined
     const Limits limits =
         is_geometry ? limits_to_mesh : limits_to_read(std::filesystem::file_size(file.path));
-    return mesh_from(run_confined([&] { return mesh_bytes(file.path, is_geometry); }, limits));
+    return mesh_from(run_confined([&] { return mesh_bytes(file, is_geometry); }, limits));
   } catch (const std::exception& error) {
     throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
   }

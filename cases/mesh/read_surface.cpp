@@ -25,8 +25,8 @@ TriangleMesh with_triangles(const Surface& surface) {
 
 } // namespace
 
-TriangleMesh read_surface(const std::string& path) {
-  if (ends_with(path, ".stl")) return with_triangles(read_triangles(path));
+TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks) {
+  if (ends_with(path, ".stl")) return with_triangles(read_triangles(path, remarks));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read");
   const std::string content{std::istreambuf_iterator<char>(file), {}};

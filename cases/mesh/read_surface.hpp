@@ -7,8 +7,9 @@ namespace springproof::cases {
 
 /// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
 /// not be closed.
+/// @param remarks  as of read_triangles()
 /// @throws std::runtime_error with VTK's message; if it has no triangles or a position that is not finite
-TriangleMesh read_surface(const std::string& path);
+TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks = nullptr);
 
 /// The surface that divides a picture's points of a value above the level from the others: closed, because
 /// beyond its borders a picture is below the level; seen from outside anticlockwise, outside being below.

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace cereal {
@@ -41,14 +44,51 @@ void check(const Interpolation& interpolation, std::size_t n_points, std::size_t
   if (!is_sound) throw std::runtime_error("has cells that do not interpolate");
 }
 
+/// Corners from the lowest one on, in their sense: the same of the same triangle.
+using Corners = std::array<std::array<double, 3>, 3>;
+Corners corners_of(const std::array<Eigen::Vector3d, 3>& triangle) {
+  Corners corners;
+  for (std::size_t v = 0; v < 3; ++v)
+    for (int a = 0; a < 3; ++a) corners[v][index(a)] = triangle[v][a] + 0.0; // -0 is 0
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// Leaves every triangle once.  @return how many there were more
+std::size_t leave_once(Surface& surface) {
+  std::set<Corners> seen;
+  const auto is_known = [&](const auto& triangle) { return !seen.insert(corners_of(triangle)).second; };
+  const auto end = std::remove_if(surface.begin(), surface.end(), is_known);
+  const auto n = static_cast<std::size_t>(surface.end() - end);
+  surface.erase(end, surface.end());
+  return n;
+}
+
+bool has_no_area(const std::array<Eigen::Vector3d, 3>& triangle) {
+  const Eigen::Vector3d a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
+  return !(a.cross(b).norm() > std::numeric_limits<float>::epsilon() * a.norm() * b.norm());
+}
+
 } // namespace
 
-Surface read_triangles(const std::string& path) {
+Surface read_triangles(const std::string& path, std::vector<std::string>* remarks) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw std::runtime_error(path + ": " + error.message());
-  return surface_from(
-      run_confined([&] { return bytes_of(vtk().read_triangles(path)); }, limits_to_read(size)));
+  Surface surface =
+      surface_from(run_confined([&] { return bytes_of(vtk().read_triangles(path)); }, limits_to_read(size)));
+  std::uint32_t stated = 0; // by a binary file; the same bytes of a text are a number far larger
+  std::ifstream(path, std::ios::binary).seekg(80).read(reinterpret_cast<char*>(&stated), sizeof stated);
+  const std::uintmax_t end = 84 + 50 * std::uintmax_t{stated};
+  const auto remark = [&](std::uintmax_t n, const char* what) {
+    if (remarks && n > 0) remarks->push_back(path + ": " + std::to_string(n) + what);
+  };
+  remark(stated == surface.size() && size > end ? size - end : 0,
+         " bytes after the last triangle are left out");
+  remark(leave_once(surface), " triangles that are there before are left out");
+  remark(index(std::count_if(surface.begin(), surface.end(), has_no_area)),
+         " triangles without an area bound nothing");
+  return surface;
 }
 
 PointCloud read_point_cloud(const std::string& content) {

@@ -6,10 +6,12 @@
 /// that it has.
 namespace springproof::cases {
 
-/// A file .stl, text or binary; coordinates are rounded to single precision.
+/// A file .stl, text or binary; coordinates are rounded to single precision. What follows the last triangle
+/// of a binary file and a triangle that is there twice are left out.
+/// @param remarks  receives what was left out, and how many triangles have no area
 /// @throws std::runtime_error with VTK's message; if the file has no triangles or a position that is not
 /// finite
-Surface read_triangles(const std::string& path);
+Surface read_triangles(const std::string& path, std::vector<std::string>* remarks = nullptr);
 
 /// @param content  of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk
 /// @throws std::runtime_error with VTK's message; if it has no points

@@ -1,6 +1,8 @@
 #include "cases/mesh/volume_files.hpp"
 
 #include "cases/case/letters.hpp"
+#include "cases/case/rows.hpp"
+#include "cases/mesh/voxel_size.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -52,11 +54,64 @@ void check_value(const HeaderLines& lines, const std::string& key, const std::ve
   throw std::runtime_error("has a header with " + key + " '" + value.substr(0, 100) + "', must be " + list);
 }
 
-std::size_t n_words(const std::string& text) {
-  std::istringstream words(text);
-  std::size_t n = 0;
-  for (std::string word; words >> word;) ++n;
-  return n;
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// @throws std::runtime_error unless the key's value is so many numbers and no more
+std::vector<double> numbers_of(const HeaderLines& lines, const std::string& key, std::size_t n) {
+  std::string text = value_in(lines, key);
+  if (key == "space directions") // of vectors: (1,0,0) (0,1,0) (0,0,1)
+    for (char& c : text)
+      if (c == '(' || c == ')' || c == ',') c = ' ';
+  std::vector<double> numbers;
+  const std::vector<std::string> words = words_in(text);
+  for (const std::string& word : words)
+    if (const auto number = number_in<double>(word)) numbers.push_back(*number);
+  if (words.size() != n || numbers.size() != n)
+    throw std::runtime_error("has a header with " + key + " '" + value_in(lines, key).substr(0, 100) +
+                             "', must be " + std::to_string(n) + " numbers with points and without units");
+  return numbers;
+}
+
+/// Of NRRD: a size of its own for each axis, or the steps between voxels in space, each with its unit.
+Eigen::Vector3d voxel_of_nrrd(const HeaderLines& lines) {
+  const bool has_spacings = lines.count("spacings") > 0, has_directions = lines.count("space directions") > 0;
+  if (has_spacings == has_directions)
+    throw std::runtime_error(std::string("has a header with ") +
+                             (has_spacings ? "'spacings' and" : "neither 'spacings' nor") +
+                             " 'space directions', must have one of them: the size of its voxels");
+  const Eigen::Vector3d edges =
+      has_spacings
+          ? Eigen::Vector3d(numbers_of(lines, "spacings", 3).data())
+          : edges_of_voxel(Eigen::Matrix3d(numbers_of(lines, "space directions", 9).data())); // by columns
+  const char* const key = has_spacings && lines.count("units") > 0 ? "units" : "space units";
+  if (lines.count(key) == 0) return edges;
+  std::vector<std::string> units;
+  std::istringstream quoted(value_in(lines, key));
+  for (std::string unit; std::getline(quoted, unit, '"') && std::getline(quoted, unit, '"');)
+    units.push_back(unit);
+  if (units.size() != 3)
+    throw std::runtime_error(std::string("has a header with ") + key + " '" +
+                             value_in(lines, key).substr(0, 100) + "', must be three in quotes");
+  return edges.cwiseProduct(
+      Eigen::Vector3d(millimetres_in(units[0]), millimetres_in(units[1]), millimetres_in(units[2])));
+}
+
+Eigen::Vector3d voxel_of_meta(const HeaderLines& lines) {
+  for (const char* key : {"transformmatrix", "rotation", "orientation"})
+    if (lines.count(key) > 0) {
+      const Eigen::Vector3d edges = edges_of_voxel(Eigen::Matrix3d(numbers_of(lines, key, 9).data()));
+      if (!((edges.array() - 1).abs() <= voxel_tolerance).all())
+        throw std::runtime_error(std::string("has a header with a ") + key +
+                                 " that is no rotation: elementspacing has to say the size of its voxels");
+    }
+  const auto unit = lines.find("distanceunits");
+  return Eigen::Vector3d(numbers_of(lines, "elementspacing", 3).data()) *
+         (unit == lines.end() ? 1 : millimetres_in(unit->second));
 }
 
 /// What the format requires of a header. VTK crashes without sizes, reads text from a wrong place and takes
@@ -64,10 +119,12 @@ std::size_t n_words(const std::string& text) {
 void check_nrrd(const HeaderLines& lines) {
   const std::string& type = value_in(lines, "type");
   check_value(lines, "dimension", {"3"});
-  if (n_words(value_in(lines, "sizes")) != 3) throw std::runtime_error("must have three sizes");
+  if (words_in(value_in(lines, "sizes")).size() != 3) throw std::runtime_error("must have three sizes");
   check_value(lines, "encoding", {"raw", "gzip", "gz"});
   const bool is_of_bytes = type.find("char") != std::string::npos || type.find("int8") != std::string::npos;
   if (!is_of_bytes) check_value(lines, "endian", {"little", "big"});
+  for (const char* key : {"byte skip", "byteskip", "line skip", "lineskip"}) // which VTK does not
+    if (lines.count(key) > 0) check_value(lines, key, {"0"});
 }
 
 std::uint64_t whole_number(const std::string& text) {
@@ -144,6 +201,9 @@ VolumeHeader header_of_volume(const std::string& beginning) {
     check_nrrd(values);
   else
     check_meta(values, header);
+  header.voxel = is_nrrd ? voxel_of_nrrd(values) : voxel_of_meta(values);
+  if (!(header.voxel.array() > 0).all())
+    throw std::runtime_error("has a header with a size of its voxels that must be above 0");
   return header;
 }
 
@@ -179,9 +239,9 @@ VolumeBytes bytes_of_volume(const std::string& path) {
   if (header.compressed > with_voxels)
     throw std::runtime_error("is cut short: says that its voxels take " + std::to_string(header.compressed) +
                              " bytes, has " + std::to_string(with_voxels));
-  if (!header.is_compressed) return {in_files, with_voxels};
+  if (!header.is_compressed) return {in_files, with_voxels, {}, header.voxel};
   deflated.bytes = header.compressed > 0 ? header.compressed : with_voxels;
-  return {in_files, most_compressed * with_voxels, deflated};
+  return {in_files, most_compressed * with_voxels, deflated, header.voxel};
 }
 
 } // namespace springproof::cases

@@ -2,6 +2,7 @@
 
 #include "cases/mesh/pieces.hpp"
 #include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/scale_hint.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,10 +16,23 @@ using Eigen::Vector3d;
 
 namespace {
 
-Grid empty_grid(const Surface& surface, const Voxels& voxels) {
+Eigen::AlignedBox3d box_of(const Surface& surface) {
   Eigen::AlignedBox3d body;
   for (const auto& triangle : surface)
     for (const Vector3d& vertex : triangle) body.extend(vertex);
+  return body;
+}
+
+/// Reads the body's surface, at its scale.
+Surface scaled_surface(const Voxels& voxels, std::vector<std::string>* remarks = nullptr) {
+  Surface surface = read_stl(voxels.path, voxels.where, remarks);
+  for (auto& triangle : surface)
+    for (Vector3d& vertex : triangle) vertex *= voxels.scale;
+  return surface;
+}
+
+Grid empty_grid(const Surface& surface, const Voxels& voxels) {
+  const Eigen::AlignedBox3d body = box_of(surface);
   Grid grid;
   grid.origin = body.min();
   grid.spacing.setConstant(voxels.edge);
@@ -31,8 +45,8 @@ Grid empty_grid(const Surface& surface, const Voxels& voxels) {
     n_cells *= n;
     if (!(n_cells <= Grid::most_cells))
       throw InputError(voxels.where,
-                       fmt::format("{}: {} mm across needs more than {:.0e} cells of edge {} mm", voxels.path,
-                                   body.sizes().maxCoeff(), Grid::most_cells, voxels.edge));
+                       fmt::format("{}: needs more than {:.0e} cells of edge {} mm: {}", voxels.path,
+                                   Grid::most_cells, voxels.edge, scale_hint(body.sizes())));
     grid.cells[index(a)] = static_cast<int>(n);
   }
   grid.present.assign(grid.n_lattice_cells(), false);
@@ -103,9 +117,9 @@ std::vector<std::size_t> sizes_of_pieces(const Grid& grid) {
 
 } // namespace
 
-Surface read_stl(const std::string& path, const Where& where) {
+Surface read_stl(const std::string& path, const Where& where, std::vector<std::string>* remarks) {
   try {
-    return read_triangles(path);
+    return read_triangles(path, remarks);
   } catch (const std::exception& error) {
     const std::string reason = error.what(); // VTK's have the path
     throw InputError(where, reason.find(path) == std::string::npos ? path + ": " + reason : reason);
@@ -130,21 +144,18 @@ std::size_t n_open_edges(const Surface& surface) {
 }
 
 VoxelCounts count_voxels(const Voxels& voxels) {
-  const Surface surface = read_stl(voxels.path, voxels.where);
+  const Surface surface = scaled_surface(voxels);
   double volume = 0; // of the tetrahedra from the origin to the triangles
-  Eigen::AlignedBox3d body;
-  for (const auto& [a, b, c] : surface) {
-    volume += a.dot(b.cross(c)) / 6;
-    for (const Vector3d& vertex : {a, b, c}) body.extend(vertex);
-  }
+  for (const auto& [a, b, c] : surface) volume += a.dot(b.cross(c)) / 6;
+  const Eigen::AlignedBox3d body = box_of(surface);
   VoxelCounts counts{std::abs(volume) / (voxels.edge * voxels.edge * voxels.edge), {}};
   for (int a = 0; a < 3; ++a)
     counts.of_grid[index(a)] = static_cast<int>(std::clamp(body.sizes()[a] / voxels.edge, 1., 1e6));
   return counts;
 }
 
-HexMesh make_voxel_mesh(const Voxels& voxels) {
-  return make_voxel_mesh(read_stl(voxels.path, voxels.where), voxels);
+HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks) {
+  return make_voxel_mesh(scaled_surface(voxels, remarks), voxels);
 }
 
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
@@ -157,7 +168,9 @@ HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
   Grid grid = empty_grid(surface, voxels);
   fill(grid, surface);
   const std::vector<std::size_t> sizes = sizes_of_pieces(grid);
-  if (sizes.empty()) refuse(fmt::format("no cell of edge {} mm has its centre inside", voxels.edge));
+  if (sizes.empty())
+    refuse(fmt::format("no cell of edge {} mm has its centre inside: {}", voxels.edge,
+                       scale_hint(box_of(surface).sizes())));
   if (sizes.size() > 1)
     refuse(fmt::format(
         "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and the next of "

@@ -8,7 +8,8 @@ namespace springproof::cases {
 /// Reads a surface in STL, text or binary; coordinates are rounded to single precision.
 /// @param where  the place in a case file that names it, for messages
 /// @throws InputError if it cannot be read, ends within a triangle, has none or a position that is not finite
-Surface read_stl(const std::string& path, const Where& where);
+/// @param remarks  as of read_triangles()
+Surface read_stl(const std::string& path, const Where& where, std::vector<std::string>* remarks = nullptr);
 
 /// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
 /// has an inside. Vertices are the same when their coordinates are. (VTK's boundary edges have no direction:
@@ -30,8 +31,9 @@ VoxelCounts count_voxels(const Voxels& voxels);
 /// @throws InputError, at the place of the surface in the case file, if the surface is no STL or not closed,
 /// if no centre is inside, if the cubes fall into pieces, or if the grid would have more than 50 million of
 /// them
-HexMesh make_voxel_mesh(const Voxels& voxels);
-/// The same of a surface that has been read.
+/// @param remarks  as of read_triangles()
+HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
+/// The same of a surface that has been read and scaled.
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
 
 } // namespace springproof::cases

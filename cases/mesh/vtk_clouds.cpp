@@ -3,6 +3,7 @@
 #include "cases/mesh/vtk_grid.hpp"
 #include "cases/mesh/vtk_run.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -153,7 +154,8 @@ constexpr int interpolating[] = {VTK_TETRA,
                                  VTK_QUADRATIC_HEXAHEDRON,
                                  VTK_TRIQUADRATIC_HEXAHEDRON};
 
-/// The cells of a volume, without the surfaces, lines and points beside them.
+/// The cells of a volume, without the surfaces, lines and points beside them. Those of an image become
+/// hexahedra: VTK finds nothing in voxels that are turned by the image's direction.
 vtkNew<vtkUnstructuredGrid> volume_of(vtkDataSet& data, const PointCloud& cloud) {
   vtkNew<vtkUnstructuredGrid> volume = grid_of(cloud.points);
   volume->AllocateEstimate(data.GetNumberOfCells(), 8);
@@ -166,7 +168,13 @@ vtkNew<vtkUnstructuredGrid> volume_of(vtkDataSet& data, const PointCloud& cloud)
              ", which nothing interpolates in; allowed are linear and quadratic tetrahedra, hexahedra, "
              "wedges, pyramids, "
              "and voxels");
-    volume->InsertNextCell(cell->GetCellType(), cell->PointIds);
+    if (cell->GetCellType() == VTK_VOXEL) {
+      std::array<vtkIdType, 8> points;
+      for (std::size_t v = 0; v < 8; ++v) points[v] = cell->GetPointId(static_cast<int>(around_cell[v]));
+      volume->InsertNextCell(VTK_HEXAHEDRON, 8, points.data());
+    } else {
+      volume->InsertNextCell(cell->GetCellType(), cell->PointIds);
+    }
   }
   if (volume->GetNumberOfCells() == 0)
     refuse("has no cells of a volume that values inside could be interpolated in");
@@ -174,6 +182,32 @@ vtkNew<vtkUnstructuredGrid> volume_of(vtkDataSet& data, const PointCloud& cloud)
 }
 
 enum class Outside { anywhere, near_the_cells };
+
+/// VTK ends its search for a place in a curved cell 1e-3 of its size beside it: Newton's method goes on.
+void improve(vtkGenericCell& cell, const Vector3d& position, Vector3d& local, std::vector<double>& weights) {
+  const int n = static_cast<int>(cell.GetNumberOfPoints());
+  std::vector<double> derivatives(index(3 * n));
+  double missed_before = std::numeric_limits<double>::infinity();
+  Vector3d best = local;
+  for (int step = 0; step < 8; ++step) {
+    cell.InterpolateFunctions(local.data(), weights.data());
+    cell.InterpolateDerivs(local.data(), derivatives.data());
+    Vector3d missing = position;
+    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+    for (int v = 0; v < n; ++v) {
+      Vector3d point;
+      cell.GetPoints()->GetPoint(v, point.data());
+      missing -= weights[index(v)] * point;
+      for (int a = 0; a < 3; ++a) jacobian.col(a) += derivatives[index(a * n + v)] * point;
+    }
+    if (!(missing.norm() < missed_before)) break;
+    missed_before = missing.norm();
+    best = local;
+    local += jacobian.partialPivLu().solve(missing);
+  }
+  local = best;
+  cell.InterpolateFunctions(local.data(), weights.data());
+}
 
 Interpolation interpolation(vtkUnstructuredGrid& cells, const std::vector<Vector3d>& positions,
                             Outside allowed) {
@@ -190,11 +224,10 @@ Interpolation interpolation(vtkUnstructuredGrid& cells, const std::vector<Vector
     if (locator->FindCell(at.data(), 0, cell, local.data(), weights.data()) < 0) {
       vtkIdType closest = -1;
       int part = 0;
-      Vector3d place;
-      locator->FindClosestPoint(position.data(), place.data(), cell, closest, part, distance_squared);
+      locator->FindClosestPoint(position.data(), at.data(), cell, closest, part, distance_squared);
       double ignored = 0;
       if (closest < 0 ||
-          cell->EvaluatePosition(place.data(), nullptr, part, local.data(), ignored, weights.data()) < 0)
+          cell->EvaluatePosition(at.data(), nullptr, part, local.data(), ignored, weights.data()) < 0)
         refuse("has no cell close to a node of the case's mesh");
       if (const double size = 0.5 * std::sqrt(cell->GetLength2());
           allowed == Outside::near_the_cells && !(distance_squared <= size * size))
@@ -202,6 +235,7 @@ Interpolation interpolation(vtkUnstructuredGrid& cells, const std::vector<Vector
                ", " + std::to_string(position.z()) + ") mm, a node of the case's mesh: the closest is " +
                std::to_string(std::sqrt(distance_squared)) + " mm away, more than half of its diagonal");
     }
+    improve(*cell, at, local, weights);
     for (vtkIdType v = 0; v < cell->GetNumberOfPoints(); ++v) {
       result.points.push_back(static_cast<int>(cell->GetPointId(static_cast<int>(v))));
       result.weights.push_back(weights[static_cast<std::size_t>(v)]);

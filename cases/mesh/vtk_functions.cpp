@@ -70,11 +70,15 @@ Surface read_triangles(const std::string& path) {
   run(*reader);
   vtkPolyData& body = *reader->GetOutput();
   Surface surface(static_cast<std::size_t>(body.GetNumberOfPolys()));
-  if (reader->GetBinaryHeader() && std::filesystem::file_size(path) != head + per_triangle * surface.size())
-    throw std::runtime_error(path + " ends within a triangle");
-  if (reader->GetBinaryHeader() && stated_triangles(path) != surface.size())
-    throw std::runtime_error(path + " has " + std::to_string(surface.size()) +
-                             " triangles, and says that it has " + std::to_string(stated_triangles(path)));
+  if (reader->GetBinaryHeader()) { // VTK goes on to the end of the file
+    const std::uint32_t stated = stated_triangles(path);
+    if (stated > surface.size() && (std::filesystem::file_size(path) - head) % per_triangle != 0)
+      throw std::runtime_error(path + " ends within a triangle");
+    if (stated == 0 || stated > surface.size())
+      throw std::runtime_error(path + " has " + std::to_string(surface.size()) +
+                               " triangles, and says that it has " + std::to_string(stated));
+    surface.resize(stated);
+  }
   for (std::size_t t = 0; t < surface.size(); ++t)
     for (std::size_t v = 0; v < 3; ++v) // unmerged points follow each other
       body.GetPoint(static_cast<vtkIdType>(3 * t + v), surface[t][v].data());

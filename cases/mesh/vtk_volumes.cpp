@@ -1,6 +1,7 @@
 #include "cases/mesh/vtk_volumes.hpp"
 
 #include "cases/mesh/inv3.hpp"
+#include "cases/mesh/voxel_size.hpp"
 #include "cases/mesh/vtk_run.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 #include <vtkDataArray.h>
@@ -43,6 +45,54 @@ Scale scale_of(vtkNrrdReader&) {
 
 void check_header(vtkMetaImageReader&, const std::string&) {}
 void check_header(vtkNrrdReader&, const std::string&) {}
+
+/// VTK's own reading of these headers knows no units and takes what is no number for 1 or for its beginning.
+Eigen::Vector3d voxel_of(vtkMetaImageReader&, const VolumeBytes& bytes) {
+  return bytes.voxel;
+}
+Eigen::Vector3d voxel_of(vtkNrrdReader&, const VolumeBytes& bytes) {
+  return bytes.voxel;
+}
+
+std::string shown(const Eigen::Vector3d& edges) {
+  std::ostringstream text;
+  text << edges.x() << " x " << edges.y() << " x " << edges.z();
+  return text.str();
+}
+
+/// The grid spacings of pixdim. The affine map of an sform leads to where the scanner or an aligned picture
+/// has the voxels, and must agree; one to an atlas (codes 3 and up) need not where a qform leads to the
+/// scanner.
+Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader, const VolumeBytes&) {
+  vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
+  const Eigen::Vector3d edges(reader.GetDataSpacing());
+  constexpr int of_atlas = 3;
+  if (header.GetSFormCode() > 0 && !(header.GetSFormCode() >= of_atlas && header.GetQFormCode() > 0)) {
+    Eigen::Matrix3d steps;
+    double rows[3][4];
+    header.GetSRowX(rows[0]);
+    header.GetSRowY(rows[1]);
+    header.GetSRowZ(rows[2]);
+    for (int row = 0; row < 3; ++row)
+      for (int a = 0; a < 3; ++a) steps(row, a) = rows[row][a];
+    const Eigen::Vector3d by_map = edges_of_voxel(steps);
+    if (!((by_map - edges).array().abs() <= voxel_tolerance * edges.array()).all())
+      throw std::runtime_error("says voxels of " + shown(edges) + " by its pixdim and of " + shown(by_map) +
+                               " by its sform, which must agree: set the one that is wrong");
+  }
+  constexpr std::array<const char*, 4> units{"", "m", "mm", "um"};
+  const auto unit = static_cast<std::size_t>(header.GetXYZTUnits() & 7);
+  return edges * millimetres_in(unit < units.size() ? units[unit] : "xyzt_units " + std::to_string(unit));
+}
+
+/// VTK takes the last bytes of a longer NRRD.
+void check_length(vtkMetaImageReader&, const VolumeBytes&, std::uint64_t) {}
+void check_length(vtkNIFTIImageReader&, const VolumeBytes&, std::uint64_t) {}
+void check_length(vtkNrrdReader&, const VolumeBytes& bytes, std::uint64_t of_voxels) {
+  if (!bytes.deflated && bytes.of_voxels != of_voxels)
+    throw std::runtime_error("has " + std::to_string(bytes.of_voxels) + " bytes of voxels, must have " +
+                             std::to_string(of_voxels));
+}
 
 /// The first number of a header, in either order of bytes, says which it is; VTK does not look at it.
 void check_size_of_header(const std::string& path) {
@@ -92,7 +142,7 @@ void check_compressed(Reader& reader, const VolumeBytes& bytes, std::uint64_t of
     for (int a = 4; a <= std::min<std::int64_t>(7, header.GetDim(0)); ++a)
       n_pictures *= std::clamp<double>(static_cast<double>(header.GetDim(a)), 1, 1e6);
   }
-  constexpr double room = 1 << 20; // for what may follow
+  constexpr double room = std::is_same_v<Reader, vtkNrrdReader> ? 0 : 1 << 20; // for what may follow
   const double most =
       std::min(room + n_pictures * static_cast<double>(least), static_cast<double>(bytes.of_voxels));
   check_deflated(*bytes.deflated, least, static_cast<std::uint64_t>(most));
@@ -126,17 +176,18 @@ Volume read_with_vtk(const std::string& path, const VolumeBytes& bytes) {
   for (std::size_t a = 0; a < 3; ++a) {
     const auto n = static_cast<std::int64_t>(extent[2 * a + 1]) - extent[2 * a] + 1;
     volume.voxels[a] = n > 0 && n < std::numeric_limits<int>::max() ? static_cast<int>(n) : 0;
-    volume.spacing[static_cast<int>(a)] = reader->GetDataSpacing()[a];
   }
   if (const int n = reader->GetNumberOfScalarComponents(); n != 1)
     throw std::runtime_error(
         "has " + std::to_string(n) +
         " numbers a voxel, must have one (a first axis of up to 9 in NRRD is taken for that)");
   check_header(*reader, path);
+  volume.spacing = voxel_of(*reader, bytes);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
   if (bytes_a_voxel < 1) throw std::runtime_error("has voxels of no type of numbers");
   const std::size_t n =
       checked_voxels(volume.voxels, volume.spacing, static_cast<std::size_t>(bytes_a_voxel), bytes.of_voxels);
+  check_length(*reader, bytes, n * static_cast<std::size_t>(bytes_a_voxel));
   check_compressed(*reader, bytes, n * static_cast<std::size_t>(bytes_a_voxel));
   run_on(path, [&] { run(*reader); });
   vtkDataArray* numbers = reader->GetOutput()->GetPointData()->GetScalars();

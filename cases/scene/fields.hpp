@@ -23,7 +23,8 @@ void serialize(Archive& archive, springproof::cases::Where& where) {
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::MeshFile& mesh) {
-  auto& [path, where] = mesh;
+  auto& [path, where, scale] = mesh;
+  archive(scale);
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
@@ -37,15 +38,15 @@ SPRINGPROOF_FIELDS(springproof::cases::PictureContour, intensity, n_smoothing, m
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::BodySurface& surface) {
-  auto& [path, contour, where] = surface;
-  archive(contour);
+  auto& [path, contour, where, scale] = surface;
+  archive(contour, scale);
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Voxels& voxels) {
-  auto& [path, edge, where] = voxels;
-  archive(edge);
+  auto& [path, edge, where, scale] = voxels;
+  archive(edge, scale);
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
@@ -53,8 +54,8 @@ SPRINGPROOF_FIELDS(springproof::cases::LabelClass, name, lower, upper, is_rigid)
 
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Labels& labels) {
-  auto& [path, edge, classes, crop, keep, seed, where] = labels;
-  archive(edge, classes, crop, keep, seed);
+  auto& [path, edge, classes, crop, keep, seed, where, scale] = labels;
+  archive(edge, classes, crop, keep, seed, scale);
   if constexpr (has_places<Archive>) archive(path, where);
 }
 
@@ -112,13 +113,19 @@ SPRINGPROOF_FIELDS(springproof::cases::WeightedPoint, point, weight)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedLoad, selection, load, part, points)
 SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedMass, selection, added)
 SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
-SPRINGPROOF_FIELDS(springproof::cases::Scene, definition, mesh, material_of_cell, constrained, moved, loads,
-                   masses, network, surface)
+template<class Archive>
+void serialize(Archive& archive, springproof::cases::Scene& scene) {
+  auto& [definition, mesh, material_of_cell, constrained, moved, loads, masses, network, surface, remarks] =
+      scene;
+  archive(definition, mesh, material_of_cell, constrained, moved, loads, masses, network, surface);
+  if constexpr (has_places<Archive>) archive(remarks);
+}
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
 SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason,
                    displacement)
+SPRINGPROOF_FIELDS(springproof::cases::FieldNorms, root_mean_square, largest)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Vibration, omega, damping_ratio)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
@@ -130,10 +137,10 @@ void serialize(Archive& archive, springproof::cases::Solution& solution) {
   auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,
          load_reached, newton_iterations, linear_iterations, relaxation_iterations, force_evaluations,
          factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory,
-         from_equilibrium] = solution;
+         from_equilibrium, norms] = solution;
   archive(status, message, outcome, displacement, cell_volume, fields, unknowns, residual, load_reached,
           newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
-          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory, from_equilibrium);
+          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory, from_equilibrium, norms);
 }
 
 } // namespace cereal

@@ -176,9 +176,10 @@ void resolve_loads(Scene& scene) {
   }
 }
 
-HexMesh make_mesh(const Body& body) {
+/// Grids of cells are sound by construction, and read_mesh() checks what others may have made.
+HexMesh make_mesh(const Body& body, std::vector<std::string>& remarks) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
-  if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels);
+  if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels, &remarks);
   if (const Labels* labels = std::get_if<Labels>(&body)) return make_label_mesh(*labels);
   return read_mesh(std::get<MeshFile>(body));
 }
@@ -226,6 +227,22 @@ void check_fields(const Scene& scene) {
   }
 }
 
+/// @throws InputError if physical groups of several dimensions have the region's name
+void check_is_one_group(const HexMesh& mesh, const Region& region) {
+  std::vector<std::string> meant;
+  for (int dimension = 0; dimension < 3; ++dimension)
+    if (const std::string name = name_in_dimension(region.name, dimension); mesh.groups.count(name) > 0)
+      meant.push_back("'" + name + "'");
+  if (meant.empty()) return;
+  const auto& of_cells = mesh.group_of_cell;
+  if (std::count(of_cells.begin(), of_cells.end(), region.name) > 0)
+    meant.push_back(fmt::format("{{ class = \"{}\" }} for the nodes of the volume", region.name));
+  throw InputError(region.where,
+                   fmt::format("'{}' is the name of physical groups of several dimensions; must be {}, or "
+                               "groups of names of their own",
+                               region.name, fmt::join(meant, " or ")));
+}
+
 } // namespace
 
 Selection select(const HexMesh& mesh, const Region& region) {
@@ -238,6 +255,7 @@ Selection select(const HexMesh& mesh, const Region& region) {
   } else if (const auto words = words_of(region.name); are_faces(words)) {
     selection = select_on_planes(mesh, words);
   } else {
+    check_is_one_group(mesh, region);
     std::string known = mesh.groups.empty() ? "" : ", and the mesh's groups";
     for (const auto& entry : mesh.groups) known += " '" + entry.first + "'";
     throw InputError(region.where, fmt::format("'{}' names no region; allowed are {} joined by blanks{}",
@@ -290,7 +308,7 @@ void resolve_network(Scene& scene) {
 Scene make_scene(const Case& definition) {
   Scene scene;
   scene.definition = definition;
-  scene.mesh = cut(make_mesh(definition.body), definition.removed);
+  scene.mesh = cut(make_mesh(definition.body, scene.remarks), definition.removed);
   resolve_materials(scene);
   add_patches(scene);
   resolve_supports(scene);

@@ -38,6 +38,7 @@ struct Scene {
   std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
   TriangleMesh surface{};               ///< of the case's file; empty: it names none
+  std::vector<std::string> remarks{};   ///< what was left out of files that the body is made from
 };
 
 /// Nodes, edges and faces of a region. Faces of a box are planes of the mesh's bounding box.

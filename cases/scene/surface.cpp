@@ -39,7 +39,8 @@ void read_surface_of(Scene& scene) {
   };
   try {
     scene.surface = file->contour ? label_surface(std::get<Labels>(scene.definition.body), *file->contour)
-                                  : read_surface(file->path);
+                                  : read_surface(file->path, &scene.remarks);
+    for (Eigen::Vector3d& vertex : scene.surface.vertices) vertex *= file->scale;
   } catch (const std::runtime_error& error) {
     refuse(error.what());
   }

@@ -164,22 +164,28 @@ void find_order(StudiedMeasure& studied, std::size_t own, double formal_order) {
   }
 }
 
-/// Norms of the displacement have the limit of the field.
+/// Each mesh's norm is that of its own field, of which the body's nodes show a part: the limit is that of
+/// these values, and is uncertain by what they are and by what the field at the nodes is.
 void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const FieldNorm& norm,
                     const std::variant<FieldLimit, std::string>& field, double formal_order) {
-  if (!is_field_norm(kind)) {
-    auto limit = find_limit(studied.values, 2, formal_order);
-    if (const auto* found = std::get_if<Limit>(&limit))
-      studied.reference = *found;
-    else
-      studied.no_reference = std::get<std::string>(limit);
-  } else if (const auto* found = std::get_if<FieldLimit>(&field)) {
-    studied.reference = Limit{norm(found->value), norm(found->uncertainty), found->note, found->turns};
-  } else { // the norm's own values may show an order that the field does not have
-    studied.reason = studied.no_reference = std::get<std::string>(field);
+  auto limit = find_limit(studied.values, 2, formal_order);
+  const auto* of_field = std::get_if<FieldLimit>(&field);
+  if (is_field_norm(kind) &&
+      of_field == nullptr) { // its own values may show an order that the field does not have
+    limit = std::get<std::string>(field);
+    studied.reason = std::get<std::string>(field);
     studied.limit.reset();
     studied.discretisation_error_percent.reset();
   }
+  if (const auto* reason = std::get_if<std::string>(&limit)) {
+    studied.no_reference = *reason;
+    return;
+  }
+  studied.reference = std::get<Limit>(limit);
+  if (!is_field_norm(kind)) return;
+  studied.reference->uncertainty = std::max(studied.reference->uncertainty, norm(of_field->uncertainty));
+  studied.reference->turns = studied.reference->turns || of_field->turns;
+  if (!of_field->note.empty()) studied.reference->note = of_field->note;
 }
 
 } // namespace

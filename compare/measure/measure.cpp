@@ -62,9 +62,17 @@ class NodeMeasure {
       const Vector3d after = across(deformed(node_) - deformed(centre_));
       return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
     }
-    default:
-      return std::nan(""); // not reached: the others are of no nodes
+    case MeasureKind::volume:
+    case MeasureKind::displacement_field_l2:
+    case MeasureKind::displacement_field_max:
+    case MeasureKind::reaction:
+    case MeasureKind::strain_energy:
+    case MeasureKind::stress:
+    case MeasureKind::strain:
+    case MeasureKind::curvature:
+      break; // not reached: they are of no single nodes
     }
+    return std::nan("");
   }
 
   /// Of an angle, its value with whole turns.
@@ -149,9 +157,9 @@ double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>&
   const cases::Share here = cases::share_here(mesh, sharing);
   double integral = 0, volume = 0;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
-    // A point of the 2x2x2 rule stands for an eighth of its cell here, which is exact for parallelepipeds.
-    const double weight = cases::cell_volume(cases::cell_vertices(mesh, c)) / 8;
+    const auto vertices = cases::cell_vertices(mesh, c);
     for (int q = 0; q < 8; ++q) {
+      const double weight = mechanics::jacobian(vertices, mechanics::gauss_point(q)).determinant() / 8;
       const std::array<double, 8> shape = mechanics::shape_values(mechanics::gauss_point(q));
       Vector3d value = Vector3d::Zero();
       for (std::size_t v = 0; v < 8; ++v)
@@ -248,6 +256,8 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
     return volume(solution);
   case MeasureKind::displacement_field_l2:
   case MeasureKind::displacement_field_max:
+    if (const auto& own = solution.norms)
+      return measure.kind == MeasureKind::displacement_field_l2 ? own->root_mean_square : own->largest;
     return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
   case MeasureKind::reaction:
     return reaction(measure, scene, solution);
@@ -365,9 +375,13 @@ std::string unit_of(const cases::Measure& measure) {
       return "1";
     case MeasureKind::curvature:
       return "1/mm";
-    default:
-      return "mm";
+    case MeasureKind::coordinate:
+    case MeasureKind::displacement:
+    case MeasureKind::displacement_field_l2:
+    case MeasureKind::displacement_field_max:
+      break;
     }
+    return "mm";
   };
   return measure.over_time ? unit_over_time(*measure.over_time, of_values()) : of_values();
 }

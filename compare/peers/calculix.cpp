@@ -120,27 +120,13 @@ std::optional<std::ifstream> data_of_calculix(const ScratchFolder& scratch, cons
   return data;
 }
 
-/// Volume of a cell whose strains are small: rest volume times one plus the trace, which is its linear part
-/// in the displacement.
-double linear_volume(const cases::HexMesh& mesh, std::size_t cell,
-                     const std::vector<Vector3d>& displacement) {
-  const auto rest = cases::cell_vertices(mesh, cell);
-  const auto gradient = msm::trilinear_volume_gradient(rest);
-  double volume = cases::cell_volume(rest);
-  for (std::size_t v = 0; v < 8; ++v) volume += gradient[v].dot(displacement[mesh.cells[cell][v]]);
-  return volume;
-}
-
 /// Volumes of the body's cells, each the sum of its descendants, which refinement numbers one after another.
 std::vector<double> body_cell_volumes(const cases::Scene& scene, const cases::Scene& refined,
                                       const std::vector<Vector3d>& displacement) {
-  const bool is_linear = scene.definition.fem.formulation == cases::Formulation::small_strain;
   const std::size_t n_children = refined.mesh.cells.size() / scene.mesh.cells.size();
   std::vector<double> volumes(scene.mesh.cells.size(), 0.0);
   for (std::size_t c = 0; c < refined.mesh.cells.size(); ++c)
-    volumes[c / n_children] += is_linear
-                                   ? linear_volume(refined.mesh, c, displacement)
-                                   : cases::cell_volume(cases::cell_vertices(refined.mesh, c, displacement));
+    volumes[c / n_children] += cases::cell_volume(cases::cell_vertices(refined.mesh, c, displacement));
   return volumes;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// First line of a kept file. To be counted up when the fields of compare/solve/fields.hpp change their
 /// meaning.
-const std::string heading = "springproof answers, format 4\n";
+const std::string heading = "springproof answers, format 5\n";
 
 } // namespace
 

@@ -116,7 +116,8 @@ Json case_to_json(const Comparison& comparison) {
                 {"measures", measures},
                 {"expectations", expectations_to_json(comparison.gates)},
                 {"status", comparison.answers.failed() ? "failed" : "converged"},
-                {"doubts", comparison.doubts()}};
+                {"doubts", comparison.doubts()},
+                {"remarks", comparison.scene.remarks}};
   if (!comparison.landmarks.empty()) document["landmarks"] = landmarks_to_json(comparison);
   if (comparison.scene.definition.dynamics) document["motion"] = motion_to_json(comparison);
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);

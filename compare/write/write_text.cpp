@@ -234,6 +234,7 @@ void write_text(std::ostream& out, const Comparison& comparison) {
   write_body(out, scene.mesh);
   write_loads(out, scene);
   for (const std::string& warning : cases::warnings_of_loads(scene)) print(out, "  warning: {}\n", warning);
+  for (const std::string& remark : scene.remarks) print(out, "  warning: {}\n", remark);
   write_side(out, "fem",
              cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
              answers.fem, definition.dynamics.has_value());

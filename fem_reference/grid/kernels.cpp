@@ -47,9 +47,10 @@ const Kernels& kernels() {
     return avx512::the_kernels;
   case Isa::avx2:
     return avx2::the_kernels;
-  default:
-    return baseline::the_kernels;
+  case Isa::baseline:
+    break;
   }
+  return baseline::the_kernels;
 }
 
 } // namespace springproof::fem_reference::grid

@@ -41,14 +41,20 @@ SPRINGPROOF_INLINE void displacement_gradient(const Cells& cells, int q, const C
     }
 }
 
-/// J - 1; of finite kinematics the sum of H's invariants.
-template<class L, class P>
-SPRINGPROOF_INLINE P dilatation_of(const P (&h)[9]) {
-  const P trace = h[0] + h[4] + h[8];
-  if constexpr (!L::is_finite) return trace;
+/// det(I + H) - 1, the sum of H's invariants.
+template<class P>
+SPRINGPROOF_INLINE P growth_of(const P (&h)[9]) {
   P c[9];
   cofactor(h, c);
-  return trace + (c[0] + c[4] + c[8]) + determinant(h);
+  return h[0] + h[4] + h[8] + (c[0] + c[4] + c[8]) + determinant(h);
+}
+/// J - 1 as the law's kinematics have it.
+template<class L, class P>
+SPRINGPROOF_INLINE P dilatation_of(const P (&h)[9]) {
+  if constexpr (L::is_finite)
+    return growth_of(h);
+  else
+    return h[0] + h[4] + h[8];
 }
 template<class L, class P>
 SPRINGPROOF_INLINE void cofactor_of(const P (&h)[9], P (&c)[9]) {
@@ -91,7 +97,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
       Corners<PackD> u, force{}, volume_gradient{};
       load_corners(layout, fields.displacement, node, weight, u);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
-      PackD p{}, growth{}, lowest{};
+      PackD p{}, growth{}, volume{}, lowest{};
       Pressure<PackD> target{};
       if constexpr (modes) {
         p = load(fields.pressure + cell);
@@ -115,6 +121,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
         }
         add_divergence(cells, q, stress, force);
         growth += dilatation;
+        if (fields.volume) volume += 1 + (L::is_finite ? dilatation : growth_of(h));
       }
       const PackD least = constant<PackD>(L::is_finite ? -1 : -1e100);
       if (!all_greater(lowest, least)) {
@@ -130,7 +137,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
         mismatch = larger(size, mismatch);
       }
       if (fields.volume)
-        store(fields.volume + cell, weight > PackD{} ? (growth + 8) * cells.point_volume : PackD{});
+        store(fields.volume + cell, weight > PackD{} ? volume * cells.point_volume : PackD{});
       for (int a = 0; a < 8; ++a)
         for (int c = 0; c < 3; ++c) {
           const std::ptrdiff_t at = c * layout.size + node + corner_of(layout, a);

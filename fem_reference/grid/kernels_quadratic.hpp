@@ -101,7 +101,7 @@ void quadratic_force_layer(const Quadratic& elements, const ForceFields& fields,
         const PackD scale = weight * elements.weights[q];
         for (int e = 0; e < 9; ++e) stress[e] *= scale;
         add_quadratic_divergence(elements, q, stress, force);
-        volume += (1 + dilatation) * scale;
+        if (fields.volume) volume += (1 + (L::is_finite ? dilatation : growth_of(h))) * scale;
       }
       const PackD least = constant<PackD>(L::is_finite ? -1 : -1e100);
       if (!all_greater(lowest, least)) {

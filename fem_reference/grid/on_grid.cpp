@@ -20,9 +20,10 @@ Law law_of(cases::Formulation formulation) {
     return Law::saint_venant_kirchhoff;
   case cases::Formulation::log_strain:
     return Law::log_strain;
-  default:
-    return Law::ogden;
+  case cases::Formulation::hyperelastic:
+    break;
   }
+  return Law::ogden;
 }
 
 std::vector<double> parameters_of(const cases::Material& material) {

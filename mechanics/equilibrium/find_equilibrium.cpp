@@ -129,7 +129,7 @@ class PathFollower {
     if (rest == RestState::mechanism)
       give_up("some motion of the lattice at rest meets no stiffness", cases::Outcome::mechanism);
     if (rest == RestState::unstable)
-      give_up("the lattice is unstable at rest, because of springs of negative stiffness",
+      give_up("the lattice is unstable at rest" + problem_.cause_of_instability(),
               cases::Outcome::unstable_equilibrium);
     if (rest == RestState::unknown) give_up("the linear solver fails already at rest");
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 
 namespace springproof::mechanics {
 
@@ -85,6 +86,8 @@ class NonlinearProblem {
   /// What the tangent at rest says of the body; mechanism: some motion meets (almost) no stiffness; unknown:
   /// its linear solver fails.
   virtual RestState rest_state() { return RestState::sound; }
+  /// Of an unstable one, to follow "unstable at rest".
+  virtual std::string cause_of_instability() const { return ""; }
   struct Mode {
     double eigenvalue; ///< N/mm
     Vector shape;      ///< of length 1

@@ -116,7 +116,25 @@ class DirectSystem : public SpringSystem {
     }
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
     const double shift = rounding * largest;
-    return factorise(rest, TransverseTerm::exact, shift) ? RestState::mechanism : RestState::unstable;
+    if (factorise(rest, TransverseTerm::exact, shift)) return RestState::mechanism;
+    if (has_negative_terms()) return RestState::unstable;
+    // Springs that are pressed together push aside what no spring holds, and what some hold if they push
+    // more.
+    const bool is_held = factorise(rest, TransverseTerm::clamped, 0) &&
+                         factorisation_.smallest_pivot_ratio(diagonal_) > rounding;
+    return is_held ? RestState::unstable : RestState::mechanism;
+  }
+
+  std::string cause_of_instability() const override {
+    if (has_negative_springs()) return ", because of springs of negative stiffness";
+    if (has_negative_terms()) return ", because of volume terms or tetrahedra of negative stiffness";
+    const auto& [rest, links, cells, tetrahedra] = problem_.lattice;
+    std::size_t n = 0;
+    for (const Link& link : links)
+      n += link.spring.rest_length >
+           (1 + rounding) * (rest[cases::index(link.j)] - rest[cases::index(link.i)]).norm();
+    return ", because springs are pressed together there: the points of " + std::to_string(n) + " of " +
+           std::to_string(links.size()) + " are nearer to each other than the spring's rest length";
   }
 
   std::size_t n_unknowns() const override { return msm::n_unknowns(problem_); }
@@ -150,6 +168,12 @@ class DirectSystem : public SpringSystem {
   bool has_negative_springs() const {
     const auto& links = problem_.lattice.links;
     return std::any_of(links.begin(), links.end(), [](const Link& l) { return l.spring.stiffness < 0; });
+  }
+
+  bool has_negative_terms() const {
+    const auto& cells = problem_.lattice.volume_cells;
+    return has_negative_springs() || !problem_.lattice.tetrahedra.empty() ||
+           std::any_of(cells.begin(), cells.end(), [](const VolumeCell& c) { return c.stiffness < 0; });
   }
 
   double reaction(const Vector& displacement) override {

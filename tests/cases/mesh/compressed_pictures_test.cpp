@@ -88,6 +88,13 @@ TEST_CASE("a compressed picture with a byte that its checksum refutes or without
   }
 }
 
+TEST_CASE("a compressed NRRD with more voxels than it says is refused") {
+  const TemporaryFolder folder;
+  const auto [name, header, more] = compressed(bytes_of_picture<std::int16_t>() + "xx")[1];
+  CHECK(name == "a.nrrd");
+  CHECK_THAT(refusal(bone_and_fat(1, folder.write(name, header + more))), Contains("more than"));
+}
+
 TEST_CASE("what inflates to far more than its header says is refused before it is read") {
   const TemporaryFolder folder;
   const std::string voxels = bytes_of_picture<std::int16_t>() + std::string(100'000'000, '\0');

@@ -208,6 +208,43 @@ Physical Point("elsewhere") = {99};
                     Catch::Contains("'elsewhere' selects no node"));
 }
 
+// Of the same kind were looked for: names of classes of a labelled volume (unique, and no face's), of faces
+// beside groups (a group named "z+" wins), of materials' groups (of cells alone), and patches (a name of
+// their own).
+TEST_CASE(
+    "a name of a volume and a surface, or of a curve beside a surface, is no region until its kind is told") {
+  const HexMesh mesh = read_text_as_mesh("a.geo", R"(
+Point(1) = {0, 0, 0};
+x[] = Extrude {1, 0, 0} { Point{1}; Layers{2}; };
+y[] = Extrude {0, 1, 0} { Line{x[1]}; Layers{1}; Recombine; };
+z[] = Extrude {0, 0, 1} { Surface{y[1]}; Layers{1}; Recombine; };
+Physical Volume("soft") = {z[1]};
+Physical Surface("soft") = {y[1]};
+Physical Surface("pulled") = {z[0]};
+Physical Curve("pulled") = {x[1]};
+)");
+  const auto region = [](const std::string& name) { return Region{name, std::nullopt, {}}; };
+  CHECK_THROWS_WITH(
+      select(mesh, region("soft")),
+      Catch::Contains("'soft' is the name of physical groups of several dimensions; must be 'soft "
+                      "(surface)' or { class = \"soft\" } for the nodes of the volume"));
+  CHECK(select(mesh, region("soft (surface)")).nodes.size() == 6);
+  CHECK(select(mesh, region("soft (surface)")).faces.size() == 2);
+  Region volume;
+  volume.part = Part{"soft", Eigen::Vector3d::Constant(-9), Eigen::Vector3d::Constant(9)};
+  CHECK(select(mesh, volume).nodes.size() == 12);
+  CHECK(mesh.group_of_cell == std::vector<std::string>{"soft", "soft"}); // a material's group
+  CHECK_THROWS_WITH(select(mesh, region("pulled")),
+                    Catch::Contains("must be 'pulled (curve)' or 'pulled (surface)', or groups of names"));
+  CHECK(select(mesh, region("pulled (curve)")).nodes.size() == 3);
+}
+
+TEST_CASE("lengths of a mesh in another unit than mm are scaled") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
+  CHECK(read_mesh({path, {}, 1000}).nodes[6] == Eigen::Vector3d(1000, 1000, 1000));
+}
+
 TEST_CASE("a mesh that the models cannot use is refused with the reason") {
   const std::vector<int> one{1, 2, 3, 4, 5, 6, 7, 8}, two{9, 10, 11, 12, 13, 14, 15, 16};
   check_refused("a.msh", msh(gmsh_cube, 4, {{1, 2, 4, 5}, {2, 3, 4, 7}}),
@@ -221,11 +258,23 @@ TEST_CASE("a mesh that the models cannot use is refused with the reason") {
   check_refused("a.msh", msh(gmsh_cube + shifted(gmsh_cube, 1), 5, {one, two}),
                 "falls into 2 pieces that share no node");
   check_refused("a.msh", msh(gmsh_cube, 3, {{1, 2, 3, 4}}), "");
+  check_refused("a.msh", msh(gmsh_cube, 5, {one, one}), "elements 101 and 102 are one hexahedron");
+  Points halves = shifted(gmsh_cube, 1); // beside the first cell, below one half of its face
+  for (auto& p : halves) p[2] /= 2;
+  halves.erase(halves.begin() + 3), halves.erase(halves.begin()); // whose nodes 2 and 3 are there
+  check_refused("a.msh", msh(gmsh_cube + halves, 5, {one, {2, 9, 10, 3, 11, 12, 13, 14}}),
+                " of element 101, and is no vertex of it (2 nodes are like that)");
   check_refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "has format 2.2, must be 4");
   check_refused("a.msh", "solid cube\n", "is not a gmsh mesh");
   check_refused("a.msh", "", "is not a gmsh mesh");
   check_refused("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\nnonsense\n", "gmsh: ");
   check_refused("a.geo", "Point(1) = {0, 0, 0};\n", "has no hexahedra");
+  const std::string no_cells =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 9 9 9 0 0\n$EndEntities\n"
+      "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+      "$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n";
+  check_refused("a.msh", no_cells, "physical groups alone, where there are any");
+  check_refused("a.msh", no_cells, "Mesh.SaveAll");
   check_refused("a.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n", "Tetrahedron 4");
   CHECK_THROWS_WITH(read_mesh({"/no/such.msh", {"case.toml", 6, 8, "body.file"}}),
                     "case.toml:6:8: body.file: /no/such.msh: No such file or directory");

@@ -107,6 +107,55 @@ TEST_CASE("an open surface, pieces that share no face, an edge too small or too 
   check(two, 1, "fall into 2 pieces that share no face, the largest of 2 cells");
   check(cuboid({0, 0, 0}, {1, 1, 1}), 1e-3, "needs more than");
   check(cuboid({0, 0, 0}, {1, 1, 1}), 5, "no cell of edge 5 mm has its centre inside");
+  check(cuboid({0, 0, 0}, {0.1, 0.04, 0.05}), 1, "the file's body is 0.1 x 0.04 x 0.05 mm");
+  check(cuboid({0, 0, 0}, {0.1, 0.04, 0.05}), 1, "body.scale says how many mm");
+}
+
+TEST_CASE("a surface in metres is scaled to mm, and so is the count of its cubes") {
+  const TemporaryFolder folder;
+  const Voxels body{
+      folder.write("a.stl", "solid\n" + cuboid({0, 0, 0}, {0.25, 0.5, 0.125}) + "endsolid\n"), 125, {}, 1000};
+  CHECK(make_voxel_mesh(body).cells.size() == 2 * 4 * 1);
+  CHECK(count_voxels(body).in_body == Approx(8).epsilon(1e-6)); // single precision
+}
+
+// Of the same kind were looked for: the same file as [surface] (read_surface() reads it here), .vtp (without
+// such triangles by joined()), meshes (check_mesh_test.cpp), springs of a network (network_test.cpp).
+TEST_CASE(
+    "triangles that are there twice or have no area, and bytes after the last, are left out with a word") {
+  const std::string body = cuboid({0, 0, 0}, {2, 2, 2});
+  const auto remarks_of = [](const std::string& name, const std::string& content) {
+    const TemporaryFolder folder;
+    std::vector<std::string> remarks;
+    CHECK(make_voxel_mesh({folder.write(name, content), 1, {}}, &remarks).cells.size() == 8);
+    return fmt::format("{}", fmt::join(remarks, "; "));
+  };
+  const auto of_text = [&](const std::string& facets) {
+    return remarks_of("a.stl", "solid\n" + facets + "endsolid\n");
+  };
+  CHECK(of_text(body).empty());
+  CHECK_THAT(of_text(body + body), Catch::Contains("a.stl: 12 triangles that are there before are left out"));
+  const std::string needle = facet({0, 0, 0}, {1, 1, 1}, {2, 2, 2}) + facet({2, 2, 2}, {1, 1, 1}, {0, 0, 0}),
+                    point = facet({0, 0, 0}, {0, 0, 0}, {2, 0, 0});
+  CHECK_THAT(of_text(body + needle + point), Catch::Contains("3 triangles without an area bound nothing"));
+
+  const TemporaryFolder folder;
+  const Surface surface = read_stl(folder.write("a.stl", "solid\n" + body + "endsolid\n"), {});
+  std::string binary(80, ' ');
+  const auto append = [&](auto value) { binary.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  append(static_cast<std::uint32_t>(surface.size()));
+  for (const auto& triangle : surface) {
+    for (int i = 0; i < 3; ++i) append(0.F);
+    for (const Vector3d& vertex : triangle)
+      for (int a = 0; a < 3; ++a) append(static_cast<float>(vertex[a]));
+    append(std::uint16_t{0});
+  }
+  CHECK(remarks_of("b.stl", binary).empty());
+  for (const std::size_t n : {1u, 7u, 50u, 100u, 123u}) { // a part of a triangle, and some
+    CAPTURE(n);
+    CHECK_THAT(remarks_of("b.stl", binary + std::string(n, '\x3f')),
+               Catch::Contains(fmt::format("b.stl: {} bytes after the last triangle are left out", n)));
+  }
 }
 
 TEST_CASE("the number of cubes is known from the surface, without making them") {

@@ -1,0 +1,251 @@
+#include "cases/mesh/check_mesh.hpp"
+
+#include "cases/mesh/cells_at.hpp"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+
+namespace springproof::cases {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double touching = 0.01; ///< of an edge: what is nearer is meant to meet
+constexpr const char* way_out =
+    "cells have to meet in whole faces and to share the vertices there: divide all of them alike, and merge "
+    "nodes in one place (gmsh: Coherence; before the mesh is made, or Coherence Mesh;). Sides of a crack "
+    "that is meant must be more than 1 % of an edge apart";
+
+[[noreturn]] void refuse_mesh(const std::string& reason) {
+  throw std::runtime_error(reason);
+}
+
+/// Some nodes, halved again and again along one axis after the other, so that those in a box are found
+/// without a look at most others.
+class NodesInBoxes {
+ public:
+  NodesInBoxes(const HexMesh& mesh, std::vector<int> nodes) : mesh_(mesh), nodes_(std::move(nodes)) {
+    divide(0, nodes_.size(), 0);
+  }
+  template<class Action>
+  void for_each_in(const Eigen::AlignedBox3d& box, const Action& action) const {
+    visit(0, nodes_.size(), 0, box, action);
+  }
+
+ private:
+  const HexMesh& mesh_;
+  std::vector<int> nodes_;
+
+  double at(std::size_t place, int axis) const { return mesh_.nodes[index(nodes_[place])][axis]; }
+  void divide(std::size_t begin, std::size_t end, int axis) {
+    if (end - begin < 2) return;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto first = nodes_.begin();
+    std::nth_element(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(middle),
+                     first + std::ptrdiff_t(end),
+                     [&](int a, int b) { return mesh_.nodes[index(a)][axis] < mesh_.nodes[index(b)][axis]; });
+    divide(begin, middle, (axis + 1) % 3);
+    divide(middle + 1, end, (axis + 1) % 3);
+  }
+  template<class Action>
+  void visit(std::size_t begin, std::size_t end, int axis, const Eigen::AlignedBox3d& box,
+             const Action& action) const {
+    if (begin == end) return;
+    const std::size_t middle = begin + (end - begin) / 2;
+    if (box.contains(Vector3d(mesh_.nodes[index(nodes_[middle])]))) action(nodes_[middle]);
+    if (box.min()[axis] <= at(middle, axis)) visit(begin, middle, (axis + 1) % 3, box, action);
+    if (box.max()[axis] >= at(middle, axis)) visit(middle + 1, end, (axis + 1) % 3, box, action);
+  }
+};
+
+class MeshCheck {
+ public:
+  MeshCheck(const HexMesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers)
+      : mesh_(mesh), faces_(faces), numbers_(numbers) {}
+
+  void check() {
+    check_cells();
+    check_faces();
+    check_in_one_piece();
+    check_surface();
+  }
+
+ private:
+  const HexMesh& mesh_;
+  const std::vector<CellFace>& faces_;
+  const MeshNumbers& numbers_;
+  std::vector<int> surface_; ///< nodes of faces of one cell
+
+  /// The Jacobian is positive at every corner of a cell that is neither inside out nor folded.
+  void check_cells() const {
+    std::vector<std::size_t> inverted;
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      if (!(smallest_corner_jacobian(cell_vertices(mesh_, c)) > 0)) inverted.push_back(numbers_.of_cells[c]);
+    if (inverted.empty()) return;
+    const std::size_t n_shown = std::min<std::size_t>(5, inverted.size());
+    refuse_mesh(fmt::format(
+        "{} of {} hexahedra are inverted or degenerate (a corner whose Jacobian is not positive): "
+        "elements {}{}",
+        inverted.size(), mesh_.cells.size(), fmt::join(inverted.data(), inverted.data() + n_shown, " "),
+        inverted.size() > n_shown ? " ..." : ""));
+  }
+
+  /// A face is one cell's, or lies between two, which see it from opposite sides.
+  void check_faces() {
+    for (std::size_t f = 0; f < faces_.size();) {
+      std::size_t end = f + 1;
+      while (end < faces_.size() && faces_[end].vertices == faces_[f].vertices) ++end;
+      if (end - f == 1) surface_.insert(surface_.end(), faces_[f].around.begin(), faces_[f].around.end());
+      if (end - f > 2 || (end - f == 2 && is_same_way(faces_[f].around, faces_[f + 1].around)))
+        refuse_at_face(f, end);
+      f = end;
+    }
+    make_set(surface_);
+  }
+
+  static bool is_same_way(const std::array<int, 4>& a, std::array<int, 4> b) {
+    std::rotate(b.begin(), std::find(b.begin(), b.end(), a[0]), b.end());
+    return a == b;
+  }
+
+  [[noreturn]] void refuse_at_face(std::size_t f, std::size_t end) const {
+    for (std::size_t a = f; a < end; ++a)
+      for (std::size_t b = a + 1; b < end; ++b)
+        if (sorted(mesh_.cells[faces_[a].cell]) == sorted(mesh_.cells[faces_[b].cell]))
+          refuse_mesh(fmt::format("elements {} and {} are one hexahedron, which must be listed once",
+                                  element(faces_[a].cell), element(faces_[b].cell)));
+    std::vector<std::size_t> elements;
+    for (std::size_t a = f; a < end; ++a) elements.push_back(element(faces_[a].cell));
+    const std::string all = fmt::format("{}", fmt::join(elements, ", "));
+    refuse_mesh(fmt::format("the face of nodes {} belongs to elements {}{}", nodes_of(faces_[f].around), all,
+                            end - f > 2 ? ", must belong to one or two"
+                                        : ", which lie on the same side of it and overlap"));
+  }
+
+  /// A piece that shares no node with the rest is unconstrained: most often coincident nodes were not merged.
+  void check_in_one_piece() const {
+    std::vector<int> root(mesh_.nodes.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](int n) {
+      while (root[index(n)] != n) n = root[index(n)] = root[index(root[index(n)])];
+      return n;
+    };
+    for (const auto& cell : mesh_.cells)
+      for (const int node : cell) root[index(find(node))] = find(cell[0]);
+    int n_pieces = 0;
+    for (std::size_t n = 0; n < root.size(); ++n) n_pieces += index(root[n]) == n;
+    if (n_pieces != 1)
+      refuse_mesh(
+          fmt::format("falls into {} pieces that share no node; where they touch, merge their nodes (gmsh: "
+                      "Coherence Mesh)",
+                      n_pieces));
+  }
+
+  /// A node on a cell that it is no vertex of.
+  struct Stray {
+    int node;
+    std::size_t cell;
+    Vector3d at; ///< in the cell's unit cube
+  };
+
+  /// No node of the surface lies on a cell that it is no vertex of.
+  void check_surface() const {
+    std::vector<double> shortest(mesh_.nodes.size(), std::numeric_limits<double>::infinity()),
+        of_cell; ///< edge, of nodes and cells
+    for (const std::array<int, 8> cell : mesh_.cells) {
+      of_cell.push_back(std::numeric_limits<double>::infinity());
+      for (const auto& edge : cell_edges) {
+        const auto [a, b] = pick(cell, edge);
+        const double length = (mesh_.nodes[index(a)] - mesh_.nodes[index(b)]).norm();
+        for (double* least : {&shortest[index(a)], &shortest[index(b)], &of_cell.back()})
+          *least = std::min(*least, length);
+      }
+    }
+    const NodesInBoxes nodes(mesh_, surface_);
+    std::vector<Stray> strays;
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      const std::array<int, 8> cell = mesh_.cells[c];
+      const auto vertices = cell_vertices(mesh_, c);
+      Eigen::AlignedBox3d box;
+      for (const Vector3d& vertex : vertices) box.extend(vertex);
+      const Vector3d aside = Vector3d::Constant(touching * of_cell[c]);
+      nodes.for_each_in({box.min() - aside, box.max() + aside}, [&](int node) {
+        if (std::find(cell.begin(), cell.end(), node) != cell.end()) return;
+        const Vector3d point = mesh_.nodes[index(node)];
+        const auto place = place_in_cell(vertices, point);
+        if (!place) return;
+        const Vector3d nearest = place->cwiseMax(0).cwiseMin(1);
+        if ((mechanics::image(vertices, nearest) - point).norm() <=
+            touching * std::min(of_cell[c], shortest[index(node)]))
+          strays.push_back({node, c, nearest});
+      });
+    }
+    if (!strays.empty()) refuse_strays(strays);
+  }
+
+  [[noreturn]] void refuse_strays(const std::vector<Stray>& strays) const {
+    const auto is_at_vertex = [](const Stray& stray) {
+      return ((stray.at.array() - 0.5).abs() >= 0.5 - touching).all();
+    };
+    std::vector<int> nodes;
+    const Stray* first = nullptr; // that hangs; where none does, that lies where a vertex is
+    for (const Stray& stray : strays) {
+      nodes.push_back(stray.node);
+      if (first == nullptr || (is_at_vertex(*first) && !is_at_vertex(stray))) first = &stray;
+    }
+    make_set(nodes);
+    const std::array<int, 8> cell = mesh_.cells[first->cell];
+    std::string where;
+    if (is_at_vertex(*first)) {
+      const int vertex = (first->at.x() > 0.5) + 2 * (first->at.y() > 0.5) + 4 * (first->at.z() > 0.5);
+      where = fmt::format("in the place of node {}, a vertex", node(cell[index(vertex)]));
+    } else {
+      where = "inside";
+      for (std::size_t f = 0; f < cell_faces.size(); ++f) // x-, x+, y-, ...
+        if (std::abs(first->at[int(f) / 2] - double(f % 2)) <= touching)
+          where = fmt::format("on the face of nodes {}", nodes_of(pick(cell, cell_faces[f])));
+    }
+    const Vector3d point = mesh_.nodes[index(first->node)];
+    refuse_mesh(fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) lies {} of element {}, and is no vertex of "
+                            "it{}: {}",
+                            node(first->node), point.x(), point.y(), point.z(), where, element(first->cell),
+                            nodes.size() > 1 ? fmt::format(" ({} nodes are like that)", nodes.size()) : "",
+                            way_out));
+  }
+
+  std::size_t node(int n) const { return numbers_.of_nodes[index(n)]; }
+  std::size_t element(std::size_t cell) const { return numbers_.of_cells[cell]; }
+  std::string nodes_of(const std::array<int, 4>& face) const {
+    return fmt::format("{} {} {} {}", node(face[0]), node(face[1]), node(face[2]), node(face[3]));
+  }
+};
+
+} // namespace
+
+std::vector<CellFace> faces_of_cells(const HexMesh& mesh) {
+  std::vector<CellFace> faces;
+  faces.reserve(6 * mesh.cells.size());
+  std::size_t number = 0;
+  for (const std::array<int, 8> cell : mesh.cells) {
+    for (const auto& local : cell_faces) {
+      const std::array<int, 4> around = pick(cell, local);
+      faces.push_back({sorted(around), number, around});
+    }
+    ++number;
+  }
+  std::sort(faces.begin(), faces.end(), [](const CellFace& a, const CellFace& b) {
+    return std::tie(a.vertices, a.cell) < std::tie(b.vertices, b.cell);
+  });
+  return faces;
+}
+
+void check_mesh(const HexMesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers) {
+  MeshCheck(mesh, faces, numbers).check();
+}
+
+} // namespace springproof::cases
