@@ -220,10 +220,11 @@ bool is_small(const Lattice& lattice, const Points& displacement) {
                      [&](const Tetrahedron& t) { return are_small(t.nodes, tetrahedron_edges); });
 }
 
-/// K(u part) u, with the tangent at a part of the way to the displacement.
+/// K(u part) u, with the tangent at a part of the way to the displacement, as seen from the first point.
 Points tangent_product(const Lattice& lattice, const Points& displacement, double part) {
   Points at = lattice.rest, product(at.size(), Vector3d::Zero());
-  for (std::size_t p = 0; p < at.size(); ++p) at[p] += part * displacement[p];
+  for (std::size_t p = 0; p < at.size(); ++p)
+    at[p] = (lattice.rest[p] - lattice.rest[0]) + part * displacement[p];
   visit_tangent_blocks(lattice, at, TransverseTerm::exact,
                        [&](int row, int column, const Eigen::Matrix3d& block) {
                          product[index(row)] += block * displacement[index(column)];

@@ -61,7 +61,7 @@ TEST_CASE("gate holds both models to the same turn, most of a whole one") {
     const std::string quarter = std::to_string(angle / 4 - 5) + ", " + std::to_string(angle / 4 + 5);
     std::string more =
         "[[moved]]\nregion = 'z+'\naxis = 'z'\ncentre = [1, 1, 12]\nangle = " + std::to_string(angle) +
-        "\n[fem]\naccuracy = 'none'\n"
+        "\n[fem]\naccuracy = 'none'\n[msm]\ndesign = 'hybrid'\n"
         "[[measure]]\nname = 'quarter'\nkind = 'twist'\nnode = 'near 2 1 3'\ncentre = 'near 1 1 3'\n";
     for (const char* side : {"msm", "fem"})
       more +=

@@ -141,6 +141,8 @@ TEST_CASE("both models turn an end by 300 degrees, in statics and in time") {
   for (const bool moves : {false, true}) {
     INFO(moves);
     cases::Case definition = twisted_bar(turned, 4).definition;
+    definition.msm.design =
+        cases::Design::linear_method; // springs of which no stiffness is negative in long cells
     if (moves) {
       cases::Dynamics& dynamics = definition.dynamics.emplace();
       dynamics.scheme.scheme = cases::Scheme::implicit_euler;

@@ -187,13 +187,13 @@ TEST_CASE("cells of terms and networks have the same fields on any number of ran
   const auto solved = [&](MPI_Comm communicator) {
     return msm::solve_lattice_by_snes(scene, lattice, communicator, to_rounding());
   };
-  const cases::Solution alone = solved(PETSC_COMM_SELF), together = solved(PETSC_COMM_WORLD);
+  cases::Solution alone = solved(PETSC_COMM_SELF), together = solved(PETSC_COMM_WORLD);
   const cases::Share here = part_of(alone, together);
   CHECK(largest_difference(msm::fields(scene, terms, alone), msm::fields(scene, terms, together), here) <=
         1e-7);
-  msm::Lattice network =
-      lattice; // its springs without the volume terms: not in balance, but that is no matter
+  msm::Lattice network = lattice; // its springs without the volume terms: not in balance
   network.volume_cells.clear();
+  alone.status = together.status = cases::Status::skipped;
   const cases::Fields one = msm::network_fields(scene, network, alone),
                       part = msm::network_fields(scene, network, together);
   CHECK(part.total_energy == Approx(one.total_energy).epsilon(1e-7));

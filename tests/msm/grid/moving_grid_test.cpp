@@ -129,8 +129,9 @@ TEST_CASE("steps in real time have no more iterations than allowed and say what 
   CHECK(of_motion > 0);
   CHECK(of_motion <= 0.05);
   const double end = (whole.displacement.back() - cut.displacement.back()).norm();
-  // At rest 1 % of the loads may be unbalanced, and some of it bends the block, which it resists least.
-  CHECK(end <= 2 * 0.01 * whole.displacement.back().norm());
+  // At rest 1 % of the loads may be unbalanced, and some of it bends the block, which it resists least: by
+  // several times as much as the same force does that is shared as the loads are.
+  CHECK(end <= 5 * 0.01 * whole.displacement.back().norm());
 }
 
 TEST_CASE("a step in real time that its iterations leave further from balance than the loads is halved") {
