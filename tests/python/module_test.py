@@ -187,7 +187,7 @@ def check_interruptions():
     """Ctrl-C ends a solve and one that waits for another; a handler may solve; Python may end while threads solve. Each solve would take hours."""
     for script, sides in ((INTERRUPTED, ("msm", "fem", "snes")), (WAITING, ("msm", "fem", "snes")), (HANDLER, ("msm", "fem", "snes"))):
         for side in sides:
-            done = subprocess.run([sys.executable, "-c", script, bar, side, block], capture_output=True, text=True, timeout=200)
+            done = subprocess.run([sys.executable, "-W", "ignore", "-c", script, bar, side, block], capture_output=True, text=True, timeout=200)
             assert done.returncode == 0 and done.stdout == "went on\n" and done.stderr == "", (script, side, done)
 
 
