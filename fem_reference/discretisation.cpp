@@ -1,9 +1,11 @@
 #include "fem_reference/discretisation.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 #include "fem_reference/space.hpp"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
@@ -11,6 +13,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/sparsity_tools.h>
+#include <fmt/format.h>
 #include <set>
 
 namespace springproof::fem_reference {
@@ -93,6 +96,27 @@ void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& 
     add(load, node, cases::mass_of(added, nodes.mesh_node[index(node)]) * gravity);
 }
 
+/// Holds what a vector (N per owned degree of freedom) has of the scene's loads as a whole against what they
+/// are: a load that elements do not apply is no load, in motion too, where nothing holds reactions against
+/// it.
+/// @throws SolveError
+void check_resultant(const cases::Scene& scene, const std::vector<double>& load, MPI_Comm communicator) {
+  constexpr double tolerance = 1e-6; // far above what quadrature and rounding leave
+  Vector3d carried = Vector3d::Zero(), applied = carried;
+  for (std::size_t i = 0; i < load.size(); ++i) carried[static_cast<int>(i % 3)] += load[i];
+  for (double& component : carried) component = dealii::Utilities::MPI::sum(component, communicator);
+  double size = 0;
+  for (const auto& [node, force] : cases::applied_forces(scene, cases::PointMass::cells)) {
+    applied += force;
+    size += force.norm();
+  }
+  if (!((carried - applied).norm() <= tolerance * size))
+    throw cases::SolveError(
+        fmt::format("finite elements have ({:.6g}) N of the ({:.6g}) N that are applied at full load: "
+                    "no answer to this case, and a defect to report",
+                    fmt::join(carried, ", "), fmt::join(applied, ", ")));
+}
+
 /// Point forces, tractions, torques, gravity and the body force at full load, N per owned degree of freedom.
 std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
                                    const Geometry& geometry, const Prescribed& prescribed) {
@@ -106,7 +130,9 @@ std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space
   check(VecAssemblyBegin(load.get()));
   check(VecAssemblyEnd(load.get()));
   const ReadEntries values(load.get());
-  return {values.data(), values.data() + 3 * nodes.n_owned};
+  std::vector<double> owned(values.data(), values.data() + 3 * nodes.n_owned);
+  if (!prescribed.body_force) check_resultant(scene, owned, space.mesh.get_communicator());
+  return owned;
 }
 
 } // namespace

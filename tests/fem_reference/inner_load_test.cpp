@@ -3,6 +3,7 @@
 // quadratic loads, refined meshes, point forces on nodes of quadratic elements, and boxes whose faces come
 // from the cells of both sides.
 
+#include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
 #include "scenes.hpp"
@@ -80,4 +81,10 @@ TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a
       CHECK(std::abs(end) > 1e-4);
       CHECK(end == Approx(inner).epsilon(0.2)); // no moment beyond x = 4 mm; warping decays within a cell
     }
+}
+
+TEST_CASE("a load on what is no face of the elements is no answer") {
+  cases::Scene scene = cases::make_scene(bar(cases::Element::q1, 0, 4, cases::LoadKind::traction));
+  scene.loads.front().selection.faces.front() = {0, 1, 21, 20}; // across a cell
+  CHECK_THROWS_AS(fem_reference::Model(scene, MPI_COMM_WORLD, Backend::assembled), cases::SolveError);
 }
