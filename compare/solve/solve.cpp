@@ -33,7 +33,11 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
     design = design_for(scene);
     return *design;
   };
-  return solve_side(designed, [&](const msm::DesignResult& found) { return solve_by_snes(scene, found); });
+  Answer answer =
+      solve_side(designed, [&](const msm::DesignResult& found) { return solve_by_snes(scene, found); });
+  hold_against_loads(scene, answer,
+                     [&](const cases::Solution& solution) { fields_of_springs(scene, *design, solution); });
+  return answer;
 }
 
 /// Every node of the region belongs to a face of it: what is shared by more and more nodes tends to a
@@ -96,16 +100,18 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
     return {shared_from_rank_0(scene.mesh, move), scene.definition.fem, {}, {}};
   }
   const auto settings = limited(scene.definition, fem_reference::default_settings());
-  return {solve_side([&] { return make_finite_elements(scene); },
-                     [&](const auto& model) {
-                       cases::Solution solution = model->solve(settings);
-                       cases::Fields fields = model->fields(solution.sharing.get()); // which checks them
-                       if (scene.definition.has_fields) solution.fields = std::move(fields);
-                       return solution;
-                     }),
-          scene.definition.fem,
-          {},
-          {}};
+  decltype(make_finite_elements(scene)) solved;
+  Answer answer = solve_side([&] { return make_finite_elements(scene); },
+                             [&](auto& model) {
+                               solved = std::move(model);
+                               cases::Solution solution = solved->solve(settings);
+                               if (scene.definition.has_fields)
+                                 solution.fields = solved->fields(solution.sharing.get());
+                               return solution;
+                             });
+  hold_against_loads(scene, answer,
+                     [&](const cases::Solution& solution) { solved->fields(solution.sharing.get()); });
+  return {std::move(answer), scene.definition.fem, {}, {}};
 }
 
 Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept) {

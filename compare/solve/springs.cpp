@@ -273,16 +273,17 @@ mechanics::EquilibriumSettings limited(const cases::Case& definition,
   return settings;
 }
 
+cases::Fields fields_of_springs(const cases::Scene& scene, const msm::DesignResult& design,
+                                const cases::Solution& solution) {
+  if (scene.definition.msm.design == cases::Design::network)
+    return msm::network_fields(scene, assembled_lattice(scene, design), solution);
+  if (design.terms) return msm::fields(scene, *design.terms, solution);
+  return msm::fields(scene, stiffness_of_cells(design), solution);
+}
+
 cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
                             cases::Solution solution) {
-  const auto make_fields = [&] {
-    if (scene.definition.msm.design == cases::Design::network)
-      return msm::network_fields(scene, assembled_lattice(scene, design), solution);
-    if (design.terms) return msm::fields(scene, *design.terms, solution);
-    return msm::fields(scene, stiffness_of_cells(design), solution);
-  };
-  cases::Fields fields = make_fields(); // in any case: reactions are held against the loads
-  if (scene.definition.has_fields) solution.fields = std::move(fields);
+  if (scene.definition.has_fields) solution.fields = fields_of_springs(scene, design, solution);
   return solution;
 }
 
@@ -357,6 +358,8 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
         return with_fields(scene, springs,
                            model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
       });
+  hold_against_loads(scene, answer,
+                     [&](const cases::Solution& solution) { fields_of_springs(scene, springs, solution); });
   if (answer.solution.from_equilibrium) { // outside of the time that the iterations took
     add_distance(scene, springs, n_threads, settings, answer.solution);
     answer.solution.message = describe_distance(answer.solution);

@@ -51,6 +51,12 @@ MovingSprings make_moving_springs(const cases::Scene& scene, const msm::DesignRe
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
                                        mechanics::EquilibriumSettings settings = {});
 
+/// Collective where ranks share the solution.
+/// @param design  of the springs that were solved
+/// @throws SolveError where an equilibrium's reactions do not balance the loads
+cases::Fields fields_of_springs(const cases::Scene& scene, const msm::DesignResult& design,
+                                const cases::Solution& solution);
+
 /// The springs' solution under the full load, with its fields where the case asks for them. Collective where
 /// ranks share the solution.
 /// @param design  of the springs that were solved
