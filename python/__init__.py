@@ -5,7 +5,7 @@
     print(case.measure(springs))
 
 What the program would refuse is an InputError, a load that cannot be carried a SolveError, with the program's messages. Lengths are in mm,
-forces in N, stresses in MPa. docs/python.md has every name.
+forces in N, stresses in MPa. docs/using/python.md has every name.
 """
 
 import json

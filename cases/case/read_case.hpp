@@ -14,7 +14,7 @@ inline constexpr const char* surface_measure = "surface";
 /// What a case is read for. Vibrations about rest need neither what holds the body nor what moves it.
 enum class Purpose { motion, vibrations };
 
-/// Reads and checks a case file (TOML 1.0; docs/case-file.md has every key). Whatever does not need the mesh
+/// Reads and checks a case file (TOML 1.0; docs/reference/case-file.md has every key). Whatever does not need the mesh
 /// is checked here; make_scene() does the rest.
 /// @param path       the file; names of files in it are relative to its folder
 /// @param overrides  settings of the command line, "load[0].value=[0, 0, 0.01]"

@@ -4,7 +4,7 @@
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/lattice.hpp"
 
-/// What the exponents of power-log springs follow from, and what holds fitted ones. docs/designing.md derives
+/// What the exponents of power-log springs follow from, and what holds fitted ones. docs/using/designs.md derives
 /// the closed form.
 namespace springproof::msm {
 

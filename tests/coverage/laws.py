@@ -1,4 +1,4 @@
-"""Laws of make_truths.py: first Piola-Kirchhoff stress and energy of displacement gradients H[..., i, J], as docs/case-file.md states them."""
+"""Laws of make_truths.py: first Piola-Kirchhoff stress and energy of displacement gradients H[..., i, J], as docs/reference/case-file.md states them."""
 
 import numpy as np
 

@@ -192,8 +192,8 @@ def check_interruptions():
 
 
 def check_page():
-    """docs/python.md names all that there is, and its code runs."""
-    page = (source / "docs/python.md").read_text()
+    """docs/using/python.md names all that there is, and its code runs."""
+    page = (source / "docs/using/python.md").read_text()
     names = [name for of in (springproof.Case, springproof.Solution) for name in vars(of) if not name.startswith("_")] + springproof.__all__
     missing = [name for name in names if f"`{name}" not in page and f".{name}" not in page]
     assert not missing, missing

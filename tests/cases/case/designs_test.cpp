@@ -35,13 +35,13 @@ TEST_CASE("the documentation has every design and every key that only some take"
     text << file.rdbuf();
     return text.str();
   };
-  const std::string designing = text_of("designing.md"), case_file = text_of("case-file.md");
+  const std::string designs = text_of("using/designs.md"), case_file = text_of("reference/case-file.md");
   for (const DesignFacts& facts : all_designs()) {
     const std::string name = name_of(facts.design);
     CAPTURE(name);
     CHECK(case_file.find("`\"" + name + "\"`") != std::string::npos);
     if (facts.source == DesignSource::material)
-      CHECK(designing.find("| `" + name + "` |") != std::string::npos);
+      CHECK(designs.find("| `" + name + "` |") != std::string::npos);
   }
   for (const std::string& key : keys_of_designs()) {
     CAPTURE(key);

@@ -4,7 +4,7 @@ rebuild_forces.py FOLDER sofa|csv|vtu STATE
 
 STATE has a line for each node: displacement (mm), internal force of the springs (N), constrained components (0 or 1), applied force (N),
 prescribed displacement (mm). Fails unless the files in FOLDER give the same forces, supports, loads and motions. Only Python's standard library is used, and nothing of the
-program: the formulas are those of docs/designing.md.
+program: the formulas are those of docs/using/designs.md.
 """
 
 import csv

@@ -292,7 +292,7 @@ TEST_CASE("a grid too small to be dealt out is solved whole by every rank", "[ra
   CHECK(largest_difference(alone, together) == 0);
 }
 
-TEST_CASE("a cycle's messages are those that docs/scale.md counts", "[ranks]") {
+TEST_CASE("a cycle's messages are those that docs/developing/scale.md counts", "[ranks]") {
   CountingRanks::Calls calls;
   const Body here = counted(msm::deal_out_to(PETSC_COMM_WORLD)(uniform_body({40, 21, 33})), calls);
   const std::deque<Body> bodies = msm::grid::coarsenings(here);

@@ -1,4 +1,4 @@
-"""Time and memory of a solve on many ranks: docs/scale.md says where the figures come from.
+"""Time and memory of a solve on many ranks: docs/developing/scale.md says where the figures come from.
 
 scale_model.py [UNKNOWNS]    of a cube; 1e9 by default
 """
