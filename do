@@ -1,7 +1,7 @@
 #!/bin/sh
 # springproof's one script: installs what is missing, configures, builds, and does what was asked.
-#   ./do tables [ARGS]   regenerate the thesis's tables      ./do test    build and run every test
-#   ./do build           build/springproof                   ./do format  clang-format over the sources
+#   ./do tables [ARGS]   regenerate the thesis's tables      ./do test [long|sanitize|release]   the tests of a tier
+#   ./do build           build/springproof, without tests    ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
 #   ./do packages        install what is missing         ./do package build/springproof_*.deb, to be installed with apt-get
 set -eu
@@ -33,7 +33,8 @@ install_missing() {
 build() {
   install_missing
   [ -f build/build.ninja ] || cmake --preset release >&2
-  cmake --build build --target "${1:-all}" >&2
+  [ $# -gt 0 ] || set -- all
+  cmake --build build --target "$@" >&2
 }
 
 command=${1:-help}
@@ -47,18 +48,20 @@ case $command in
     build
     cpack --config build/CPackConfig.cmake -B build >&2 ;;
   test)
+    tier=default
+    case ${1:-} in
+      default | long | sanitize | release) tier=$1; shift ;;
+      [!-]*) echo "./do test $1: no such tier; there are default (when none is named), long, sanitize and release" >&2; exit 2 ;;
+    esac
     install_missing tests
-    build
+    build all springproof_all_tests
     # MPI's launcher refuses root unless told twice; a container has no other user.
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    # A minute of fuzzing for each reader, a bare Debian that builds the package, a study of minutes: configurations of their own, which no other
-    # call runs.
-    case " $* " in *" fuzz-long "*) set -- -C fuzz-long "$@" ;; *" package-long "*) set -- -C package-long "$@" ;; *" studies-long "*) set -- -C studies-long "$@" ;; esac
-    exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@" ;;
+    exec ctest --test-dir build --label-regex "^$tier\$" --output-on-failure --parallel "$(nproc)" "$@" ;;
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;
   bench)
-    build
+    build all springproof_bench
     build/springproof_bench "$@"
     exec python3 tests/bench/finite_elements.py ;;
   *) sed -n '2,6s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;

@@ -39,12 +39,12 @@ build)
   (cd "$source" && cmake --preset sanitize -B "$build") >&2
   cmake --build "$build" --target springproof springproof_cases_tests springproof_msm_tests springproof_fem_reference_tests >&2 ;;
 springs)
-  ./springproof_cases_tests "~[verification]~[verification-long]~[little_memory]"
-  ./springproof_msm_tests "~[verification]~[verification-long]~[little_memory]"
+  ./springproof_cases_tests "~[verification]~[little_memory]"
+  ./springproof_msm_tests "~[verification]~[little_memory]"
   ./springproof_msm_tests "-#" "[#model_test][verification]" ;;
 finite_elements)
   ./springproof_fem_reference_tests "-#" \
-    "~[verification-long]~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
+    "~[long]~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
 program)
   rm -rf program
   mkdir program

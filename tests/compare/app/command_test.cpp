@@ -25,7 +25,7 @@ void check_has_errors(const nlohmann::json& result) {
 } // namespace
 
 TEST_CASE("every case that comes with the program runs, and --json prints one document and nothing else",
-          "[unit-long]") {
+          "[long]") {
   std::string files;
   std::size_t n_cases = 0;
   for (const auto& entry : fs::recursive_directory_iterator(cases_folder + "/thesis")) {
@@ -376,7 +376,7 @@ TEST_CASE("a hard case that does not exist is refused with the nearest name, and
   CHECK_THAT(ordinary.error, Catch::Contains("stress: is a table, must be left out"));
 }
 
-TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[unit-long]") {
+TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[long]") {
   const TemporaryFolder folder;
   const auto in_folder = [&](const std::string& words) {
     return run_program(words, "cd " + folder.path.string() + " && ");
@@ -412,7 +412,7 @@ TEST_CASE("every template gives a case that runs, and nothing is ever overwritte
   }
 }
 
-TEST_CASE("a geometry that never ends is stopped, and is wrong input", "[unit-long]") {
+TEST_CASE("a geometry that never ends is stopped, and is wrong input", "[long]") {
   const TemporaryFolder folder;
   const std::string file = folder.write("wedge.toml", content(cases_folder + "/templates/mesh.toml"));
   for (const char* geometry :

@@ -52,7 +52,7 @@ void check_same(const compare::LoadSetErrors& a, const compare::LoadSetErrors& b
 } // namespace
 
 TEST_CASE("design --measure finds the errors that tables advises with, whatever Young's modulus and edge",
-          "[verification-long]") {
+          "[verification][long]") {
   const compare::Advice advice = advised();
   for (const auto& [youngs_modulus, edge] : {std::pair(0.05, 1.0), std::pair(7.0, 2.5)}) {
     CAPTURE(youngs_modulus, edge);
@@ -187,7 +187,7 @@ double largest_error(const compare::CubeErrors& errors, const std::string& test)
 } // namespace
 
 TEST_CASE("springs of one stiffness err on the cube as Vega's MassSpringSystem does, and none is right",
-          "[peer][verification-long]") {
+          "[peer][verification][long]") {
   // Measured with Vega's own class from cubes, E = 0.3 MPa, nu = 0.35, cells of 1 mm, small loads.
   struct Row {
     double stiffness, tension, shear, torsion; // N/m, percent

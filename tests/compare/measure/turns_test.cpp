@@ -135,7 +135,7 @@ TEST_CASE("a body that nothing holds in the plane keeps to half a turn") {
   CHECK(value_of_bar(0, scene, twisted_by(scene, 254.5)) == Approx(254.5 - 360).epsilon(1e-9));
 }
 
-TEST_CASE("both models turn an end by 300 degrees, in statics and in time", "[verification-long]") {
+TEST_CASE("both models turn an end by 300 degrees, in statics and in time", "[verification][long]") {
   const std::string turned =
       held_at_x + "[[moved]]\nregion = 'x+'\nangle = 300\naxis = 'x'\ncentre = [40, 5, 5]\n";
   for (const bool moves : {false, true}) {

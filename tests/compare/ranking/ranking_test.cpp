@@ -159,7 +159,7 @@ TEST_CASE("without a stable design none is recommended, and the sentence says so
   CHECK(compare::ranking_to_json(ranking)["recommended"].is_null());
 }
 
-TEST_CASE("a ranked design has the errors that run prints of it", "[verification-long]") {
+TEST_CASE("a ranked design has the errors that run prints of it", "[verification][long]") {
   const std::vector<cases::Design> designs{cases::Design::hybrid, cases::Design::lloyd, cases::Design::given};
   const compare::Ranking ranking = compare::rank_designs(small_shear(), designs);
   REQUIRE(ranking.designs.size() == 3);
@@ -182,7 +182,7 @@ TEST_CASE("a ranked design has the errors that run prints of it", "[verification
 }
 
 TEST_CASE("designs are ranked by energy and stress too, whatever their cells consist of",
-          "[verification-long]") {
+          "[verification][long]") {
   cases::Scene scene = small_shear();
   cases::Measure energy, stress;
   energy.name = "energy";

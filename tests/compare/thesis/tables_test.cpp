@@ -31,7 +31,7 @@ std::string words_of(const Json& entry) {
 } // namespace
 
 // The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
-TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[unit-long]") {
+TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[long]") {
   const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
   CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
@@ -83,7 +83,7 @@ TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
 TEST_CASE(
     "at least 75 of 90 errors in print are met within a point, all volumes within 2 mm3, the bar within 1.6 "
     "points",
-    "[verification-long]") {
+    "[verification][long]") {
   const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.2 5.3 5.4 5.12 --json"));
   const auto group = [&](const std::string& name) {
     for (const Json& candidate : document["summary"]["groups"])

@@ -117,7 +117,7 @@ TEST_CASE("springs that fly and spin keep momentum and angular momentum", "[veri
 }
 
 TEST_CASE("10,000 steps of nonlinear springs that spin drift neither in momentum nor in energy",
-          "[verification-long]") {
+          "[verification][long]") {
   Flight flight(power_log);
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-12;
