@@ -219,9 +219,9 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
   }
   if (request.asks(cases::Side::msm)) models.push_back(estimate_springs(body));
   // Fields are made while the model is there still. By their types: FieldSums and Fields of a cell and a
-  // node, and what ranks send each other of them.
+  // node, and what ranks send each other of them. A static solve makes them to check its reactions.
   constexpr double bytes_of_fields = 400;
-  if (body.outline.definition.has_fields)
+  if (body.outline.definition.has_fields || !body.outline.definition.dynamics)
     for (Estimate& model : models) model.megabytes += 1e-6 * bytes_of_fields * body.n_cells;
   const double motion = 1e-6 * bytes_of_motion(body);
   for (Estimate& model : models) {

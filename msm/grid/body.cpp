@@ -96,4 +96,22 @@ std::optional<Body> coarsen(const Body& fine) {
   return coarse;
 }
 
+bool is_small(const Body& body, const Field<double>& displacement) {
+  const Layout& layout = body.layout;
+  const std::ptrdiff_t to_next[3] = {1, layout.row, layout.plane};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double least = midpoint_below * body.spacing[axis];
+    std::array<int, 3> n{layout.nodes[0], layout.nodes[1], layout.nodes[2]};
+    --n[index(axis)];
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < n[2]; ++k)
+        for (int j = 0; j < n[1]; ++j) {
+          const double* const row = displacement.data() + layout.at(0, j, k, c);
+          for (int i = 0; i < n[0]; ++i)
+            if (!(std::abs(row[i + to_next[axis]] - row[i]) < least)) return false;
+        }
+  }
+  return true;
+}
+
 } // namespace springproof::msm::grid

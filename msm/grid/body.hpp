@@ -168,6 +168,10 @@ struct SplitMix {
   }
 };
 
+/// Whether no two neighbours' displacements differ by midpoint_below of their distance.
+/// @param displacement  of this rank's nodes and ghosts, mm
+bool is_small(const Body& body, const Field<double>& displacement);
+
 /// Random numbers, the same ones every time and on any number of ranks: a field with a part in every motion
 /// of the body.
 template<class Real, class Distribution>

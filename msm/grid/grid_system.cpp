@@ -74,7 +74,7 @@ class MatrixFreeSystem : public GridSystem {
   void residual(const Vector& displacement, double load_factor, mechanics::Expect, Vector& force) override {
     ++work_.force_evaluations;
     if (force.size() != displacement.size()) force.setZero(displacement.size()); // ghosts stay 0
-    if (any_rank(!is_small(displacement))) {
+    if (any_rank(!is_small(problem_.body, displacement))) {
       springs_.force(displacement, force);
     } else { // the midpoint rule of internal_force_at()
       middle_ = 0.5 * displacement;
@@ -237,25 +237,6 @@ class MatrixFreeSystem : public GridSystem {
   std::optional<Multigrid> multigrid_; ///< none before it is asked for
   Vector probe_, mode_at_, reactions_, on_supports_, middle_, backwards_;
   Mode mode_{};
-
-  /// Whether no two neighbours' displacements differ by midpoint_below of their distance.
-  bool is_small(const Vector& displacement) const {
-    const Layout& layout = problem_.body.layout;
-    const std::ptrdiff_t to_next[3] = {1, layout.row, layout.plane};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double least = midpoint_below * problem_.body.spacing[axis];
-      std::array<int, 3> n{layout.nodes[0], layout.nodes[1], layout.nodes[2]};
-      --n[index(axis)];
-      for (int c = 0; c < 3; ++c)
-        for (int k = 0; k < n[2]; ++k)
-          for (int j = 0; j < n[1]; ++j) {
-            const double* const row = displacement.data() + layout.at(0, j, k, c);
-            for (int i = 0; i < n[0]; ++i)
-              if (!(std::abs(row[i + to_next[axis]] - row[i]) < least)) return false;
-          }
-    }
-    return true;
-  }
 
   Multigrid& multigrid() {
     if (!multigrid_) multigrid_.emplace(bodies_, n_threads_);

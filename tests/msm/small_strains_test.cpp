@@ -77,3 +77,55 @@ TEST_CASE("springs pulled by strains of 1e-12 to 1e-7 follow their lattice's mod
       }
     }
 }
+
+namespace {
+
+/// Strains of a cube's cell whose springs are Hooke's, pulled along z by a traction: Newton's method on
+/// differences of lengths that are formed without cancellation.
+/// @return strain across and along
+Eigen::Vector2d exact_strains(const msm::CellStiffness& cell, double traction) {
+  struct Spring {
+    double count, stiffness;
+    Eigen::Vector2d squares; ///< of its vector's parts across and along, mm2
+  };
+  const Spring springs[] = {{8, cell.edge, {1, 0}},          {4, cell.edge, {0, 1}},
+                            {4, cell.face_diagonal, {2, 0}}, {8, cell.face_diagonal, {1, 1}},
+                            {4, cell.internal_diagonal, {2, 1}}};
+  Eigen::Vector2d strain(0, 0);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const Eigen::Vector2d stretch = strain.array() + 1, growth = strain.array() * (strain.array() + 2); // stretch^2 - 1
+    Eigen::Vector2d force(0, -traction);
+    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); // at rest
+    for (const auto& [count, k, squares] : springs) {
+      const double rest = std::sqrt(squares.sum()), length = std::sqrt(squares.sum() + squares.dot(growth));
+      const double longer = squares.dot(growth) / (length + rest);
+      force += count * k * longer / length * squares.cwiseProduct(stretch);
+      stiffness += count * k / (rest * rest) * squares * squares.transpose();
+    }
+    const Eigen::Vector2d of_volume(2 * stretch[0] * stretch[1], stretch[0] * stretch[0]);
+    force += cell.volume * (growth[0] + strain[1] + growth[0] * strain[1]) * of_volume;
+    stiffness += cell.volume * Eigen::Vector2d(2, 1) * Eigen::RowVector2d(2, 1);
+    strain -= stiffness.ldlt().solve(force);
+  }
+  return strain;
+}
+
+} // namespace
+
+TEST_CASE("Hooke's springs pulled by strains of 1e-12 to 1e-3 follow their cell's exact answer to a billionth",
+          "[verification]") {
+  const msm::CellStiffness cell = bodies::cell(120, 60, 0, 0.05);
+  const double young = 1e-6 / exact_strains(cell, 1e-6)[1];
+  for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid})
+    for (const double strain : {1e-12, 1e-9, 1e-7, 3e-6, 1e-5, 1e-4, 1e-3}) {
+      CAPTURE(static_cast<int>(path), strain);
+      msm::ModelOptions options;
+      options.path = path;
+      const cases::Scene scene = pulled_cube(strain * young);
+      const Strains found(scene, msm::Model(scene, {cell}, options).solve());
+      const Eigen::Vector2d exact = exact_strains(cell, strain * young);
+      CHECK(found.off <= 2e-9); // the solver's
+      CHECK(std::abs(found.across / exact[0] - 1) <= 2e-9);
+      CHECK(std::abs(found.along / exact[1] - 1) <= 2e-9);
+    }
+}
