@@ -179,8 +179,9 @@ TEST_CASE("one multigrid cycle removes most of an error at rest") {
   Field<double> right = exact, found = exact;
   springs.product(msm::grid::Clamp::no, rest, exact, right);
   multigrid.apply(right, found);
-  CHECK(energy_norm(exact - found) <
-        0.2 * energy_norm(exact)); // measured 0.0x; a broken level leaves 0.5 or more
+  const double left = energy_norm(exact - found) / energy_norm(exact);
+  WARN(left);
+  CHECK(left < 0.2);
 }
 
 TEST_CASE("merged cells interpolate linear fields exactly, whatever the body") {
