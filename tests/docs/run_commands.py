@@ -17,13 +17,18 @@ import sys
 import time
 
 
+def commands_of(block):
+    """The lines of a block, continued ones joined, a workflow's `- run: COMMAND` as its command."""
+    for line in block.replace("\\\n", " ").splitlines():
+        line = line.strip().removeprefix("- run: ")
+        if line and not line.startswith("#"):
+            yield line
+
+
 def commands(page):
-    """The lines of the page's sh blocks, continued ones joined, and of its yaml blocks (a workflow's `- run: COMMAND`)."""
+    """The commands of the page's sh and yaml blocks."""
     for block in re.findall(r"^ *```(?:sh|yaml)\n(.*?)^ *```", page.read_text(), re.DOTALL | re.MULTILINE):
-        for line in block.replace("\\\n", " ").splitlines():
-            line = line.strip().removeprefix("- run: ")
-            if line and not line.startswith("#"):
-                yield line
+        yield from commands_of(block)
 
 
 def prepare(folder, source, program):
