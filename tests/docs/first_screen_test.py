@@ -14,10 +14,9 @@ import re
 import subprocess
 import sys
 
-from run_commands import commands_of, prepare
+from run_commands import BLOCK, as_run, commands_of, prepare, write_to_file
 
-# A block of commands, empty lines, and the block of text below it where there is one.
-BLOCKS = re.compile(r"^```sh\n(?P<commands>.*?)^```\n(?:\n*```text\n(?P<text>.*?)^```\n)?", re.DOTALL | re.MULTILINE)
+OUTPUT = re.compile(r"\n*```text\n(?P<text>.*?)^```\n", re.DOTALL | re.MULTILINE)
 NUMBER = r"[-+]?\d+(?:[.,:]\d+)*(?:e[-+]?\d+)?"
 OF_THE_MACHINE = (
     (re.compile(rf"{NUMBER} (ns|us|ms|s|min|h|KB|kB|MB|GB)\b"), r"N \1"),
@@ -32,10 +31,8 @@ def normalised(line):
     return line.strip()
 
 
-def printed(program, folder, command):
-    typed = command.partition(" #")[0]
-    typed = re.sub(r"(?<![/\w])springproof ", "build/springproof ", typed)
-    done = subprocess.run(["sh", "-c", typed], cwd=folder, capture_output=True, text=True, timeout=600)
+def printed(folder, command):
+    done = subprocess.run(["sh", "-c", as_run(command.partition(" #")[0])], cwd=folder, capture_output=True, text=True, timeout=600)
     assert done.stdout or done.stderr, f"{command}: nothing printed"
     return [line.rstrip() for line in done.stdout.splitlines()]
 
@@ -63,27 +60,32 @@ def in_the_shape_of(shown, output):
     return [*output[:n_before], "...", *output[len(output) - n_behind:]]
 
 
-def check(program, folder, page, write):
+def check(folder, page, write):
     """The number of blocks that were compared, and what is wrong with them."""
     text, faults, n_compared = page.read_text(), [], 0
-    blocks = list(BLOCKS.finditer(text))
-    last = max((n for n, block in enumerate(blocks) if block["text"] is not None), default=-1)
-    refreshed, end = [], 0
-    for block in blocks[:last + 1]:
+    refreshed, end, last_output = [], 0, text.rfind("```text\n")
+    for block in BLOCK.finditer(text):
+        if block.start() > last_output:
+            break  # nothing is shown of what follows
+        if block["file"]:
+            write_to_file(folder / block["file"], block["text"])
+        if block["kind"] != "sh":
+            continue
+        lines = [line for line in commands_of(block["text"]) if "# not run by the tests" not in line]
         output = []
-        lines = list(commands_of(block["commands"]))
         for line in lines:
-            if "# not run by the tests" not in line and re.match(r"(build/)?springproof |mpirun ", line):
-                output += printed(program, folder, line)
-        if block["text"] is None:
+            if re.match(r"(build/)?springproof |mpirun ", line):
+                output += printed(folder, line)
+        below = OUTPUT.match(text, block.end())
+        if below is None:
             continue
         if len(lines) != 1:
             faults.append(f"{page.name}: {len(lines)} commands above one block of output: {lines}")
             continue
-        shown = block["text"].splitlines()
+        shown = below["text"].splitlines()
         n_compared += 1
-        refreshed += [text[end:block.start("text")], "\n".join(in_the_shape_of(shown, output)) + "\n"]
-        end = block.end("text")
+        refreshed += [text[end:below.start("text")], "\n".join(in_the_shape_of(shown, output)) + "\n"]
+        end = below.end("text")
         wrong = is_shown_by(shown, output)
         if wrong is not None and not write:
             faults.append(f"{page.name}: {lines[0]}\n  the page has: {wrong}\n  the program prints:\n    " + "\n    ".join(output))
@@ -110,7 +112,7 @@ def main():
     n_compared, faults = 0, []
     for page in pages:
         prepare(folder, source, program)
-        n, wrong = check(program, folder, page, write)
+        n, wrong = check(folder, page, write)
         n_compared, faults = n_compared + n, faults + wrong
     if n_compared == 0:
         faults.append("no page shows any output")
