@@ -16,7 +16,7 @@ import sys
 LONGEST_SENTENCE = 40
 README_WORDS = range(700, 901)
 ENDS = re.compile(r"[.!?][)\"'”*_]*\s+(?=[^a-z\s])")  # a small letter goes on with the sentence
-NO_END = re.compile(r"(?:^|[\s(])(?:e\.g|i\.e|et al|cf|vs|eq|eqs|fig|figs|no|approx|[A-Z])\.$", re.IGNORECASE)
+NO_END = re.compile(r"(?:^|[\s(])(?:e\.g|i\.e|et al|cf|vs|eqs?|Eqs?|figs?|Figs?|approx|[A-Z])\.$")  # abbreviations, and initials of names
 
 
 def without_code_blocks(lines):
