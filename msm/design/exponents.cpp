@@ -22,7 +22,7 @@ double closed_form_exponent(double second_order_coefficient, const mechanics::El
   const double t = split, nu = lambda / (2 * (lambda + mu)), sum = 1 + nu, volume = 1 - 2 * nu;
   // Logarithmic strain of the diagonals per axial strain, to first order; an edge has 1 or -nu.
   const double face = (1 - nu) / 2, internal = volume / 3;
-  // Over mu, terms with p + 1 and without: docs/using/designs.md.
+  // Over mu, terms with p + 1 and without: docs/developing/design-theory.md.
   const double with = (1 + t) * (1 - 2 * std::pow(nu, 3)) +
                       2 * (1 - t) * (4 * std::pow(face, 3) - 2 * std::pow(nu, 3)) +
                       9 * t * std::pow(internal, 3);

@@ -4,8 +4,8 @@
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/lattice.hpp"
 
-/// What the exponents of power-log springs follow from, and what holds fitted ones. docs/using/designs.md derives
-/// the closed form.
+/// What the exponents of power-log springs follow from, and what holds fitted ones.
+/// docs/developing/design-theory.md derives the closed form.
 namespace springproof::msm {
 
 /// c of a material's uniaxial test with free sides: nominal stress = E (e + c e² + ...), e = l - 1. With

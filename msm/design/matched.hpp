@@ -3,7 +3,7 @@
 #include "msm/design/exponents.hpp"
 
 /// The matched design: the hybrid method's stiffnesses with power-log springs, whose exponents come from the
-/// material alone. docs/using/designs.md derives them.
+/// material alone. docs/developing/design-theory.md derives them.
 namespace springproof::msm {
 
 struct MatchedFit {

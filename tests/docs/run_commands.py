@@ -3,7 +3,8 @@
 run_commands.py PROGRAM SOURCE PAGE FOLDER
 
 Commands are what a reader types in the project's folder: lines that begin with springproof, build/springproof or mpirun. They
-are run in FOLDER, where cases and build/springproof are what they are in the project and nothing else is. Each must end with
+are run in FOLDER, where cases and build/springproof are what they are in the project and nothing else is. A ```toml FILE block is
+written to that file, as its reader would. Each command must end with
 status 0, or with N where a comment behind it says "exits N". One that takes too long has a comment that begins with "not run by
 the tests"; it is shown, so that nobody takes it for tested. Other lines (./do, ctest, awk) are shown as such too. CTest counts a page
 without commands as skipped.
@@ -17,13 +18,23 @@ import sys
 import time
 
 
-def commands(page):
-    """The lines of the page's sh blocks, continued ones joined, and of its yaml blocks (a workflow's `- run: COMMAND`)."""
-    for block in re.findall(r"^ *```(?:sh|yaml)\n(.*?)^ *```", page.read_text(), re.DOTALL | re.MULTILINE):
-        for line in block.replace("\\\n", " ").splitlines():
-            line = line.strip().removeprefix("- run: ")
-            if line and not line.startswith("#"):
-                yield line
+def commands_of(block):
+    """The lines of a block, continued ones joined, a workflow's `- run: COMMAND` as its command."""
+    for line in block.replace("\\\n", " ").splitlines():
+        line = line.strip().removeprefix("- run: ")
+        if line and not line.startswith("#"):
+            yield line
+
+
+BLOCK = re.compile(r"^ *```(?P<kind>sh|yaml|toml (?P<file>\S+))\n(?P<text>.*?)^ *```\n?", re.DOTALL | re.MULTILINE)
+
+
+def write_to_file(path, text):
+    """What a ```toml FILE block says: from [body] on it replaces what the file has, anything else goes to the end."""
+    before = path.read_text()
+    if text.startswith("[body]"):
+        before = before[:before.index("[body]")]
+    path.write_text(before + text)
 
 
 def prepare(folder, source, program):
@@ -33,29 +44,41 @@ def prepare(folder, source, program):
     (folder / "cases").symlink_to(source / "cases")
 
 
+def run(line, folder):
+    """(whether it was run, whether it failed)"""
+    command, _, comment = line.partition(" #")
+    comment = comment.strip()
+    if not re.match(r"(build/)?springproof |mpirun ", command):
+        print(f"no springproof command: {line}")
+        return False, False
+    if comment.startswith("not run by the tests"):
+        print(f"NOT RUN: {line}")
+        return False, False
+    said = re.search(r"exits (\d)", comment)
+    expected = int(said.group(1)) if said else 0
+    begin = time.monotonic()
+    done = subprocess.run(["sh", "-c", as_run(command)], cwd=folder, capture_output=True, text=True)
+    print(f"{done.returncode} after {time.monotonic() - begin:.1f} s: {command}")
+    if done.returncode != expected:
+        print(f"  FAILED, must be {expected}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return True, done.returncode != expected
+
+
+def as_run(command):
+    return re.sub(r"(?<![/\w])springproof ", "build/springproof ", command)
+
+
 def main():
     program, source, page, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:])
     prepare(folder, source, program)
     failures = n_run = 0
-    for line in commands(page):
-        command, _, comment = line.partition(" #")
-        comment = comment.strip()
-        if not re.match(r"(build/)?springproof |mpirun ", command):
-            print(f"no springproof command: {line}")
-            continue
-        if comment.startswith("not run by the tests"):
-            print(f"NOT RUN: {line}")
-            continue
-        said = re.search(r"exits (\d)", comment)
-        expected = int(said.group(1)) if said else 0
-        typed = re.sub(r"(?<![/\w])springproof ", "build/springproof ", command)
-        begin = time.monotonic()
-        done = subprocess.run(["sh", "-c", typed], cwd=folder, capture_output=True, text=True)
-        n_run += 1
-        print(f"{done.returncode} after {time.monotonic() - begin:.1f} s: {command}")
-        if done.returncode != expected:
-            failures += 1
-            print(f"  FAILED, must be {expected}:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    for block in BLOCK.finditer(page.read_text()):
+        if block["file"]:
+            write_to_file(folder / block["file"], block["text"])
+        elif not block["kind"].startswith("toml"):
+            for line in commands_of(block["text"]):
+                ran, failed = run(line, folder)
+                n_run, failures = n_run + ran, failures + failed
     print(f"{page.name}: {n_run} commands run, {failures} failed" if n_run else f"{page.name} has no commands: nothing was compared")
     return 1 if failures else 0
 
