@@ -77,7 +77,7 @@ function(springproof_kinds_of source result)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   file(READ ${source} text)
   string(REGEX REPLACE "[][;]" "|" text "${text}") # a list's own characters
-  string(REGEX MATCHALL "TEST_CASE\\([^{]*" cases "${text}")
+  string(REGEX MATCHALL "TEST_CASE(_METHOD)?\\([^{]*" cases "${text}")
   set(found)
   foreach(case IN LISTS cases)
     if(case MATCHES "\\|long\\|" OR case MATCHES "\\|\\.\\|")

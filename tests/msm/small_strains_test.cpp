@@ -88,12 +88,15 @@ Eigen::Vector2d exact_strains(const msm::CellStiffness& cell, double traction) {
     double count, stiffness;
     Eigen::Vector2d squares; ///< of its vector's parts across and along, mm2
   };
-  const Spring springs[] = {{8, cell.edge, {1, 0}},          {4, cell.edge, {0, 1}},
-                            {4, cell.face_diagonal, {2, 0}}, {8, cell.face_diagonal, {1, 1}},
+  const Spring springs[] = {{8, cell.edge, {1, 0}},
+                            {4, cell.edge, {0, 1}},
+                            {4, cell.face_diagonal, {2, 0}},
+                            {8, cell.face_diagonal, {1, 1}},
                             {4, cell.internal_diagonal, {2, 1}}};
   Eigen::Vector2d strain(0, 0);
   for (int iteration = 0; iteration < 100; ++iteration) {
-    const Eigen::Vector2d stretch = strain.array() + 1, growth = strain.array() * (strain.array() + 2); // stretch^2 - 1
+    const Eigen::Vector2d stretch = strain.array() + 1,
+                          growth = strain.array() * (strain.array() + 2); // stretch^2 - 1
     Eigen::Vector2d force(0, -traction);
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); // at rest
     for (const auto& [count, k, squares] : springs) {
@@ -112,8 +115,9 @@ Eigen::Vector2d exact_strains(const msm::CellStiffness& cell, double traction) {
 
 } // namespace
 
-TEST_CASE("Hooke's springs pulled by strains of 1e-12 to 1e-3 follow their cell's exact answer to a billionth",
-          "[verification]") {
+TEST_CASE(
+    "Hooke's springs pulled by strains of 1e-12 to 1e-3 follow their cell's exact answer to a billionth",
+    "[verification]") {
   const msm::CellStiffness cell = bodies::cell(120, 60, 0, 0.05);
   const double young = 1e-6 / exact_strains(cell, 1e-6)[1];
   for (const msm::Path path : {msm::Path::direct, msm::Path::multigrid})

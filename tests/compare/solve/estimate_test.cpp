@@ -103,11 +103,15 @@ TEST_CASE("a question's models are those that it asks for, and of every mesh") {
         Approx(models[0].seconds + models[1].seconds + models[2].seconds + models[3].seconds));
 }
 
-TEST_CASE("a case that asks for fields needs memory for them, on both sides") {
+TEST_CASE("fields need memory on both sides, and every static case makes them for its reactions") {
   cases::Case definition = cube(100);
-  const auto without = compare::estimate(body(definition), {});
+  const auto of_static = compare::estimate(body(definition), {});
   definition.has_fields = true;
+  CHECK(compare::estimate(body(definition), {}).front().megabytes == of_static.front().megabytes);
+  definition.dynamics = cases::Dynamics{};
   const auto with = compare::estimate(body(definition), {});
+  definition.has_fields = false;
+  const auto without = compare::estimate(body(definition), {});
   REQUIRE(with.size() == without.size());
   for (std::size_t m = 0; m < with.size(); ++m) {
     CHECK(with[m].megabytes == Approx(without[m].megabytes + 400)); // a million cells

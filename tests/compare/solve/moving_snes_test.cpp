@@ -4,6 +4,7 @@
 #include "msm/snes/motion.hpp"
 #include "tests/msm/moving_bodies.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/with_mpi.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -71,7 +72,8 @@ double difference(const cases::Solution& a, const cases::Solution& b) {
 
 } // namespace
 
-TEST_CASE("SNES moves a body as the direct path does, by every scheme", "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "SNES moves a body as the direct path does, by every scheme",
+                 "[snes][verification]") {
   const auto [scheme, cell] =
       GENERATE(table<cases::Scheme, msm::CellStiffness>({{cases::Scheme::implicit_euler, power_log},
                                                          {cases::Scheme::newmark, hybrid_springs},
@@ -94,7 +96,8 @@ TEST_CASE("SNES moves a body as the direct path does, by every scheme", "[snes][
   CHECK(general.inverted_cells == direct.inverted_cells);
 }
 
-TEST_CASE("SNES in time with algebraic multigrid follows the same motion", "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "SNES in time with algebraic multigrid follows the same motion",
+                 "[snes][verification]") {
   const cases::Scene scene = driven_block(cases::Scheme::generalized_alpha);
   const cases::Solution factorised = follow_by_snes(scene, hybrid_springs);
   PetscOptionsSetValue(nullptr, "-msm_ksp_type", "cg");
@@ -110,7 +113,7 @@ TEST_CASE("SNES in time with algebraic multigrid follows the same motion", "[sne
   CHECK(difference(iterated, factorised) <= 1e-8); // as against the direct path
 }
 
-TEST_CASE("a motion by SNES is the same on any number of ranks", "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "a motion by SNES is the same on any number of ranks", "[snes][verification]") {
   cases::Scene scene = driven_block(cases::Scheme::newmark);
   scene.definition.dynamics->start = cases::MotionStart::equilibrium;
   scene.loads.front().load.history.points = {{0., 1.}, {0., 0.2}}; // most of the weight is taken at time 0
@@ -124,8 +127,8 @@ TEST_CASE("a motion by SNES is the same on any number of ranks", "[snes][verific
   REQUIRE(size_of({{}, {}, {}, {}, {direct.trajectory->bodies.front()}}) > 1); // mm: it begins deformed
 }
 
-TEST_CASE("SNES moves cells of terms and networks, with a node that no spring holds",
-          "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "SNES moves cells of terms and networks, with a node that no spring holds",
+                 "[snes][verification]") {
   cases::Scene scene = block(steps(cases::Scheme::bdf2, 0.002, 0.02), damped, false, 3);
   const msm::BodyTerms terms{{msm::terms_of(hybrid_springs)}, {}, msm::Boundary::whole};
   const auto compare = [&](const msm::Lattice& lattice, const msm::Lattice& damping) {
@@ -144,7 +147,7 @@ TEST_CASE("SNES moves cells of terms and networks, with a node that no spring ho
   compare(network, msm::damping_lattice(scene, network));
 }
 
-TEST_CASE("a body on which nothing acts stays where it is under SNES", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "a body on which nothing acts stays where it is under SNES", "[snes]") {
   cases::Scene scene = block(steps(cases::Scheme::newmark, 0.002, 0.006), undamped, false, 3);
   scene.loads.clear();
   const cases::Solution still = follow_by_snes(scene, hybrid_springs);
@@ -152,7 +155,8 @@ TEST_CASE("a body on which nothing acts stays where it is under SNES", "[snes]")
   CHECK(still.trajectory->halved_steps == 0);
 }
 
-TEST_CASE("SNES keeps the energy of a small undamped swing by newmark", "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "SNES keeps the energy of a small undamped swing by newmark",
+                 "[snes][verification]") {
   cases::Scene scene = block(steps(cases::Scheme::newmark, 0.0005, 0.1), undamped, false, 3);
   scene.loads.front().load.value *= 1e-3; // strains of 1e-5, so that the springs are linear to that
   const cases::Solution motion = follow_by_snes(scene, hybrid_springs, {});
@@ -180,7 +184,7 @@ TEST_CASE("SNES keeps the energy of a small undamped swing by newmark", "[snes][
   CHECK(largest_change <= 1e-6 * largest); // a tenth of the strains, by which springs are not linear
 }
 
-TEST_CASE("a step that SNES leaves with no more than rounding is solved", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "a step that SNES leaves with no more than rounding is solved", "[snes]") {
   // With these steps the last digit of a displacement is 1e-10 of the loads, times mass over the step
   // squared.
   cases::Scene scene = block(steps(cases::Scheme::newmark, 1e-6, 5e-6), undamped, false, 3);
@@ -192,7 +196,7 @@ TEST_CASE("a step that SNES leaves with no more than rounding is solved", "[snes
   CHECK(motion.trajectory->largest_residual <= 1e-6); // what Newton's method here takes for rounding at most
 }
 
-TEST_CASE("a step that SNES does not solve is halved, and the motion goes on", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "a step that SNES does not solve is halved, and the motion goes on", "[snes]") {
   // It begins with a hundred times its weight, of which nothing is left after three steps.
   cases::Scene scene = block(steps(cases::Scheme::implicit_euler, 0.01, 0.05), {1000., 0, 0.002}, false, 3);
   scene.loads.front().load.value *= 100;
@@ -213,7 +217,8 @@ TEST_CASE("a step that SNES does not solve is halved, and the motion goes on", "
   CHECK(difference(halved, fine) < difference(whole, fine));
 }
 
-TEST_CASE("a step that goes too far for its iterations is halved, on all ranks alike", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "a step that goes too far for its iterations is halved, on all ranks alike",
+                 "[snes]") {
   cases::Scene scene = turned_block(steps(cases::Scheme::implicit_euler, 0.005, 0.015), damped);
   scene.moved[0].motion.displacement.setZero();
   scene.moved[1].motion.angle = 120; // degrees, in the first step: the body goes along on straight lines
@@ -228,7 +233,7 @@ TEST_CASE("a step that goes too far for its iterations is halved, on all ranks a
   CHECK(motion.inverted_cells == 0);
 }
 
-TEST_CASE("a motion that SNES cannot follow says how far it came", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "a motion that SNES cannot follow says how far it came", "[snes]") {
   const cases::Scene scene = block(steps(cases::Scheme::newmark, 0.001, 0.02), undamped, false, 3);
   mechanics::IntegrationSettings settings;
   settings.newton.max_newton_per_step = 0;

@@ -5,6 +5,7 @@
 #include "msm/snes/deal_out.hpp"
 #include "msm/snes/snes.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/with_mpi.hpp"
 
 #include <catch2/catch.hpp>
 #include <petscsys.h>
@@ -146,8 +147,9 @@ Field<double> any_field(const Body& body, unsigned seed) {
 
 } // namespace
 
-TEST_CASE("a grid's equilibrium is the same on any number of ranks, and on full bodies the way to it",
-          "[ranks]") {
+TEST_CASE_METHOD(WithMpi,
+                 "a grid's equilibrium is the same on any number of ranks, and on full bodies the way to it",
+                 "[ranks]") {
   msm::CellStiffness hooke = bodies::hybrid_cell, power_log = hooke;
   power_log.exponents = {-1.3, -1.8, -2.2};
   // Bodies with holes have merged cells on one rank and rediscretised lattices on several: another way.
@@ -180,7 +182,8 @@ TEST_CASE("a grid's equilibrium is the same on any number of ranks, and on full 
                            part_of(alone, together)) <= 1e-7);
 }
 
-TEST_CASE("cells of terms and networks have the same fields on any number of ranks", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "cells of terms and networks have the same fields on any number of ranks",
+                 "[ranks]") {
   const cases::Scene scene = scene_of(bodies::clamped_box({5, 4, 6}, bodies::tensile(0.004)));
   const msm::BodyTerms terms{{msm::terms_of(bodies::hybrid_cell)}, {}, msm::Boundary::whole};
   const msm::Lattice lattice = msm::make_lattice(scene.mesh, terms);
@@ -203,7 +206,8 @@ TEST_CASE("cells of terms and networks have the same fields on any number of ran
   CHECK(part.strain.size() == (together.sharing ? here.cells.size() : scene.mesh.cells.size()));
 }
 
-TEST_CASE("ranks add up what they give of nodes, and deal out and gather cells' tensors", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "ranks add up what they give of nodes, and deal out and gather cells' tensors",
+                 "[ranks]") {
   const cases::HexMesh mesh = cases::make_box_mesh({4, 4, 9}, {4, 4, 9});
   const auto sharing = mechanics::share_out(mesh, PETSC_COMM_WORLD);
   REQUIRE((sharing != nullptr) == (n_ranks() > 1));
@@ -232,7 +236,7 @@ TEST_CASE("ranks add up what they give of nodes, and deal out and gather cells' 
   CHECK(cases::gather(*sharing, dealt) == tensors);
 }
 
-TEST_CASE("operators on parts of a grid give what they give on the whole of it", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "operators on parts of a grid give what they give on the whole of it", "[ranks]") {
   Body whole = GENERATE(body_with_holes({13, 11, 12}), uniform_body({13, 11, 12}));
   whole.exponents = GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
                              std::optional(msm::Exponents{-1.3, -1.8, 2.2}));
@@ -266,7 +270,7 @@ TEST_CASE("operators on parts of a grid give what they give on the whole of it",
   CHECK(difference_here(whole, product, here, product_here) < 1e-13);
 }
 
-TEST_CASE("what ranks own is the body, and coarser parts lie within finer ones", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "what ranks own is the body, and coarser parts lie within finer ones", "[ranks]") {
   const Body whole = uniform_body({40, 21, 33});
   Body here = msm::deal_out_to(PETSC_COMM_WORLD)(whole);
   int n_parts = 0;
@@ -283,7 +287,7 @@ TEST_CASE("what ranks own is the body, and coarser parts lie within finer ones",
   CHECK(n_parts == (n_ranks() > 1 ? 2 : 0)); // of 41 x 22 x 34 and 21 x 12 x 18 nodes
 }
 
-TEST_CASE("a grid too small to be dealt out is solved whole by every rank", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "a grid too small to be dealt out is solved whole by every rank", "[ranks]") {
   const cases::Scene scene = scene_of(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.02)));
   const cases::Solution alone =
       msm::solve_by_snes(scene, {bodies::thesis_cell}, PETSC_COMM_SELF, to_rounding());
@@ -292,7 +296,7 @@ TEST_CASE("a grid too small to be dealt out is solved whole by every rank", "[ra
   CHECK(largest_difference(alone, together) == 0);
 }
 
-TEST_CASE("a cycle's messages are those that docs/developing/scale.md counts", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "a cycle's messages are those that docs/developing/scale.md counts", "[ranks]") {
   CountingRanks::Calls calls;
   const Body here = counted(msm::deal_out_to(PETSC_COMM_WORLD)(uniform_body({40, 21, 33})), calls);
   const std::deque<Body> bodies = msm::grid::coarsenings(here);
@@ -307,7 +311,8 @@ TEST_CASE("a cycle's messages are those that docs/developing/scale.md counts", "
   CHECK(calls.reductions == (n_ranks() > 1 ? 2 : 0)); // the norm, and the first level that all ranks have
 }
 
-TEST_CASE("a load that cannot be carried ends on several ranks where it ends on one", "[ranks]") {
+TEST_CASE_METHOD(WithMpi, "a load that cannot be carried ends on several ranks where it ends on one",
+                 "[ranks]") {
   const auto end = [](MPI_Comm communicator, const cases::Scene& scene, const msm::CellStiffness& springs) {
     mechanics::EquilibriumSettings settings;
     settings.smallest_load_step = 5e-3;

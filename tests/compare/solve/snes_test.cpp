@@ -4,6 +4,7 @@
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/with_mpi.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -32,7 +33,7 @@ const msm::CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::ce
 } // namespace
 
 // On one rank by itself; on two under mpirun (compare/snes_on_two_ranks).
-TEST_CASE("SNES finds the equilibrium that the fast path finds", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "SNES finds the equilibrium that the fast path finds", "[snes]") {
   const auto& stiffness = GENERATE(springs, hybrid, power_log);
   for (const cases::Case& body : {bodies::clamped_box({10, 10, 10}, bodies::tensile(0.05)),
                                   bodies::clamped_box({10, 10, 10}, bodies::shear(0.01))}) {
@@ -45,7 +46,7 @@ TEST_CASE("SNES finds the equilibrium that the fast path finds", "[snes]") {
   }
 }
 
-TEST_CASE("SNES with algebraic multigrid finds it too", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "SNES with algebraic multigrid finds it too", "[snes]") {
   PetscOptionsSetValue(nullptr, "-msm_ksp_type", "cg");
   PetscOptionsSetValue(nullptr, "-msm_pc_type", "gamg");
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::tensile(0.05)));
@@ -59,7 +60,7 @@ TEST_CASE("SNES with algebraic multigrid finds it too", "[snes]") {
   CHECK(largest_difference(fast, general) <= 1e-8);
 }
 
-TEST_CASE("SNES refuses a load beyond the limit point that the fast path finds", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "SNES refuses a load beyond the limit point that the fast path finds", "[snes]") {
   // Young's modulus and shear modulus of the thesis's Ogden material matched by springs alone, under its
   // large shear load on each node; on fewer cells than the thesis's.
   const cases::Scene scene = cases::make_scene(bodies::clamped_box({6, 6, 6}, bodies::shear(0.01)));
@@ -81,7 +82,7 @@ TEST_CASE("SNES refuses a load beyond the limit point that the fast path finds",
   CHECK(std::abs(fast - general) <= 8e-3); // both end within twice the smallest step
 }
 
-TEST_CASE("SNES leads a bar around by its end as the fast path does", "[snes]") {
+TEST_CASE_METHOD(WithMpi, "SNES leads a bar around by its end as the fast path does", "[snes]") {
   cases::Case definition = bodies::clamped_box({2, 2, 12}, {});
   cases::Moved turned;
   turned.region = bodies::region("z+");
