@@ -88,7 +88,7 @@ TEST_CASE(
 }
 
 TEST_CASE("log_strain converges to a manufactured solution with the order of its elements",
-          "[verification]") {
+          "[verification][long]") {
   converges<InPrincipalStretches<mechanics::LogStrain>>(scenes::thesis_elastic(),
                                                         cases::Formulation::log_strain, every_element);
 }

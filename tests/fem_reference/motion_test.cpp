@@ -110,7 +110,7 @@ TEST_CASE("gravity's forces on the nodes add up to all weights") {
 }
 
 TEST_CASE("finite elements that nothing holds fall as the parabola says, and keep their shape",
-          "[verification]") {
+          "[verification][long]") {
   for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q2})
     for (const auto mass : {cases::ElementMass::consistent, cases::ElementMass::lumped}) {
       INFO(name_of(element) << ", " << name_of(mass));
@@ -218,7 +218,7 @@ TEST_CASE("the tangent of the finite elements' step is the derivative of its res
   }
 }
 
-TEST_CASE("finite elements' error in time falls at the order of each scheme", "[verification]") {
+TEST_CASE("finite elements' error in time falls at the order of each scheme", "[verification][long]") {
   const cases::Scene scene =
       weighed(bar(true, cases::Formulation::log_strain, cases::Element::q1, {1000., 3, 0.001}),
               Vector3d::Zero(), std::nullopt);

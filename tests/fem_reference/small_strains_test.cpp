@@ -52,7 +52,7 @@ double error_of(const cases::Scene& scene, const cases::Solution& solution, doub
 
 TEST_CASE(
     "a pulled cube of small strain is exact at strains from 1e-12 to 1e-3, in one iteration where assembled",
-    "[verification]") {
+    "[verification][long]") {
   for (const double strain : {1e-12, 1e-9, 3e-6, 1e-5, 1e-3})
     for (const Element element : scenes::all_elements)
       for (const Backend backend : {Backend::assembled, Backend::automatic}) {
@@ -64,7 +64,8 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("a pulled cube of logarithmic strain is exact at strains from 1e-12 to 1e-3", "[verification]") {
+TEST_CASE("a pulled cube of logarithmic strain is exact at strains from 1e-12 to 1e-3",
+          "[verification][long]") {
   for (const double strain : {1e-12, 1e-9, 1e-5, 1e-3})
     for (const Element element : scenes::all_elements)
       for (const Backend backend : {Backend::assembled, Backend::automatic}) {

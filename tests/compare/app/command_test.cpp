@@ -133,7 +133,8 @@ TEST_CASE("run --converge gives each measure an error bar, or the reason why the
              Catch::Contains("no continuum limit"));
 }
 
-TEST_CASE("errors are against the limit where there is one, and against the same mesh where there is none") {
+TEST_CASE("errors are against the limit where there is one, and against the same mesh where there is none",
+          "[long]") {
   const std::string block = cases_folder + "/gates/sheared_block.toml";
   const ProgramRun outcome = run_program("run --json " + block);
   REQUIRE(outcome.status == 0);
@@ -162,7 +163,8 @@ TEST_CASE("errors are against the limit where there is one, and against the same
                              "concentrated force"));
 }
 
-TEST_CASE("run ends with 1 when an expectation is missed or undecided, and gate says what decides it") {
+TEST_CASE("run ends with 1 when an expectation is missed or undecided, and gate says what decides it",
+          "[long]") {
   const std::string block = cases_folder + "/gates/sheared_block.toml";
   const auto expecting = [](const std::string& interval) {
     return " --set 'expect=[{measure=\"u_x\", error_percent=" + interval +

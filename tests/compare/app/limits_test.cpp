@@ -55,7 +55,7 @@ TEST_CASE("a body too large for memory is refused before its mesh is made, whate
     check_one_line(run_program(words, limit), " of memory, and ulimit -v leaves ");
 }
 
-TEST_CASE("gate holds both models to the same turn, most of a whole one") {
+TEST_CASE("gate holds both models to the same turn, most of a whole one", "[long]") {
   const TemporaryFolder folder;
   for (const int angle : {300, 360}) {
     const std::string quarter = std::to_string(angle / 4 - 5) + ", " + std::to_string(angle / 4 + 5);

@@ -93,7 +93,7 @@ TEST_CASE("the version and help that cannot be written are errors too") {
     }
 }
 
-TEST_CASE("what is wrong with a command line is said once, by one rank") {
+TEST_CASE("what is wrong with a command line is said once, by one rank", "[long]") {
   const std::string ranks =
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 ";
   const ProgramRun wrong = run_program("run", ranks);

@@ -82,7 +82,7 @@ TEST_CASE("small strain is chosen for small strains alone, and its solve is the 
 
 TEST_CASE(
     "refinement stops at the first mesh that lets the limit be known well enough, and tells when none does",
-    "[verification]") {
+    "[verification][long]") {
   cases::Case definition = block(1e-3, 0);
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.refine = 5;

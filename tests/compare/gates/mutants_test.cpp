@@ -108,7 +108,7 @@ const std::vector<Drift> drifts{
 
 } // namespace
 
-TEST_CASE("the gates that come with the program are met by the program") {
+TEST_CASE("the gates that come with the program are met by the program", "[long]") {
   for (const char* file : {"gates/uniaxial_exact.toml", "gates/small_strain_exact.toml",
                            "gates/sheared_cube.toml", "gates/calculix_cube.toml"}) {
     const auto judged = solve_and_judge(read(file));
@@ -121,7 +121,7 @@ TEST_CASE("the gates that come with the program are met by the program") {
   }
 }
 
-TEST_CASE("every mutant of a case turns a gate red") {
+TEST_CASE("every mutant of a case turns a gate red", "[long]") {
   for (const Mutant& mutant : mutants) {
     INFO(mutant.what);
     Case definition = read(mutant.file);

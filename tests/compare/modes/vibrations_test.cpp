@@ -92,7 +92,7 @@ TEST_CASE("springs whose lattice has the material's moduli approach the Lame mod
 }
 
 TEST_CASE("the Lame mode of a free cube is approached at order 2, whatever Poisson's ratio",
-          "[verification]") {
+          "[verification][long]") {
   const double exact = std::sqrt(shear_modulus / density) / (std::sqrt(2.0) * edge); // Hz
   for (const double nu : {0.1, 0.3}) {
     INFO("nu " << nu);

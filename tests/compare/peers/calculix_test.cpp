@@ -169,7 +169,7 @@ TEST_CASE("a bar that is loaded at once moves as CalculiX says, at equal steps o
   CHECK(std::sqrt(difference_squared / squared) <= 1e-3);
 }
 
-TEST_CASE("Saint Venant-Kirchhoff on the cube agrees with CalculiX's NLGEOM on every node", "[peer]") {
+TEST_CASE("Saint Venant-Kirchhoff on the cube agrees with CalculiX's NLGEOM on every node", "[peer][long]") {
   for (const char* test : {"tensile", "shear", "torsion"})
     for (const char* set : {"small", "large"})
       check_agrees(cube(std::string(test) + "_" + set, {"fem.formulation=saint_venant_kirchhoff"}));

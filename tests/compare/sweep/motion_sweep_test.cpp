@@ -157,7 +157,8 @@ TEST_CASE("an error that is small by accident is told, with the most accurate mo
 }
 
 TEST_CASE(
-    "a quick sweep in time has all designs with the case's step, its own and finite elements with three") {
+    "a quick sweep in time has all designs with the case's step, its own and finite elements with three",
+    "[long]") {
   int n_calls = 0;
   const MotionSweep sweep =
       compare::sweep_motion(block(), compare::Extent::quick, [&](const MotionSweep&) { ++n_calls; });

@@ -95,7 +95,7 @@ cases::Load traction(const std::string& where, const Vector3d& value) {
 } // namespace
 
 TEST_CASE("both backends find the same equilibrium under torsion, whatever the law and the element",
-          "[verification]") {
+          "[verification][kernels][long]") {
   agree_for_every_law_and_element({Test::torsion});
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("both backends find the same equilibrium under tension and shear, what
 }
 
 TEST_CASE("both backends agree on flat cells, tractions, torques, symmetry and supports of one component",
-          "[verification]") {
+          "[verification][long]") {
   const auto element = GENERATE(Element::q1_bbar, Element::q2);
   CAPTURE(cases::name_of(element));
   auto definition = cube(cases::Formulation::log_strain, element);
@@ -156,7 +156,7 @@ TEST_CASE("both backends agree where supports move and turn", "[verification]") 
   }
 }
 
-TEST_CASE("both backends agree on a body with holes, of two materials, and refined", "[verification]") {
+TEST_CASE("both backends agree on a body with holes, of two materials, and refined", "[verification][long]") {
   const auto element = GENERATE(Element::q1_bbar, Element::q2);
   CAPTURE(cases::name_of(element));
   auto definition = cube(cases::Formulation::log_strain, element);
@@ -244,7 +244,8 @@ TEST_CASE(
   CHECK(std::abs(reached[0] - reached[1]) <= 2. / 512); // two of the smallest load steps
 }
 
-TEST_CASE("a load that cannot be carried is not tried again with a factorisation: the body is to blame") {
+TEST_CASE("a load that cannot be carried is not tried again with a factorisation: the body is to blame",
+          "[long]") {
   auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar);
   const int n = GENERATE(8, 12);
   definition.body = cases::Box{Vector3d(10, 10, 10), {n, n, n}};

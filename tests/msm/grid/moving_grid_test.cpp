@@ -143,7 +143,7 @@ TEST_CASE("a step in real time that its iterations leave further from balance th
   CHECK(cut.trajectory->largest_residual <= 1);
 }
 
-TEST_CASE("a step on a grid is the same bit for bit on one and two threads") {
+TEST_CASE("a step on a grid is the same bit for bit on one and two threads", "[long]") {
   const auto end = [](int n_threads) {
     const cases::Scene scene =
         block(steps(cases::Scheme::generalized_alpha, 0.01, 0.02), {1000., 1, 0.002}, false, 24);
