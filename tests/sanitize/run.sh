@@ -44,7 +44,7 @@ springs)
   ./springproof_msm_tests "-#" "[#model_test][verification]" ;;
 finite_elements)
   ./springproof_fem_reference_tests "-#" \
-    "~[long]~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
+    "~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
 program)
   rm -rf program
   mkdir program
