@@ -46,8 +46,10 @@ build() {
 command=${1:-help}
 [ $# -eq 0 ] || shift
 case $command in
-  tables) part=first; build springproof; exec build/springproof tables "$@" ;;
-  run)    part=first; build springproof; exec build/springproof run "$@" ;;
+  tables | run)
+    case " $* " in *" --out"*) ;; *) part=first ;; esac # files need VTK and gnuplot, text does not
+    build springproof
+    exec build/springproof "$command" "$@" ;;
   build)  build ;;
   packages) install_missing ;;
   package)

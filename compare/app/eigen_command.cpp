@@ -85,6 +85,7 @@ int run(EigenOptions options) {
                     "take one of four stiffnesses",
                     cases::name_of(request.options.design)));
   const msm::CellMatrix msm = msm::cell_stiffness_matrix(request.cell, design.stiffness);
+  if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));
