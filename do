@@ -8,10 +8,13 @@ set -eu
 cd "$(dirname "$0")"
 
 # packages.txt is the one list of dependencies. Nothing is run as root when nothing is missing.
-# install_missing tests: those that only the tests need too.
+# install_missing [first|program|tests]: that part of it and those above; program unless said.
 install_missing() {
-  last='/^# tests/'
-  [ "${1:-}" != tests ] || last='$'
+  case ${1:-program} in
+    first) last='/^# program/' ;;
+    program) last='/^# tests/' ;;
+    tests) last='$' ;;
+  esac
   wanted=$(sed -e "1,${last}!d" -e 's/#.*//' packages.txt)
   # For the accessibility test. Where node is not Debian's own, Debian's npm would clash with it.
   [ "${1:-}" != tests ] || command -v npm >/dev/null || wanted="$wanted npm"
@@ -30,9 +33,12 @@ install_missing() {
   DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $missing >&2
 }
 
+# build [TARGET...]: all but tests and benchmarks unless said. What an earlier configuration has left out for want of packages is looked for again.
+part=program
 build() {
-  install_missing
-  [ -f build/build.ninja ] || cmake --preset release >&2
+  install_missing $part
+  [ -f build/build.ninja ] && { [ $part = first ] || grep -qx 'SPRINGPROOF_IS_WHOLE:INTERNAL=1' build/CMakeCache.txt; } ||
+    cmake --preset release >&2
   [ $# -gt 0 ] || set -- all
   cmake --build build --target "$@" >&2
 }
@@ -40,8 +46,10 @@ build() {
 command=${1:-help}
 [ $# -eq 0 ] || shift
 case $command in
-  tables) build springproof; exec build/springproof tables "$@" ;;
-  run)    build springproof; exec build/springproof run "$@" ;;
+  tables | run)
+    case " $* " in *" --out"*) ;; *) part=first ;; esac # files need VTK and gnuplot, text does not
+    build springproof
+    exec build/springproof "$command" "$@" ;;
   build)  build ;;
   packages) install_missing ;;
   package)
@@ -61,7 +69,7 @@ case $command in
   format)
     git ls-files '*.cpp' '*.hpp' | xargs clang-format -i ;;
   bench)
-    build all springproof_bench
+    build springproof springproof_bench
     build/springproof_bench "$@"
     exec python3 tests/bench/finite_elements.py ;;
   *) sed -n '2,6s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;

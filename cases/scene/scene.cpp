@@ -5,6 +5,7 @@
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
+#include "cases/mesh/vtk.hpp"
 #include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
@@ -325,6 +326,7 @@ Scene make_scene(const Case& definition) {
     for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
       if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
   check_fields(scene);
+  if (definition.surface || !definition.landmarks.empty()) check_has_vtk();
   read_surface_of(scene);
   return scene;
 }

@@ -1,5 +1,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "cases/mesh/vtk.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/modes/vibrations.hpp"
@@ -48,6 +49,7 @@ int run_vibrations(const EigenOptions& options) {
       cases::read_case(options.vibrating, options.settings, cases::Purpose::vibrations));
   const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
   check_memory(options.vibrating, estimate_vibrations(size_of(scene)), memory_limit());
+  if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const VibrationStudy study = study_vibrations(scene, designs, options.n_modes);
@@ -83,6 +85,7 @@ int run(EigenOptions options) {
                     "take one of four stiffnesses",
                     cases::name_of(request.options.design)));
   const msm::CellMatrix msm = msm::cell_stiffness_matrix(request.cell, design.stiffness);
+  if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));

@@ -1,5 +1,6 @@
 #include "compare/app/commands.hpp"
 
+#include "cases/mesh/vtk.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -27,6 +28,7 @@ int export_case(const ExportOptions& options) {
   const std::string& name = scene.definition.name;
   const msm::Problem problem = exported_problem(scene);
   const std::optional<ExportedMotion> motion = exported_motion(scene);
+  if (target == ExportTarget::vtu) cases::check_has_vtk();
   check_expressible(target, name, problem, motion); // before there is a folder
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;

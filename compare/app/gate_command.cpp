@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
+#include "cases/mesh/vtk.hpp"
 #include "compare/app/replay_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
@@ -97,6 +98,7 @@ int gate(const GateOptions& options) {
   std::vector<Question> questions = read_all(options);
   check_blessing(options, questions);
   check_named_file(options.junit);
+  if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);

@@ -1,5 +1,6 @@
 #include "cases/case/installation.hpp"
 #include "cases/case/read_case.hpp"
+#include "cases/mesh/vtk.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/number_option.hpp"
 #include "compare/interact/recording.hpp"
@@ -96,6 +97,7 @@ std::string keep_recording(const InteractOptions& options, const cases::Case& de
 
 int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
+  cases::check_has_vtk(); // for the drawn surface
   const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
   check_memory(options.file, {estimate_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);

@@ -1,5 +1,6 @@
 #include "compare/app/commands.hpp"
 
+#include "cases/mesh/vtk.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/app/replay_option.hpp"
 #include "compare/error_bars/auto_fem.hpp"
@@ -145,8 +146,10 @@ int run(const RunOptions& options) {
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions =
       read_questions(options.files, options.settings, {only, options.meshes, options.peer});
-  if (!options.out.empty()) // for the .vtu
+  if (!options.out.empty()) { // for the .vtu
+    cases::check_has_vtk();
     for (Question& question : questions) question.scene.definition.has_fields = true;
+  }
   check_memory(questions);
   questions = with_recording(std::move(questions), options.replay);
   const auto external =

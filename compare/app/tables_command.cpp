@@ -1,3 +1,4 @@
+#include "cases/mesh/vtk.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
@@ -49,6 +50,7 @@ int tables(const TablesOptions& options) {
   if (!options.shards->part.empty())
     return solve_shard(*options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
                        options.out, {options.workers});
+  if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   claim_subfolder(options.out, "figures");
   ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);

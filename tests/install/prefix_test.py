@@ -88,6 +88,17 @@ with tempfile.TemporaryDirectory() as name:
     check(len(table) == 6 and all(0 < float(word) < 60 for line in table[1:] for word in line[1:]), f"compare_designs.txt: {table}")
     check((work / "compare_designs.svg").read_text().rstrip().endswith("</svg>"), "compare_designs.svg is not whole")
 
+    # Without VTK's module, as `./do tables` builds: text, and one message where files are asked for.
+    module = prefix / "lib/springproof/springproof_vtk.so"
+    module.rename(scratch / module.name)
+    block = prefix / "share/doc/springproof/examples/library/block.toml"
+    check("top" in hidden([program, "run", block], work), "run without VTK's module")
+    hidden(["sh", "-c", '! "$0" run "$1" --out refused 2> said', program, block], work)
+    said = (work / "said").read_text()
+    check("no VTK" in said and "./do packages" in said and said.count("\n") == 1, f"run --out without VTK's module says {said}")
+    check(not (work / "refused").exists(), "a refused run has left its folder")
+    (scratch / module.name).rename(module)
+
     # A program of somebody else's, built and run against the prefix alone.
     shutil.copytree(prefix / "share/doc/springproof/examples/library", work / "library")
     hidden(["cmake", "-S", "library", "-B", "library/build", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Debug"], work)
