@@ -2,6 +2,8 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/ranking/verdict.hpp"
+#include "compare/ranking/write_ranking.hpp"
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/skin.hpp"

@@ -2,6 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/ranking/verdict.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
