@@ -12,7 +12,7 @@ function verdict() {
     if (of.status !== "converged" && !is_cut_off) return tile(name, in_words(of.status), solver_words(of.message));
     const unknowns = missing(of.unknowns) ? "" : `; ${of.unknowns.toLocaleString("en")} unknowns`;
     return tile(name, missing(seconds_of(of)) ? "given" : duration(seconds_of(of)),
-      [what, unknowns, is_cut_off ? `; ${solver_words(of.message)}` : ""]);
+      [what, unknowns, of.message ? `; ${solver_words(of.message)}` : ""]);
   };
   const met = one_case.expectations.filter((one) => one.met).length;
   return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replaceAll("+-", "±"))),
@@ -20,8 +20,9 @@ function verdict() {
       side("springs", one_case.msm, one_case.msm.source ? `displacements of ${one_case.msm.source}` : in_words(one_case.design)),
       one_case.expectations.length > 0 &&
       tile("expectations met", `${met} of ${one_case.expectations.length}`)),
-    one_case.doubts.map((text) => make("p", { class: "problem" }, text)),
-    (one_case.msm.warnings || []).map((text) => make("p", { class: "problem" }, text))];
+    report.time && make("p", null, report.time),
+    [...one_case.doubts, ...one_case.warnings].map((text) => make("p", { class: "problem" }, text)),
+    (one_case.fem.choices || []).map((text) => make("p", { class: "quiet" }, text))];
 }
 
 // Errors as dots with bars of the reference's uncertainty, the finite elements' own beside them.
@@ -60,7 +61,7 @@ function measures() {
   const heads = ["finite elements", "their limit", "springs", "error, %", "error of finite elements, %"].map((text) => head(text));
   const line = (m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]), cell(missing(m.fem) ? "–" : general(m.fem)),
     cell(with_bar(m.fem_limit, m.fem_limit_uncertainty)), cell(missing(m.msm) ? "–" : general(m.msm)),
-    cell(with_bar(m.error_percent, m.error_uncertainty_percent, 2)),
+    cell([m.error_is_norm ? "norm " : "", with_bar(m.error_percent, m.error_uncertainty_percent, m.error_is_norm ? undefined : 2)]),
     cell(missing(m.fem_error_percent) ? "–" : signed(m.fem_error_percent)),
     expects ? cell(expectation(m.name), "long") : []].flat());
   const note = one_case.measures.some((m) => m.reference === "limit")
@@ -69,7 +70,8 @@ function measures() {
       "the case, or the option --converge, finds it.";
   return [found.length > 0 && measure_chart(found), table("measures", "Measures of both models", row([text_head("measure"), heads,
     expects ? text_head("expected") : []].flat()), body(one_case.measures.map(line))),
-  found.length > 0 && make("p", { class: "quiet" }, note)];
+  found.length > 0 && make("p", { class: "quiet" }, note, one_case.measures.some((m) => m.error_is_norm)
+    ? " A norm is that of the difference, over the body or over time, and has no sign." : "")];
 }
 
 function ranked() {
