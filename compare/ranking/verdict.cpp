@@ -44,7 +44,7 @@ std::string mesh_text(const RankedDesign& own) {
     return " The mesh errs more than the springs do: refine it before you judge them.";
   if (fem->worst + fem->bar < *own.worst - *own.worst_bar)
     return " The springs err more than their mesh does.";
-  return " The springs err no more than their mesh does: refine it before you judge them.";
+  return " The numbers do not tell the springs' error from their mesh's: refine it before you judge them.";
 }
 
 std::string missed_text(const std::vector<Gate>& gates) {

@@ -48,7 +48,9 @@ void write_table(std::ostream& out, const Comparison& comparison) {
     std::vector<std::string> row{m.name, m.unit, number(m.fem, "{:.6g}"), number(m.msm, "{:.6g}")};
     if (has_limits) row.push_back(limit ? with_bar(limit->value, "{:.6g}", limit->uncertainty) : "-");
     row.push_back(error_text(m, is_norm(m, comparison.scene.definition)));
-    if (has_limits) row.push_back(number(m.fem_error_percent, "{:+.2f}"));
+    if (has_limits)
+      row.push_back(
+          number(m.fem_error_percent, is_norm(m, comparison.scene.definition) ? "{:.2f}*" : "{:+.2f}"));
     if (peer) row.push_back(number(m.peer, "{:.6g}"));
     table.add(std::move(row));
   }
