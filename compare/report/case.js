@@ -21,7 +21,7 @@ function verdict() {
       one_case.expectations.length > 0 &&
       tile("expectations met", `${met} of ${one_case.expectations.length}`)),
     report.time && make("p", null, report.time),
-    [...one_case.doubts, ...one_case.warnings].map((text) => make("p", { class: "problem" }, text)),
+    [...one_case.doubts, ...one_case.warnings.map((text) => "Warning: " + text)].map((text) => make("p", { class: "problem" }, text)),
     (one_case.fem.choices || []).map((text) => make("p", { class: "quiet" }, text))];
 }
 
@@ -52,8 +52,8 @@ function measure_chart(measures) {
 function measures() {
   if (!one_case || one_case.measures.length === 0) return null;
   const found = one_case.measures.filter((m) => !missing(m.error_percent));
-  const with_bar = (value, bar, decimals) => (missing(value) ? "–" : [decimals === undefined ? general(value) : signed(value, decimals),
-    missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
+  const with_bar = (value, bar, shown = general) => (missing(value) ? "–" : [shown(value), missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
+  const error = (m) => (m.error_is_norm ? (value) => `norm ${number(value)}` : signed);
   const expectation = (name) => one_case.expectations.filter((one) => one.measure === name).map((one) => make("div", null,
     `${in_words(one.quantity)} in [${one.interval.map((end) => general(end)).join(", ")}]: `, one.met ? "met" : !one.judged ? "not judged" : make("strong", null,
       one.undecided ? "undecided" : "missed"), !one.met && one.reason ? ` (${one.reason})` : ""));
@@ -61,11 +61,13 @@ function measures() {
   const heads = ["finite elements", "their limit", "springs", "error, %", "error of finite elements, %"].map((text) => head(text));
   const line = (m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]), cell(missing(m.fem) ? "–" : general(m.fem)),
     cell(with_bar(m.fem_limit, m.fem_limit_uncertainty)), cell(missing(m.msm) ? "–" : general(m.msm)),
-    cell([m.error_is_norm ? "norm " : "", with_bar(m.error_percent, m.error_uncertainty_percent, m.error_is_norm ? undefined : 2)]),
-    cell(missing(m.fem_error_percent) ? "–" : signed(m.fem_error_percent)),
+    cell(with_bar(m.error_percent, m.error_uncertainty_percent, error(m))),
+    cell(missing(m.fem_error_percent) ? "–" : error(m)(m.fem_error_percent)),
     expects ? cell(expectation(m.name), "long") : []].flat());
+  const reasons = new Set(one_case.measures.map((m) => m.fem_limit_note)), [reason] = reasons;
   const note = one_case.measures.some((m) => m.reference === "limit")
     ? "Errors are against the limit of the finite elements under refinement where it is known; ± is what its uncertainty leaves."
+    : reasons.size === 1 && reason !== "no limit was asked for" ? `Errors are against the finite elements on the same mesh: ${reason}.`
     : "Errors are against the finite elements on the same mesh, whose own error is not known here: accuracy = \"auto\" in [fem] of " +
       "the case, or the option --converge, finds it.";
   return [found.length > 0 && measure_chart(found), table("measures", "Measures of both models", row([text_head("measure"), heads,

@@ -47,7 +47,7 @@ function moduli_table(moduli) {
     const [name, unit] = names_of_moduli[key] || [symbol("C", key.slice(1)), "MPa"];
     return row([row_head(name), cell(missing(value) ? "–" : general(value, 5)), text_cell(unit)]);
   };
-  return table("moduli", "Small-strain moduli of the lattice", null, body(Object.entries(moduli).map(line)));
+  return table("moduli", "Small-strain moduli of the lattice, means over its axes", null, body(Object.entries(moduli).map(line)));
 }
 
 function stability_table(stability) {
