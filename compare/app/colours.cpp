@@ -17,8 +17,9 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::pair<std::string_view, std::string_view> colour_of_word[] = {
-    {"met "sv, "32"sv},   {"all gates met"sv, "32"sv}, {"MISSED"sv, "31"sv},  {"not judged"sv, "33"sv},
-    {"FAILED"sv, "31"sv}, {"GATES FAILED"sv, "31"sv},  {"DIFFERS"sv, "31"sv}, {"warning:"sv, "33"sv}};
+    {"met "sv, "32"sv},       {"all gates met"sv, "32"sv}, {"MISSED"sv, "31"sv},
+    {"not judged"sv, "33"sv}, {"FAILED"sv, "31"sv},        {"GATES FAILED"sv, "31"sv},
+    {"DIFFERS"sv, "31"sv},    {"warning:"sv, "33"sv},      {"Warning:"sv, "33"sv}};
 
 /// Holds a line back until it is whole, or flushed.
 class Colouring : public std::streambuf {

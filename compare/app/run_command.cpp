@@ -2,18 +2,20 @@
 
 #include "cases/mesh/vtk.hpp"
 #include "compare/app/design_options.hpp"
+#include "compare/app/next_commands.hpp"
 #include "compare/app/replay_option.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/ranking/ranking.hpp"
+#include "compare/provenance/whole_file.hpp"
+#include "compare/ranking/write_ranking.hpp"
 #include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/thesis/table_jobs.hpp"
+#include "compare/write/columns.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
@@ -27,6 +29,7 @@ namespace springproof::compare {
 namespace {
 
 struct RunOptions {
+  std::string program; ///< as typed
   std::vector<std::string> files;
   std::vector<std::string> settings;
   std::string only = "both";
@@ -52,40 +55,49 @@ void ask_peer(const cases::Scene& scene, Answers& answers) {
   answers.peer->answer = answer;
 }
 
+/// For the commands that a text ends with.
+RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
+  return {options.program, definition.file, options.settings, options.meshes > 0, !options.out.empty()};
+}
+
+void print_ranking(const RunOptions& options, const cases::Case& definition, const Ranking& ranking) {
+  write_ranking_text(std::cout, ranking);
+  write_next_commands(std::cout, next_commands(as_asked(options, definition), definition.msm, ranking));
+}
+
+/// A question's finite elements, and as many springs as there are designs.
+std::vector<Estimate> estimate_designs(const RunOptions& options, const Question& question) {
+  std::vector<Estimate> models = estimate(question);
+  models.insert(models.end(), designs_of(options.designs, question.scene.definition).size(),
+                estimate_springs(size_of(question.scene)));
+  return models;
+}
+
 /// The springs of every design against the same finite elements.
 int run_designs(const RunOptions& options) {
   const std::vector<Question> questions =
       read_questions(options.files, options.settings, {cases::Side::fem, options.meshes});
   check_memory(questions);
-  nlohmann::ordered_json document{{"schema", 1}, {"cases", nlohmann::ordered_json::array()}};
+  claim_folder(options.out);
+  std::vector<Ranking> rankings;
   bool failed = false;
   ProgressLine line(1);
-  const auto models_of = [&](const Question& question) {
-    std::vector<Estimate> models = estimate(question);
-    models.insert(models.end(), designs_of(options.designs, question.scene.definition).size(),
-                  estimate_springs(size_of(question.scene)));
-    return models;
-  };
-  for (const Question& question : questions) line.expect({1, total_seconds(models_of(question))});
+  for (const Question& question : questions)
+    line.expect({1, total_seconds(estimate_designs(options, question))});
   for (const Question& question : questions) {
     const cases::Case& definition = question.scene.definition;
     std::optional<ProgressLine::Shown> shown(std::in_place, line, definition.name,
-                                             total_seconds(models_of(question)),
+                                             total_seconds(estimate_designs(options, question)),
                                              long_solve_text(definition.name, estimate(question)));
-    const Ranking ranking =
-        rank_designs(question.scene, designs_of(options.designs, definition), options.meshes);
+    rankings.push_back(rank_designs(question.scene, designs_of(options.designs, definition), options.meshes));
     shown.reset();
-    if (mpi_rank() != 0) {
-      failed = failed || !ranking.fem.converged();
-      continue;
-    }
-    failed = failed || !ranking.is_sound();
-    if (options.json)
-      document["cases"].push_back(ranking_to_json(ranking));
-    else
-      write_ranking_text(std::cout, ranking);
+    const Ranking& ranking = rankings.back();
+    const bool is_told = mpi_rank() == 0; // the other ranks' rankings have no designs
+    failed = failed || !(is_told ? ranking.is_sound() : ranking.fem.converged());
+    if (is_told && !options.out.empty()) write_rankings(options.out, rankings);
+    if (is_told && !options.json) print_ranking(options, definition, ranking);
   }
-  if (mpi_rank() == 0 && options.json) std::cout << json_text(document);
+  if (mpi_rank() == 0 && options.json) std::cout << json_text(rankings_to_json(rankings));
   return failed ? 1 : 0;
 }
 
@@ -105,39 +117,74 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   return answers;
 }
 
-/// The words of a run of one case that makes its page again.
-std::vector<std::string> command_of(const RunOptions& options, const std::string& file) {
-  std::vector<std::string> words{"run", file};
-  const auto add = [&](const std::string& option, const std::string& value) {
-    words.insert(words.end(), {option, value});
-  };
-  for (const std::string& setting : options.settings) add("--set", setting);
-  if (!options.replay.empty()) add("--replay", options.replay);
-  if (options.only != "both") add("--only", options.only);
-  if (options.meshes > 0) words.push_back(fmt::format("--converge={}", options.meshes));
-  if (!options.peer.empty()) add("--peer", options.peer);
-  if (!options.displacements.file.empty()) add("--msm-displacements", options.displacements.file);
-  if (options.displacements.interpolate) words.push_back("--interpolate");
-  if (!options.designs.empty()) add("--designs", fmt::format("{}", fmt::join(options.designs, ",")));
-  add("--out", options.out);
-  words.push_back("--report");
-  return words;
-}
-
 /// The page of a case that is solved, with its designs ranked when asked. Collective.
-void write_page_of(const RunOptions& options, const Comparison& comparison) {
-  const cases::Case& definition = comparison.scene.definition;
+void write_page_of(const RunOptions& options, const Comparison& comparison, const Ranking* ranking) {
   Answers answers = gathered(comparison.answers);
-  std::optional<Ranking> ranking;
-  if (!options.designs.empty())
-    ranking = rank_designs(comparison.scene, designs_of(options.designs, definition), answers);
   run_on_all_ranks([&] {
     if (mpi_rank() != 0) return;
     Comparison whole = comparison;
     whole.answers = std::move(answers);
-    write_case_page(options.out, whole, ranking ? &*ranking : nullptr,
-                    {shell_command(command_of(options, definition.file))});
+    write_case_page(options.out, whole, ranking, {typed_command()});
   });
+}
+
+/// The designs of a case that is solved. Collective.
+Ranking rank_solved(const RunOptions& options, const Comparison& comparison) {
+  return rank_designs(comparison.scene, designs_of(options.designs, comparison.scene.definition),
+                      gathered(comparison.answers));
+}
+
+/// What a run has found of its cases so far.
+struct Results {
+  std::vector<Comparison> done;
+  std::vector<TimeStudy> time_studies; ///< as many, if asked for
+  std::vector<Ranking> rankings;       ///< as many, if asked for
+};
+
+/// The text of the case that was solved last, on rank 0.
+void print_last(const RunOptions& options, const Results& results) {
+  const Comparison& comparison = results.done.back();
+  write_text(std::cout, comparison, options.meshes > 0 ? MeshTable::printed : MeshTable::left_out);
+  if (options.converges_time) write_time_study_text(std::cout, results.time_studies.back());
+  if (!options.out.empty())
+    write_wrapped(std::cout,
+                  fmt::format("  files    {}/results.json, comparison.csv, {}.{}{}", options.out,
+                              comparison.scene.definition.name, n_mpi_ranks() > 1 ? "pvtu" : "vtu",
+                              options.report ? ", " + comparison.scene.definition.name + ".html" : ""),
+                  11);
+  const cases::Case& definition = comparison.scene.definition;
+  if (results.rankings.empty())
+    write_verdict_text(std::cout, comparison, next_commands(as_asked(options, definition), comparison));
+  else {
+    write_verdict_text(std::cout, comparison, {});
+    print_ranking(options, definition, results.rankings.back());
+  }
+}
+
+/// The files of the cases that are solved. Collective.
+void write_files(const RunOptions& options, const Results& results) {
+  if (options.out.empty()) return;
+  write_results(options.out, results.done);
+  if (mpi_rank() == 0 && !results.rankings.empty()) write_rankings(options.out, results.rankings);
+  if (options.report)
+    write_page_of(options, results.done.back(),
+                  results.rankings.empty() ? nullptr : &results.rankings.back());
+}
+
+nlohmann::ordered_json results_to_json(const Results& results) {
+  nlohmann::ordered_json document = to_json(results.done);
+  for (std::size_t i = 0; i < results.time_studies.size(); ++i)
+    document["cases"][i]["time_study"] = time_study_to_json(results.time_studies[i]);
+  for (std::size_t i = 0; i < results.rankings.size(); ++i)
+    document["cases"][i]["ranking"] = ranking_to_json(results.rankings[i]);
+  return document;
+}
+
+void check_time_studies(const std::vector<Question>& questions) {
+  for (const Question& question : questions)
+    if (!question.scene.definition.dynamics)
+      throw cases::InputError(question.scene.definition.file +
+                              ": --converge-time: the case has no [dynamics]");
 }
 
 int run(const RunOptions& options) {
@@ -158,34 +205,28 @@ int run(const RunOptions& options) {
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
   for (const Question& question : questions) line.expect({1, total_seconds(estimate(question))});
-  for (const Question& question : questions)
-    if (options.converges_time && !question.scene.definition.dynamics)
-      throw cases::InputError(question.scene.definition.file +
-                              ": --converge-time: the case has no [dynamics]");
-  std::vector<Comparison> done;
-  std::vector<TimeStudy> time_studies; ///< as many, if asked for
+  if (options.converges_time) check_time_studies(questions);
+  Results results;
   bool failed = false;
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene, *external);
-    done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
-    failed = failed || !done.back().is_sound();
+    results.done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
+    const Comparison& comparison = results.done.back();
+    failed = failed || !comparison.is_sound();
     if (options.converges_time) {
-      time_studies.push_back(study_time(done.back().scene, done.back().answers, question.request, solve_fem));
-      failed = failed || !time_studies.back().failures.empty();
+      results.time_studies.push_back(
+          study_time(comparison.scene, comparison.answers, question.request, solve_fem));
+      failed = failed || !results.time_studies.back().failures.empty();
     }
-    if (!options.json && mpi_rank() == 0) write_text(std::cout, done.back());
-    if (!options.json && mpi_rank() == 0 && options.converges_time)
-      write_time_study_text(std::cout, time_studies.back());
-    if (!options.out.empty()) write_results(options.out, done);
-    if (options.report) write_page_of(options, done.back());
+    if (!options.designs.empty()) {
+      results.rankings.push_back(rank_solved(options, comparison));
+      failed = failed || (mpi_rank() == 0 && !results.rankings.back().is_sound());
+    }
+    if (!options.json && mpi_rank() == 0) print_last(options, results);
+    write_files(options, results);
   }
-  if (mpi_rank() == 0 && options.json) {
-    nlohmann::ordered_json document = to_json(done);
-    for (std::size_t i = 0; i < time_studies.size(); ++i)
-      document["cases"][i]["time_study"] = time_study_to_json(time_studies[i]);
-    std::cout << json_text(document);
-  }
+  if (mpi_rank() == 0 && options.json) std::cout << json_text(results_to_json(results));
   return failed ? 1 : 0;
 }
 
@@ -210,7 +251,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
   CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "
-      "that it holds already are not solved again");
+      "that it holds already are not solved again; with --designs for ranking.txt, .csv and .json");
   CLI::Option* report = command->add_flag("--report", options->report,
                                           "a page of each case, CASE.html, and its bodies drawn, "
                                           "CASE_bodies/bodies.png and .svg, in the folder of --out; with "
@@ -224,10 +265,8 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->excludes("--peer")
       ->excludes("--msm-displacements");
   add_replay_option(*command, options->replay)->excludes(command->get_option("--designs"));
-  command->callback([options, out, &chosen] {
-    if (!options->designs.empty() && *out && !options->report)
-      throw CLI::ValidationError("--designs",
-                                 "goes with --out for a page alone: add --report, or leave --out out");
+  command->callback([options, &program, &chosen] {
+    options->program = program.get_name();
     chosen = [options] {
       return options->designs.empty() || options->report ? run(*options) : run_designs(*options);
     };

@@ -204,7 +204,7 @@ RefinedMeshes refine_until_known(const cases::Scene& scene, const FemAnswer& own
       fmt::format("refine = {} to {}, {} unknowns in the last, {:.2f} s in all", meshes.refine.front(),
                   meshes.refine.back(), meshes.solutions.back().unknowns, refinement.seconds());
   told.push_back(off.empty() ? fmt::format("accuracy: reached ({})", cost)
-                             : fmt::format("accuracy: NOT REACHED: {}; {} ({})", off, gave_up, cost));
+                             : fmt::format("accuracy: not reached: {}; {} ({})", off, gave_up, cost));
   return meshes;
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 
 #include "compare/gates/comparison.hpp"
-#include "compare/write/json.hpp"
-
-#include <iosfwd>
 
 /// Which springs to use for a case: its finite elements solved once, every design that applies held against
 /// them. `run CASE --designs`.
@@ -22,8 +19,13 @@ struct RankedDesign {
   bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
   std::optional<double> misfit{}; ///< msm::ModuliMisfit::largest of the lattice, where it is known
   double milliseconds = 0;        ///< design, setup and solve
+  std::optional<double> milliseconds_a_step{}; ///< of a motion
   std::vector<MeasuredValue> measures{};
   std::vector<Gate> gates{}; ///< of the case's expectations; empty when it was refused
+  bool is_sound = false;     ///< Comparison::is_sound(); false when it was refused
+
+  /// Whether the lattice is known to have the material's moduli.
+  bool has_moduli() const { return misfit && *misfit <= msm::told_moduli_misfit; }
 };
 
 struct Ranking {
@@ -33,13 +35,16 @@ struct Ranking {
   std::vector<RankedDesign> designs{}; ///< by worst error, then those that failed, then those refused
   std::vector<Gate> gates{}; ///< of the case's expectations, by the case's own design; where that is not
                              ///< among the designs, what is expected of springs is not judged
+  bool is_case_sound = true; ///< Comparison::is_sound() of the finite elements and the case's own design;
+                             ///< where that is not among the designs, of the finite elements
 
   /// The stable design of the smallest worst error and those whose error bars meet its own.
   std::vector<const RankedDesign*> best() const;
   /// Of the best: one whose lattice has the material's moduli before others, then the fastest; null when
   /// there is none.
   const RankedDesign* recommended() const;
-  /// The success of `run --designs`: a design is recommended, and no expectation is missed.
+  /// The success of `run --designs`: the case itself is sound, and some design has an answer. Another design
+  /// that is refused or fails is a row of the ranking with its reason, and no failure of the command.
   bool is_sound() const;
 };
 
@@ -57,17 +62,7 @@ Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>
 /// Puts designs into the order of a ranking.
 void sort_by_error(std::vector<RankedDesign>& designs);
 
-/// A table, and a sentence that names the design to use.
-void write_ranking_text(std::ostream& out, const Ranking& ranking);
-
-/// What a case's own springs come to, in a sentence: their worst errors, with the reference's uncertainty,
-/// and the finite elements' own, of the measures whose limit is known; or why there is nothing to compare.
-std::string verdict_of(const Comparison& comparison);
-
-/// The sentence: the design, its numbers as the table has them, the finite elements' own error as far as it
-/// is known, what the reference's uncertainty does not tell it from, and why it and not those.
-std::string advice_of(const Ranking& ranking);
-
-nlohmann::ordered_json ranking_to_json(const Ranking& ranking);
+/// Adds the worst errors of the measures that have one.
+void add_errors(RankedDesign& ranked, const Comparison& comparison);
 
 } // namespace springproof::compare

@@ -12,7 +12,7 @@ function verdict() {
     if (of.status !== "converged" && !is_cut_off) return tile(name, in_words(of.status), solver_words(of.message));
     const unknowns = missing(of.unknowns) ? "" : `; ${of.unknowns.toLocaleString("en")} unknowns`;
     return tile(name, missing(seconds_of(of)) ? "given" : duration(seconds_of(of)),
-      [what, unknowns, is_cut_off ? `; ${solver_words(of.message)}` : ""]);
+      [what, unknowns, of.message ? `; ${solver_words(of.message)}` : ""]);
   };
   const met = one_case.expectations.filter((one) => one.met).length;
   return [make("p", { class: report.is_sound ? "answer" : "answer problem" }, typeset(solver_words(report.verdict).replaceAll("+-", "±"))),
@@ -20,8 +20,9 @@ function verdict() {
       side("springs", one_case.msm, one_case.msm.source ? `displacements of ${one_case.msm.source}` : in_words(one_case.design)),
       one_case.expectations.length > 0 &&
       tile("expectations met", `${met} of ${one_case.expectations.length}`)),
-    one_case.doubts.map((text) => make("p", { class: "problem" }, text)),
-    (one_case.msm.warnings || []).map((text) => make("p", { class: "problem" }, text))];
+    report.time && make("p", null, report.time),
+    [...one_case.doubts, ...one_case.warnings.map((text) => "Warning: " + text)].map((text) => make("p", { class: "problem" }, text)),
+    (one_case.fem.choices || []).map((text) => make("p", { class: "quiet" }, text))];
 }
 
 // Errors as dots with bars of the reference's uncertainty, the finite elements' own beside them.
@@ -51,8 +52,8 @@ function measure_chart(measures) {
 function measures() {
   if (!one_case || one_case.measures.length === 0) return null;
   const found = one_case.measures.filter((m) => !missing(m.error_percent));
-  const with_bar = (value, bar, decimals) => (missing(value) ? "–" : [decimals === undefined ? general(value) : signed(value, decimals),
-    missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
+  const with_bar = (value, bar, shown = general) => (missing(value) ? "–" : [shown(value), missing(bar) ? "" : ` ± ${general(bar, 2)}`]);
+  const error = (m) => (m.error_is_norm ? (value) => `norm ${number(value)}` : signed);
   const expectation = (name) => one_case.expectations.filter((one) => one.measure === name).map((one) => make("div", null,
     `${in_words(one.quantity)} in [${one.interval.map((end) => general(end)).join(", ")}]: `, one.met ? "met" : !one.judged ? "not judged" : make("strong", null,
       one.undecided ? "undecided" : "missed"), !one.met && one.reason ? ` (${one.reason})` : ""));
@@ -60,16 +61,19 @@ function measures() {
   const heads = ["finite elements", "their limit", "springs", "error, %", "error of finite elements, %"].map((text) => head(text));
   const line = (m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]), cell(missing(m.fem) ? "–" : general(m.fem)),
     cell(with_bar(m.fem_limit, m.fem_limit_uncertainty)), cell(missing(m.msm) ? "–" : general(m.msm)),
-    cell(with_bar(m.error_percent, m.error_uncertainty_percent, 2)),
-    cell(missing(m.fem_error_percent) ? "–" : signed(m.fem_error_percent)),
+    cell(with_bar(m.error_percent, m.error_uncertainty_percent, error(m))),
+    cell(missing(m.fem_error_percent) ? "–" : error(m)(m.fem_error_percent)),
     expects ? cell(expectation(m.name), "long") : []].flat());
+  const reasons = new Set(one_case.measures.map((m) => m.fem_limit_note)), [reason] = reasons;
   const note = one_case.measures.some((m) => m.reference === "limit")
     ? "Errors are against the limit of the finite elements under refinement where it is known; ± is what its uncertainty leaves."
+    : reasons.size === 1 && reason !== "no limit was asked for" ? `Errors are against the finite elements on the same mesh: ${reason}.`
     : "Errors are against the finite elements on the same mesh, whose own error is not known here: accuracy = \"auto\" in [fem] of " +
       "the case, or the option --converge, finds it.";
   return [found.length > 0 && measure_chart(found), table("measures", "Measures of both models", row([text_head("measure"), heads,
     expects ? text_head("expected") : []].flat()), body(one_case.measures.map(line))),
-  found.length > 0 && make("p", { class: "quiet" }, note)];
+  found.length > 0 && make("p", { class: "quiet" }, note, one_case.measures.some((m) => m.error_is_norm)
+    ? " A norm is that of the difference, over the body or over time, and has no sign." : "")];
 }
 
 function ranked() {

@@ -2,9 +2,12 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/ranking/verdict.hpp"
+#include "compare/ranking/write_ranking.hpp"
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/skin.hpp"
+#include "compare/report/springs_of_case.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
@@ -43,8 +46,10 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
   Json document{{"heading", definition.name},
                 {"subheading", definition.description},
                 {"verdict", verdict_of(comparison)},
+                {"time", time_of(comparison)},
                 {"is_sound", comparison.is_sound()},
                 {"case", case_to_json(comparison)},
+                {"springs", springs_of_case(comparison)},
                 {"times", Json::array()},
                 {"commands", commands}};
   document["case"]["formulation"] =

@@ -12,10 +12,10 @@ function about() {
 }
 
 const page_sections = [["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
-  ["measures", "Measures", measures], ["motion", "Motion", motion],
+  ["measures", "Measures", measures], ["motion", "Motion", motion], ["springs", "Springs", case_springs],
   ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
   ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
-  ["thesis", "The thesis, reproduced", thesis], ["repeat", "Make it again", repeat], ["about", "About this page", about]];
+  ["thesis", "The thesis, reproduced", thesis], ["repeat", "Again", repeat], ["about", "About this page", about]];
 
 (function () {
   const main = document.querySelector("main"), nav = document.querySelector("nav"), links = new Map();

@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/write/shell.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -87,15 +88,7 @@ Trace trace_of(const JobPair& jobs) {
 }
 
 std::string shell_command(const std::vector<std::string>& words) {
-  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
-  std::string line = "build/springproof";
-  for (const std::string& word : words) {
-    std::string quoted;
-    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
-    line += is_plain ? " " + word : " '" + quoted + "'";
-  }
-  return line;
+  return "build/springproof " + shell_line(words);
 }
 
 } // namespace springproof::compare

@@ -3,7 +3,10 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/write/json.hpp"
+#include "compare/write/measures_text.hpp"
+#include "compare/write/scene_text.hpp"
 #include "compare/write/springs_text.hpp"
+#include "compare/write/warnings.hpp"
 #include "compare/write/write_gates.hpp"
 #include "compare/write/write_landmarks.hpp"
 #include "compare/write/write_motion.hpp"
@@ -98,6 +101,7 @@ Json case_to_json(const Comparison& comparison) {
                         {"fem_limit_note", limit ? limit->note : reason},
                         {"msm", m.msm},
                         {"error_percent", m.error_percent},
+                        {"error_is_norm", is_norm(m, comparison.scene.definition)},
                         {"error_uncertainty_percent", m.error_uncertainty_percent},
                         {"error_same_mesh_percent", m.error_same_mesh_percent},
                         {"fem_error_percent", m.fem_error_percent},
@@ -111,13 +115,16 @@ Json case_to_json(const Comparison& comparison) {
   }
   Json document{{"name", comparison.scene.definition.name},
                 {"description", comparison.scene.definition.description},
+                {"body", body_to_json(comparison.scene)},
+                {"loads", loads_to_json(comparison.scene)},
                 {"fem", fem_to_json(comparison)},
                 {"msm", msm_to_json(comparison.answers)},
                 {"measures", measures},
                 {"expectations", expectations_to_json(comparison.gates)},
                 {"status", comparison.answers.failed() ? "failed" : "converged"},
                 {"doubts", comparison.doubts()},
-                {"remarks", comparison.scene.remarks}};
+                {"remarks", comparison.scene.remarks},
+                {"warnings", warnings_of(comparison)}};
   if (!comparison.landmarks.empty()) document["landmarks"] = landmarks_to_json(comparison);
   if (comparison.scene.definition.dynamics) document["motion"] = motion_to_json(comparison);
   if (comparison.answers.peer) document["peer"] = peer_to_json(*comparison.answers.peer);
@@ -132,6 +139,12 @@ Json side_to_json(const Answer& side) {
                         {"largest_mm", from->largest},
                         {"root_mean_square_mm", from->root_mean_square},
                         {"reason", from->reason}};
+  Json steps;
+  if (const auto& motion = s.trajectory)
+    steps = {{"taken", motion->time.size() - 1},
+             {"halved", motion->halved_steps},
+             {"unfinished", motion->unfinished_steps},
+             {"largest_residual", motion->largest_residual}};
   return {{"status", status_of(s)},
           {"message", s.message},
           {"unknowns", s.unknowns},
@@ -146,6 +159,7 @@ Json side_to_json(const Answer& side) {
           {"negative_eigenvalues", s.negative_eigenvalues},
           {"inverted_cells", s.inverted_cells},
           {"from_equilibrium", from_equilibrium},
+          {"steps", steps},
           {"seconds", {{"setup", side.setup_seconds}, {"solve", side.solve_seconds}}}};
 }
 

@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/print.hpp"
+#include "compare/write/columns.hpp"
 #include "compare/write/escape.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
@@ -163,11 +164,15 @@ std::string describe(const Gate& gate) {
 }
 
 void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates) {
+  const auto n_met = std::count_if(gates.begin(), gates.end(), [](const Gate& gate) { return gate.met(); });
+  if (n_met > 0) print(out, "  met    {} of {} expectations\n", n_met, gates.size());
   for (const Gate& gate : gates) {
-    const char* verdict = gate.met() ? "met   " : gate.is_left_out ? "not judged" : "MISSED";
-    print(out, "  {} {} {} ({}): {}\n", verdict, gate.expectation.measure,
-          cases::name_of(gate.expectation.quantity), cases::name_of(gate.expectation.reference),
-          gate.met() ? fmt::format("{:.6g}", *gate.value) : reason_of(gate));
+    if (gate.met()) continue;
+    write_wrapped(out,
+                  fmt::format("  {} {} {} ({}): {}", gate.is_left_out ? "not judged" : "MISSED",
+                              gate.expectation.measure, cases::name_of(gate.expectation.quantity),
+                              cases::name_of(gate.expectation.reference), reason_of(gate)),
+                  4);
   }
 }
 

@@ -14,8 +14,8 @@ std::string reason_of(const Gate& gate);
 /// A gate in words: "alpha_1 error_percent = -4.98 % in [-6.44, -3.38]", or with the reason why not.
 std::string describe(const Gate& gate);
 
-/// What `run` tells of a case's expectations: a line each, "met", "MISSED" or "not judged", which is of those
-/// that need a side that was not asked for.
+/// What `run` tells of a case's expectations: how many are met, and of the others a line each, "MISSED", or
+/// "not judged" of those that need a side that was not asked for.
 void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates);
 
 /// The same: [{"measure", "quantity", "interval", "reference", "value", "met", "judged", "undecided",

@@ -1,7 +1,7 @@
 #include "compare/write/write_landmarks.hpp"
 
-#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/write/columns.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 
@@ -28,21 +28,25 @@ bool has_equilibrium(const Comparison& comparison) {
 void write_landmarks_text(std::ostream& out, const Comparison& comparison) {
   if (comparison.landmarks.empty()) return;
   const bool both = has_equilibrium(comparison);
-  print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}", "landmark, mm", "springs to fem", "deviation", "rays",
-        "fem moved");
-  if (both) print(out, " {:>20} {:>14}", "to their equilibrium", "deviation");
-  print(out, "\n");
+  std::vector<TextTable::Column> columns{{"landmark, mm", TextTable::Side::left}};
+  columns.insert(columns.end(), {{"springs to fem"}, {"deviation"}, {"rays"}, {"fem moved"}});
+  if (both) columns.insert(columns.end(), {{"to their equilibrium"}, {"deviation"}});
+  TextTable table(std::move(columns));
   for (const LandmarkDistance& landmark : comparison.landmarks) {
-    if (!landmark.missing.empty() && !landmark.to_equilibrium) {
-      print(out, "  {:<24} {}\n", landmark.name, landmark.missing);
-      continue;
+    if (!landmark.missing.empty() && !landmark.to_equilibrium) continue;
+    std::vector<std::string> row{landmark.name, millimetres(landmark.to_fem.mean),
+                                 millimetres(landmark.to_fem.deviation),
+                                 fmt::format("{}", landmark.to_fem.n_rays), millimetres(landmark.moved)};
+    if (both) {
+      const RayLengths own = landmark.to_equilibrium.value_or(RayLengths{});
+      row.insert(row.end(), {millimetres(own.mean), millimetres(own.deviation)});
     }
-    print(out, "  {:<24} {:>14} {:>14} {:>6} {:>14}", landmark.name, millimetres(landmark.to_fem.mean),
-          millimetres(landmark.to_fem.deviation), landmark.to_fem.n_rays, millimetres(landmark.moved));
-    if (const auto& own = landmark.to_equilibrium)
-      print(out, " {:>20} {:>14}", millimetres(own->mean), millimetres(own->deviation));
-    print(out, "\n");
+    table.add(std::move(row));
   }
+  table.write(out);
+  for (const LandmarkDistance& landmark : comparison.landmarks)
+    if (!landmark.missing.empty() && !landmark.to_equilibrium)
+      write_wrapped(out, "  " + landmark.name + ": " + landmark.missing, 4);
 }
 
 nlohmann::ordered_json landmarks_to_json(const Comparison& comparison) {

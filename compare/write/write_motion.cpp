@@ -96,9 +96,9 @@ std::optional<std::string> note_on_slowest(const char* side, const cases::Scene&
   if (!slowest) return std::nullopt;
   const cases::Scheme scheme = scene.definition.dynamics->scheme.scheme;
   const char* warning = slowest->outlasts_period()
-                            ? "; WARNING: a step outlasts its period: swings and peaks are lost"
-                        : slowest->exceeds_body() ? "; WARNING: they damp it more than the body does"
-                        : slowest->is_late()      ? "; WARNING: its swings come too late"
+                            ? "; Warning: a step outlasts its period: swings and peaks are lost"
+                        : slowest->exceeds_body() ? "; Warning: they damp it more than the body does"
+                        : slowest->is_late()      ? "; Warning: its swings come too late"
                                                   : "";
   if (scheme != cases::Scheme::implicit_euler && *warning == '\0') return std::nullopt;
   return fmt::format(
@@ -150,7 +150,7 @@ std::vector<std::string> notes_on_motion(const Comparison& comparison) {
     const std::string note = fmt::format(" of {}: implicit Euler's steps damp its swings of {:.4g} Hz by a "
                                          "ratio of {:.3g}, of {:.3g} in all{}",
                                          side, damping->frequency, damping->ratio, damping->measured,
-                                         damping->exceeds_body() ? "; WARNING: more than the body does" : "");
+                                         damping->exceeds_body() ? "; Warning: more than the body does" : "");
     const auto same =
         std::find_if(found.begin(), found.end(), [&](const auto& other) { return other.first == note; });
     if (same == found.end())

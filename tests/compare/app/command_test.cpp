@@ -1,6 +1,7 @@
 // The program as its users run it: exit status, standard output, standard error, files.
 
 #include "tests/support/run_program.hpp"
+#include "tests/support/unwrapped.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -81,16 +82,10 @@ TEST_CASE("a region that selects nothing is refused before any solve, with its p
   CHECK(outcome.error.find("no node within") != std::string::npos);
 }
 
-TEST_CASE("run --report needs a folder, and a folder with --designs needs --report") {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path / "out").string();
+TEST_CASE("run --report needs a folder") {
   const ProgramRun without_folder = run_program("run " + shear + " --report");
   CHECK(without_folder.status == 2);
   CHECK(without_folder.error.find("--out") != std::string::npos);
-  const ProgramRun without_report = run_program("run " + shear + " --designs hybrid --out " + out);
-  CHECK(without_report.status == 2);
-  CHECK(without_report.error.find("--report") != std::string::npos);
-  CHECK_FALSE(fs::exists(out));
 }
 
 TEST_CASE(
@@ -158,7 +153,7 @@ TEST_CASE("errors are against the limit where there is one, and against the same
   CHECK(on_mesh["fem_limit"].is_null());
   const ProgramRun points = run_program("run " + shear);
   REQUIRE(points.status == 0);
-  CHECK_THAT(points.out,
+  CHECK_THAT(unwrapped(points.out),
              Catch::Contains("errors are against the finite elements on the same mesh: load[0] is a "
                              "concentrated force"));
 }

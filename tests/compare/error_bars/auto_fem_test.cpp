@@ -111,7 +111,7 @@ TEST_CASE(
   definition.expectations[0].interval = {0, 1e-9};
   const FemAnswer never = solve_fem(cases::make_scene(definition), 0);
   CHECK_THAT(never.choices.back(),
-             Catch::Contains("NOT REACHED") && Catch::Contains("the next mesh would have"));
+             Catch::Contains("not reached") && Catch::Contains("the next mesh would have"));
 }
 
 TEST_CASE("concentrated forces, hard cases and accuracy = none are not refined") {

@@ -54,7 +54,7 @@ TEST_CASE("gates as text: a line each with its kind, warnings beneath, and count
   CHECK_THAT(text, Catch::EndsWith("GATES FAILED: exact 0 of 1, published 1 of 1, regression 0 of 1\n"));
 }
 
-TEST_CASE("run tells of each expectation whether it is met, missed or not judged, and why") {
+TEST_CASE("run tells how many expectations are met, and of each other one why it is missed or not judged") {
   auto explored = judged::comparison({expectation(Quantity::msm, {8, 10}), expectation(Quantity::msm, {1, 2}),
                                       expectation(Quantity::error_percent, {-11, -9})});
   explored.answers.fem.solution.status = cases::Status::skipped;
@@ -62,7 +62,7 @@ TEST_CASE("run tells of each expectation whether it is met, missed or not judged
   const auto gates = judged::judge(explored).gates;
   std::ostringstream text;
   compare::write_expectations_text(text, gates);
-  CHECK(text.str() == "  met    L msm (published): 9\n"
+  CHECK(text.str() == "  met    1 of 3 expectations\n"
                       "  MISSED L msm (published): 9 is outside [1, 2]\n"
                       "  not judged L error_percent (published): fem was not asked for\n");
   const auto document = nlohmann::json::parse(compare::expectations_to_json(gates).dump());

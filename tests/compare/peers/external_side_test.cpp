@@ -5,6 +5,7 @@
 #include "compare/gates/comparison.hpp"
 #include "compare/write/write.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/unwrapped.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -89,9 +90,9 @@ TEST_CASE("the report of another program's springs says where they come from, wi
   CHECK(side["inverted_cells"] == 0);
   std::ostringstream text;
   compare::write_text(text, comparison);
-  CHECK_THAT(text.str(),
-             Catch::Contains("msm  displacements of " + external_cases + "pulled_bar.csv at 45 nodes\n"));
-  CHECK(text.str().find("given k_e") == std::string::npos);
+  CHECK_THAT(unwrapped(text.str()),
+             Catch::Contains(" springs  displacements of " + external_cases + "pulled_bar.csv at 45 nodes "));
+  CHECK(text.str().find("given with") == std::string::npos);
 }
 
 TEST_CASE("one file of displacements belongs to one case") {

@@ -31,3 +31,31 @@ TEST_CASE(
   CHECK(of_fem.status == 1);
   CHECK(verdict(of_fem)["judged"] == true);
 }
+
+TEST_CASE("run --designs --out leaves its ranking as text, CSV and JSON, and prints the same text") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  const ProgramRun run = run_program(
+      "run " SPRINGPROOF_SOURCE_DIR "/examples/library/block.toml --designs moduli,hybrid,transverse --out " +
+      out);
+  CHECK(run.status == 0); // transverse is refused: the material is isotropic
+  CHECK_THAT(run.out, Catch::Contains("transverse refused: "));
+  CHECK_THAT(run.out, Catch::StartsWith(content(folder.path / "out/ranking.txt")));
+  CHECK_THAT(content(folder.path / "out/ranking.csv"), Catch::Contains("block,hybrid,"));
+  const auto document = nlohmann::json::parse(content(folder.path / "out/ranking.json"));
+  CHECK(document["cases"][0]["designs"].size() == 3);
+}
+
+// The status was that of the recommendation: 0 where the case's own springs had failed, and another design
+// had not.
+TEST_CASE("run --designs ends with status 1 where the case's own springs fail, and tells the others") {
+  const std::string words = "run " SPRINGPROOF_SOURCE_DIR "/examples/library/block.toml --json"
+                            " --set msm.design=given --set msm.stiffness=[0,0,10]";
+  const ProgramRun own = run_program(words + " --designs given,hybrid");
+  CHECK(own.status == 1);
+  const auto designs = nlohmann::json::parse(own.out)["cases"][0]["designs"];
+  CHECK(designs[0]["design"] == "hybrid");
+  CHECK(designs[0]["worst_error_percent"].is_number());
+  CHECK(designs[1]["design"] == "given");
+  CHECK(run_program(words + " --designs hybrid").status == 0);
+}

@@ -1,13 +1,18 @@
-#include "compare/ranking/ranking.hpp"
+#include "compare/ranking/advice.hpp"
+#include "compare/ranking/write_ranking.hpp"
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/write/columns.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/unwrapped.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 #include <set>
@@ -50,8 +55,74 @@ TEST_CASE("designs come by their worst error, then those that failed, then those
   CHECK_THAT(compare::advice_of(ranking), Catch::Contains("Use best here: errors up to 3.00 %"));
   std::ostringstream text;
   compare::write_ranking_text(text, ranking);
-  CHECK_THAT(text.str(), Catch::Contains("> best") && Catch::Contains("failed: no equilibrium") &&
-                             Catch::Contains("refused: not for this material"));
+  CHECK_THAT(text.str(), Catch::Contains("> best") && Catch::Contains("failed failed: no equilibrium") &&
+                             Catch::Contains("refused refused: not for this material"));
+}
+
+TEST_CASE("a ranking's text ends with its advice, in lines of 100 columns, whatever the reasons say") {
+  RankedDesign refused{"refused"};
+  for (int n = 0; n < 40; ++n) refused.refusal += "reason " + std::to_string(n) + " ";
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("best", 3, true), with_error("worse", 7, false), refused};
+  ranking.designs[0].springs = std::string(150, 'k');
+  std::ostringstream out;
+  compare::write_ranking_text(out, ranking);
+  std::istringstream in(out.str());
+  for (std::string line; std::getline(in, line);) CHECK(compare::printed_width(line) <= compare::text_width);
+  CHECK_THAT(unwrapped(out.str()), Catch::EndsWith(" " + compare::advice_of(ranking) + " "));
+}
+
+TEST_CASE("a ranking's files have every design: its springs, or why it has none") {
+  RankedDesign failed{"failed"};
+  failed.failure = "no equilibrium, it says";
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("best", 3, true), failed};
+  ranking.designs[0].worst_at = "top";
+  ranking.designs[0].milliseconds = 1.5;
+  ranking.designs[0].springs = "k_e = 3 N/m";
+  const TemporaryFolder folder;
+  const std::string path = folder.path.string();
+  compare::write_rankings(path, {ranking});
+  CHECK(
+      content(folder.path / "ranking.csv") ==
+      "case,design,recommended,worst_error_percent,worst_error_uncertainty_percent,worst_at,"
+      "worst_volume_error_percent,stable,has_moduli,milliseconds,milliseconds_a_step,springs,refused,failed\n"
+      "case,best,1,3,,top,,1,,1.5,,k_e = 3 N/m,,\n"
+      "case,failed,0,,,,,0,,0,,,,\"no equilibrium, it says\"\n");
+  CHECK_THAT(content(folder.path / "ranking.txt"), Catch::Contains("> best") && Catch::Contains("Use best"));
+  const auto document = nlohmann::json::parse(content(folder.path / "ranking.json"));
+  CHECK(document["cases"][0]["designs"][0]["springs"] == "k_e = 3 N/m");
+  CHECK(document["cases"][0]["designs"][1]["failed"] == "no equilibrium, it says");
+}
+
+TEST_CASE("a ranking fails with its case, and not with a design that is refused or fails") {
+  RankedDesign failed{"failed"}, refused{"refused"};
+  failed.failure = "no equilibrium";
+  refused.refusal = "not for this material";
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("own", 3, true), failed, refused};
+  CHECK(ranking.is_sound());
+  ranking.is_case_sound = false;
+  CHECK_FALSE(ranking.is_sound());
+  ranking.is_case_sound = true;
+  ranking.designs = {failed, refused}; // nothing was answered
+  CHECK_FALSE(ranking.is_sound());
+  ranking.designs = {with_error("own", 3, true)};
+  ranking.fem.solution.status = cases::Status::failed;
+  CHECK_FALSE(ranking.is_sound());
+}
+
+TEST_CASE("of a motion the advice says whether a step keeps up with a screen") {
+  compare::Ranking ranking{"case", {}, {}};
+  ranking.fem.solution.status = cases::Status::converged;
+  ranking.designs = {with_error("best", 3, true)};
+  ranking.designs[0].milliseconds_a_step = 8.1;
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("8.1 ms a step: keeps 60 Hz"));
+  ranking.designs[0].milliseconds_a_step = 17;
+  CHECK_THAT(compare::advice_of(ranking), Catch::Contains("17 ms a step: does not keep 60 Hz"));
 }
 
 TEST_CASE("the sentence names the designs that the reference's uncertainty does not tell from the best") {

@@ -2,6 +2,8 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/ranking/verdict.hpp"
+#include "compare/solve/springs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -43,6 +45,47 @@ TEST_CASE("a case's page has its verdict, its measures, both bodies and the desi
   CHECK(page["views"]["views"][0].contains("springs"));
   CHECK(page["ranking"]["designs"].size() == 2);
   CHECK(page["commands"][0] == "build/springproof run x.toml --report");
+}
+
+TEST_CASE("a case's page says what its springs are, how far they are stable, and all that is warned of") {
+  cases::Case definition = small_cube();
+  definition.measures.clear();
+  cases::Scene scene = cases::make_scene(definition);
+  scene.remarks = {"a piece was left out"};
+  compare::Answers answers;
+  answers.design = compare::design_for(scene);
+  answers.design->warnings = {"the lattice has other moduli"};
+  const compare::Comparison comparison = compare::comparison_of(scene, answers);
+  const auto page = compare::case_page_to_json(comparison, nullptr, {});
+  const auto& springs = page["springs"];
+  CHECK(springs["design"] == "hybrid");
+  const msm::CellStiffness& k = answers.design->stiffness;
+  REQUIRE(springs["stiffness_N_per_m"].size() == 3);
+  CHECK(springs["stiffness_N_per_m"][0] == 1e3 * k.edge);
+  CHECK(springs["stiffness_N_per_m"][1] == 1e3 * k.face_diagonal);
+  CHECK(springs["stiffness_N_per_m"][2] == 1e3 * k.internal_diagonal);
+  CHECK(springs["volume_stiffness_MPa"] == k.volume);
+  CHECK(springs["moduli"]["youngs_modulus"].get<double>() == Approx(0.3).epsilon(1e-10)); // the material's
+  CHECK(springs["moduli"]["poissons_ratio"].get<double>() == Approx(0.49).epsilon(1e-10));
+  CHECK(springs["stability"]["compression"].get<double>() < 1);
+  CHECK(page["case"]["warnings"] ==
+        nlohmann::ordered_json{"a piece was left out", "the lattice has other moduli"});
+  compare::Comparison theirs = comparison;
+  theirs.answers.msm_source = "another.vtu";
+  CHECK(compare::case_page_to_json(theirs, nullptr, {})["springs"].is_null());
+}
+
+TEST_CASE("springs that differ from cell to cell or from axis to axis are on the page one by one") {
+  cases::Case definition = small_cube();
+  std::get<cases::Box>(definition.body).cells = {2, 2, 4}; // cells that are no cubes
+  const cases::Scene scene = cases::make_scene(definition);
+  compare::Answers answers;
+  answers.design = compare::design_for(scene);
+  const auto springs =
+      compare::case_page_to_json(compare::comparison_of(scene, answers), nullptr, {})["springs"];
+  CHECK(springs["stiffness_N_per_m"].is_null());
+  CHECK(springs["cell"]["springs"].size() > 12);
+  CHECK(springs["stability"].is_null());
 }
 
 TEST_CASE("a page draws some two thousand times of a motion at most, and says so") {

@@ -7,6 +7,7 @@ FOLDER/page.html is the page, for accessibility_test.py too.
 
 import json
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -142,8 +143,9 @@ def main():
     folder = folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     case, out = hostile_case(source, folder), folder / "out"
-    done = subprocess.run([springproof, "run", case, "--converge=3", "--out", out, "--report", "--designs", "moduli,hybrid,linear_method", "--json"],
-                          capture_output=True, text=True)
+    typed = [springproof, "run", case, "--converge=3", "--out", out, "--report", "--designs", "moduli,hybrid,linear_method", "--json",
+             "--set", "msm.accept=['inverted']"]
+    done = subprocess.run(typed, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     results = json.loads(done.stdout)["cases"][0]
     page = folder / "page.html"
@@ -156,7 +158,12 @@ def main():
     assert HOSTILE.replace("\\", "") in found["subheading"], found["subheading"]
     assert found["commands_in_cells"] == 0 and found["images"] == 0, found
     rows = {table["name"]: table["rows"] for table in found["tables"]}
-    assert rows == {"measures": 3, "ranking": 4}, rows
+    assert rows == {"measures": 3, "ranking": 4, "springs": 5, "moduli": 7, "stability": 3}, rows
+    data = json.loads(re.search(r'id="report-data">(.*?)</script>', page.read_text(), re.S)[1])
+    command, = data["commands"]
+    assert shlex.split(command) == [str(word) for word in typed], command
+    assert results["ranking"] == data["ranking"], results["ranking"]
+    assert (out / "ranking.csv").read_text().count("\n") == 4
     view, = found["views"]
     assert view["has_errors"] and view["coloured"]["lowest"] > 0 and view["painted"]["orange"] > 0, view
     for deed in ("slider_moves", "slider_returns", "mouse_turns_all", "keys_turn_all", "reset_returns"):

@@ -2,6 +2,7 @@
 #include "compare/write/write_springs.hpp"
 
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/unwrapped.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -116,10 +117,55 @@ TEST_CASE("the text says what force is applied and on what area") {
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   std::ostringstream out;
   compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains("  body 1 x 1 x 1 mm, 1 mm3, 1 cells, 8 nodes\n"));
-  CHECK_THAT(out.str(),
-             Catch::Contains("  applied force (0, 0.25, -4) N; moment about (0.5, 0.5, 0.5) (-0.125, 0, 0) "
-                             "N mm; load[0] on 1 mm2\n"));
+  CHECK_THAT(out.str(), Catch::Contains("  body     1 x 1 x 1 mm, 1 mm3, 1 cells, 8 nodes\n"));
+  CHECK_THAT(unwrapped(out.str()),
+             Catch::Contains(" loads    applied force (0, 0.25, -4) N; moment about (0.5, 0.5, 0.5) "
+                             "(-0.125, 0, 0) N mm; load[0] on 1 mm2 "));
+  const auto loads = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["loads"];
+  CHECK(loads["force_N"][2] == -4.0);
+  CHECK(loads["moment_N_mm"][0] == Approx(-0.125).epsilon(1e-14)); // rounding
+  CHECK(loads["areas_mm2"]["load[0]"] == Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("the place that a moment is about is printed to six digits, as the moment is") {
+  compare::Comparison comparison;
+  cases::Case definition;
+  definition.body = cases::Box{{1.0 / 3, 20.0 / 7, 1}, {1, 1, 1}};
+  comparison.scene = cases::make_scene(definition);
+  cases::Load load;
+  load.region.name = "z+";
+  load.kind = cases::LoadKind::traction;
+  load.value = {0, 0, -4};
+  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
+  std::ostringstream out;
+  compare::write_text(out, comparison);
+  CHECK_THAT(out.str(), Catch::Contains("moment about (0.166667, 1.42857, 0.5) (0, 0, 0) N mm"));
+}
+
+TEST_CASE("the error of a field is marked as a norm, which has no sign") {
+  compare::Comparison comparison = one_cell_comparison();
+  cases::Measure field;
+  field.name = "everywhere";
+  field.kind = cases::MeasureKind::displacement_field_l2;
+  comparison.scene.definition.measures = {field};
+  comparison.measures = {{"everywhere", "mm", 2.0, 2.0, 12.5}};
+  std::ostringstream out;
+  compare::write_text(out, comparison);
+  CHECK_THAT(out.str(), Catch::Contains(" 12.50*\n") && !Catch::Contains("+12.50") &&
+                            Catch::Contains("  * of a field over the body"));
+}
+
+TEST_CASE("what a program warns of is in its text and in its JSON, a sentence each and not in capitals") {
+  compare::Comparison comparison = one_cell_comparison();
+  comparison.scene.remarks = {"two pieces were left out"};
+  comparison.answers.msm_warnings = {"held nodes have moved"};
+  comparison.answers.design.emplace();
+  comparison.answers.design->warnings = {"the lattice is too soft"};
+  std::ostringstream out;
+  compare::write_text(out, comparison);
+  const auto warnings = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["warnings"];
+  REQUIRE(warnings.size() == 3);
+  for (const std::string warning : warnings) CHECK_THAT(out.str(), Catch::Contains("  Warning: " + warning));
 }
 
 TEST_CASE("forces that follow a history are not added up as if their factors were 1") {
@@ -134,7 +180,7 @@ TEST_CASE("forces that follow a history are not added up as if their factors wer
   std::ostringstream out, vtu;
   compare::write_text(out, comparison);
   CHECK_THAT(out.str(), !Catch::Contains("applied force"));
-  CHECK_THAT(out.str(), Catch::Contains("  load[0] on 1 mm2; load[1] on 1 mm2\n"));
+  CHECK_THAT(out.str(), Catch::Contains("  loads    load[0] on 1 mm2; load[1] on 1 mm2\n"));
   compare::write_vtu(vtu, comparison);
   CHECK(vtu.str().find("applied_force") == std::string::npos);
 }
