@@ -12,14 +12,15 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr std::array<double, 3> told_errors{10, 5, 1};   ///< percent
-constexpr std::array<double, 3> told_rates{500, 60, 30}; ///< Hz: touch, a screen, a film
+constexpr std::array<double, 3> told_errors{10, 5, 1}; ///< percent
+constexpr std::array<double, 2> told_rates{500, 60};   ///< Hz: touch, a screen
 constexpr std::size_t label_columns = 8;
 constexpr std::array<std::size_t, 2> side_columns{43, screen_width - label_columns - 43};
 constexpr std::size_t front_columns = screen_width / 2 - 2;
-constexpr std::size_t n_told_points = 6;   ///< of a front
-constexpr std::size_t n_told_failures = 2; ///< of models; the files have all
-constexpr std::size_t reason_characters = 180;
+constexpr std::size_t n_told_points = 6;       ///< of a front
+constexpr std::size_t n_told_failures = 2;     ///< of models; the files have all
+constexpr std::size_t reason_characters = 180; ///< which two lines hold
+constexpr std::size_t characters_of_title = 180;
 
 /// Two digits, or the whole number.
 std::string short_number(double value) {
@@ -192,7 +193,8 @@ void write_not_followed(std::ostream& out, const MotionSweep& sweep) {
 }
 
 void write_title(std::ostream& out, const cases::Case& definition) {
-  print(out, "{}\n", in_short(one_line(definition.name + ": " + definition.description), screen_width));
+  const std::string text = one_line(definition.name + ": " + definition.description);
+  write_paragraph(out, in_short(text, characters_of_title), "", "  ");
 }
 
 void write_settings(std::ostream& out, const std::vector<std::string>& settings) {
@@ -239,10 +241,11 @@ void write_motion_sweep_screen(std::ostream& out, const MotionSweep& sweep, cons
   out << "\nIn real time, on one thread:\n";
   for (const std::string& sentence : conclusions(sweep)) write_paragraph(out, sentence, "  ", "    ");
   out << "\nSpeed against error: no motion is both faster and more accurate than\n";
-  print(out, "  {:>26} {:>9}\n", "s of computing a second", "error, %");
+  print(out, "  {:>26} {:>9}\n", "s of computing a second", "error");
   for (const Point& point : thinned_front(points_of(sweep), 2 * n_told_points))
-    print(out, "  {:>26} {:>9}  {}{}\n", short_number(point.seconds), short_number(point.error_percent),
-          in_short(point.name, screen_width - 42), point.more_cells_percent ? " ~" : "");
+    print(out, "  {:>26} {:>9}  {}{}\n", short_number(point.seconds),
+          error_text(point, sweep.uncertainty_percent), in_short(point.name, screen_width - 42),
+          point.more_cells_percent ? " ~" : "");
   out << "  ~ by accident: more cells and shorter steps lead to a larger error\n\n";
   write_not_followed(out, sweep);
   write_left_out(out, sweep.left_out);

@@ -147,7 +147,17 @@ TEST_CASE("designs that are refused among others leave the status of what was an
   CHECK(run_program("design --young 0.3 --poisson -0.2 --method hybrid").status == 2);
 }
 
-TEST_CASE("what eigen prints stands in 100 characters") {
-  CHECK(width_of_text(printed_by("eigen --poisson 0.3 --body 2")) <= screen);
-  CHECK(width_of_text(printed_by("eigen --young 1 --poisson 0 --method moduli")) <= screen);
+TEST_CASE("what eigen, export and stress print stands in 100 characters") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  for (const std::string& words :
+       {std::string("eigen --poisson 0.3 --body 2"),
+        std::string("eigen --young 1 --poisson 0 --method moduli"),
+        std::string("stress mechanism disconnected_piece"),
+        "export cases/gates/sheared_cube.toml --to sofa --set msm.design=moduli --out " + out}) {
+    const std::string text = printed_by(words);
+    INFO(text);
+    CHECK(width_of_text(text) <= screen);
+    CHECK_FALSE(has_shouting(text, {"SOFA"}));
+  }
 }
