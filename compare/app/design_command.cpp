@@ -2,12 +2,15 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/cube/plot_design.hpp"
+#include "compare/cube/recommendation.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/json.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -24,12 +27,19 @@ struct CommandOptions {
   bool has_many() const { return compare || pareto; }
 };
 
-Json to_json(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+Json to_json(const CommandOptions& options, const msm::DesignRequest& request,
+             const std::vector<DesignAttempt>& attempts) {
   Json document{{"schema", 1}};
+  if (!options.design.settings.empty()) document["settings"] = options.design.settings;
   if (!options.has_many())
     document.update(attempt_to_json(attempts.front()));
   else
     for (const DesignAttempt& a : attempts) document["methods"].push_back(attempt_to_json(a));
+  if (options.compare && options.measure) {
+    const DesignAttempt* best = recommended(attempts);
+    document["recommended"] = best ? Json(best->name) : Json(nullptr);
+    document["advice"] = recommendation_text(attempts, request);
+  }
   return document;
 }
 
@@ -60,7 +70,7 @@ void write_stress_strain(const std::string& folder, const msm::DesignRequest& re
 void write_files(const CommandOptions& options, const msm::DesignRequest& request,
                  const std::vector<DesignAttempt>& attempts) {
   write_file(options.out + "/design.json",
-             [&](std::ostream& out) { out << json_text(to_json(options, attempts)); });
+             [&](std::ostream& out) { out << json_text(to_json(options, request, attempts)); });
   if (options.pareto && options.measure) plot_pareto_front(options.out, attempts);
   if (options.compare) write_stress_strain(options.out, request, attempts);
   if (options.has_many()) return;
@@ -68,6 +78,22 @@ void write_files(const CommandOptions& options, const msm::DesignRequest& reques
     plot_linear_method(options.out, *cases::value_of<cases::Element>(options.design.element));
   if (request.options.design == cases::Design::nonlinear_method)
     write_nonlinear_figures(options.out, request, attempts.front().design->stiffness);
+}
+
+/// Which one to use, or how to find out.
+void write_last_words(const CommandOptions& options, const msm::DesignRequest& request,
+                      const std::vector<DesignAttempt>& attempts) {
+  std::cout << '\n';
+  write_paragraph(std::cout, options.measure
+                                 ? recommendation_text(attempts, request)
+                                 : "Which one to use, by its errors on the thesis's cube: --measure.");
+}
+
+/// Whether a design was made, and when measured a load set solved; a refused one is a row with its reason.
+bool has_answer(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
+  return std::any_of(attempts.begin(), attempts.end(), [&](const DesignAttempt& a) {
+    return a.design && (!options.measure || a.cube->small.worst || a.cube->large.worst);
+  });
 }
 
 int run(const CommandOptions& options) {
@@ -79,13 +105,14 @@ int run(const CommandOptions& options) {
   if (options.measure) measure_on_cube(attempts, request);
   if (mpi_rank() != 0) return 0;
   if (options.json)
-    std::cout << json_text(to_json(options, attempts));
+    std::cout << json_text(to_json(options, request, attempts));
   else if (options.has_many())
     write_comparison_text(std::cout, attempts);
   else
     write_design_text(std::cout, attempts.front());
+  if (options.compare && !options.json) write_last_words(options, request, attempts);
   if (!options.out.empty()) write_files(options, request, attempts);
-  return 0;
+  return has_answer(options, attempts) ? 0 : 1;
 }
 
 } // namespace

@@ -140,7 +140,7 @@ msm::DesignRequest from_command_line(const DesignOptions& o, cases::Element elem
 msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   if (n_materials(o) > 0)
     throw cases::InputError("command line: --case brings its own material; leave the others out");
-  const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file));
+  const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file, o.settings));
   return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
                         element);
 }
@@ -149,6 +149,8 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
 
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");
+  command.add_option("--set", o.settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1")
+      ->allow_extra_args(false);
   command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa")->check(number_between(1e-12, 1e12));
   command
       .add_option("--poisson", o.poissons_ratio,
@@ -221,6 +223,8 @@ std::vector<cases::Design> designs_of(const std::vector<std::string>& names, con
 }
 
 msm::DesignRequest request_from(const DesignOptions& o) {
+  if (!o.settings.empty() && o.case_file.empty())
+    throw cases::InputError("command line: --set: overrides keys of a case, which --case must name");
   check_largest_strain(o);
   const cases::Element element = *cases::value_of<cases::Element>(o.element);
   msm::DesignRequest request = o.case_file.empty() ? from_command_line(o, element) : from_case(o, element);

@@ -21,9 +21,8 @@ namespace {
 
 struct EigenOptions {
   DesignOptions design;
-  std::string vibrating;             ///< a case file; empty: eigenspaces of a cell
-  std::vector<std::string> settings; ///< of its keys
-  std::vector<std::string> designs;  ///< of its springs; empty: its own
+  std::string vibrating;            ///< a case file; empty: eigenspaces of a cell
+  std::vector<std::string> designs; ///< of its springs; empty: its own
   int n_modes = 20;
   int body_cells = 0;
   std::string out;
@@ -34,7 +33,7 @@ struct EigenOptions {
 std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::CellVertices& cell) {
   const std::string& file = options.design.case_file;
   if (!file.empty()) {
-    cases::HexMesh mesh = make_scene_within_memory(cases::read_case(file)).mesh;
+    cases::HexMesh mesh = make_scene_within_memory(cases::read_case(file, options.design.settings)).mesh;
     if (!mesh.grid) throw cases::InputError(file + ": free modes are for bodies of equal cells");
     return mesh;
   }
@@ -43,10 +42,17 @@ std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::Ce
   return cases::make_box_mesh(Eigen::Vector3d::Constant(n * msm::cube_edge(cell)), {{n, n, n}});
 }
 
+/// A document's start, with what overrides the case.
+nlohmann::ordered_json document_of(const EigenOptions& options) {
+  nlohmann::ordered_json document{{"schema", 1}};
+  if (!options.design.settings.empty()) document["settings"] = options.design.settings;
+  return document;
+}
+
 /// The lowest vibrations of a case's body.
 int run_vibrations(const EigenOptions& options) {
   const cases::Scene scene = make_scene_within_memory(
-      cases::read_case(options.vibrating, options.settings, cases::Purpose::vibrations));
+      cases::read_case(options.vibrating, options.design.settings, cases::Purpose::vibrations));
   const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
   check_memory(options.vibrating, estimate_vibrations(size_of(scene)), memory_limit());
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
@@ -54,16 +60,17 @@ int run_vibrations(const EigenOptions& options) {
   if (mpi_rank() != 0) return 0;
   const VibrationStudy study = study_vibrations(scene, designs, options.n_modes);
   if (options.json) {
-    nlohmann::ordered_json document{{"schema", 1}};
+    nlohmann::ordered_json document = document_of(options);
     document.update(vibrations_to_json(study));
     std::cout << json_text(document);
   } else {
     write_vibrations_text(std::cout, study);
   }
   if (!options.out.empty()) write_vibrations_files(options.out, study, scene.mesh);
-  const bool is_refused = std::any_of(study.designs.begin(), study.designs.end(),
-                                      [](const DesignVibrations& design) { return !design.refusal.empty(); });
-  return is_refused ? 1 : 0;
+  // A design that is refused among others is a row with its reason.
+  const bool has_answer = std::any_of(study.designs.begin(), study.designs.end(),
+                                      [](const DesignVibrations& design) { return design.refusal.empty(); });
+  return has_answer ? 0 : 1;
 }
 
 int run(EigenOptions options) {
@@ -93,7 +100,8 @@ int run(EigenOptions options) {
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);
   if (options.json) {
-    nlohmann::ordered_json document{{"schema", 1}, {"poissons_ratio", material.poissons_ratio}};
+    nlohmann::ordered_json document = document_of(options);
+    document["poissons_ratio"] = material.poissons_ratio;
     document.update(eigenspaces_to_json(analysis));
     if (modes) document["free_body"] = free_modes_to_json(*modes);
     std::cout << json_text(document);
@@ -120,10 +128,6 @@ void add_eigen_command(CLI::App& program, Action& chosen) {
   CLI::Option* vibrating =
       command->add_option("case", options->vibrating, "case file (TOML) whose material has a density")
           ->excludes(cell);
-  command
-      ->add_option("--set", options->settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1")
-      ->needs(vibrating)
-      ->allow_extra_args(false);
   add_designs_option(*command, options->designs, "springs of these designs (a,b,c or all)")->needs(vibrating);
   command
       ->add_option("--body", options->body_cells, "also the lowest modes of a free cube of N x N x N cells")

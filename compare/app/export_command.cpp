@@ -3,7 +3,7 @@
 #include "cases/mesh/vtk.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/print.hpp"
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/solve/springs.hpp"
@@ -33,8 +33,9 @@ int export_case(const ExportOptions& options) {
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const std::vector<std::string> said = export_springs(options.out, target, name, problem, motion);
-  for (const std::string& line : said) print(std::cout, "{}\n", line);
-  for (const std::string& warning : design_for(scene).warnings) print(std::cout, "warning: {}\n", warning);
+  for (const std::string& line : said) write_paragraph(std::cout, line, "", "  ");
+  for (const std::string& warning : design_for(scene).warnings)
+    write_paragraph(std::cout, warning, "warning: ", "  ");
   return 0;
 }
 

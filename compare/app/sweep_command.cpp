@@ -11,10 +11,10 @@
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_motion_sweep.hpp"
+#include "compare/sweep/write_screen.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/write/json.hpp"
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -26,7 +26,8 @@ namespace {
 
 struct SweepOptions {
   std::string file, out;
-  std::optional<double> budget; ///< seconds
+  std::vector<std::string> settings; ///< of the case's keys
+  std::optional<double> budget;      ///< seconds
   bool json = false, quick = false, perf = false;
   std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
   Extent extent() const { return quick ? Extent::quick : Extent::full; }
@@ -57,9 +58,11 @@ void write_files(const std::string& folder, const Sweep& sweep) {
 }
 
 Sweep planned(const SweepOptions& options) {
-  const cases::Case definition = cases::read_case(options.file);
+  const cases::Case definition = cases::read_case(options.file, options.settings);
   check_same_on_ranks("cases", n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
-  return make_sweep(definition, options.extent(), options.rules(), options.budget);
+  Sweep sweep = make_sweep(definition, options.extent(), options.rules(), options.budget);
+  sweep.settings = options.settings;
+  return sweep;
 }
 
 int time_part(const SweepOptions& options) {
@@ -103,11 +106,12 @@ int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
     write_file(options.out + "/motion_sweep.csv",
                [&](std::ostream& out) { write_motion_sweep_csv(out, so_far); });
   };
-  const MotionSweep result = sweep_motion(definition, options.extent(), write_csv);
+  MotionSweep result = sweep_motion(definition, options.extent(), write_csv);
+  result.settings = options.settings;
   if (options.json)
     std::cout << json_text(motion_sweep_to_json(result));
   else
-    write_motion_sweep_text(std::cout, result);
+    write_motion_sweep_screen(std::cout, result, options.out);
   if (!options.out.empty()) {
     write_file(options.out + "/motion_sweep.txt",
                [&](std::ostream& out) { write_motion_sweep_text(out, result); });
@@ -115,26 +119,22 @@ int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
                [&](std::ostream& out) { out << json_text(motion_sweep_to_json(result)); });
     plot_motion_sweep(options.out, result);
   }
-  return std::any_of(result.rows.begin(), result.rows.end(),
-                     [](const MotionRow& row) { return row.status == cases::Status::failed; });
+  return has_answer(result) ? 0 : 1;
 }
 
 int sweep(const SweepOptions& options) {
-  if (const cases::Case definition = cases::read_case(options.file); definition.dynamics)
+  if (const cases::Case definition = cases::read_case(options.file, options.settings); definition.dynamics)
     return sweep_in_time(options, definition);
   if (!options.shards->part.empty()) return time_part(options);
   const Sweep result = options.shards->folders.empty() ? time_all(options) : merge_parts(options);
-  const bool failed =
-      !result.reference || std::any_of(result.rows.begin(), result.rows.end(), [](const SweepRow& row) {
-        return row.run.first.status == cases::Status::failed;
-      });
-  if (mpi_rank() != 0) return failed;
+  const int status = has_answer(result) ? 0 : 1; // a model that failed is a row with its reason
+  if (mpi_rank() != 0) return status;
   if (options.json)
     std::cout << json_text(sweep_to_json(result));
   else
-    write_sweep_text(std::cout, result);
+    write_sweep_screen(std::cout, result, options.out);
   if (!options.out.empty()) write_files(options.out, result);
-  return failed;
+  return status;
 }
 
 int count(const SweepOptions& options) {
@@ -164,6 +164,8 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   CLI::App* command =
       program.add_subcommand("sweep", "speed against error, of both models at many resolutions");
   command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
+  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
+      ->allow_extra_args(false);
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
   CLI::Option* json = command->add_flag("--json", options->json,

@@ -6,6 +6,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/solve/ranks.hpp"
+#include "compare/thesis/write_audit.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
 #include "compare/write/json.hpp"
@@ -55,14 +56,14 @@ int tables(const TablesOptions& options) {
   claim_subfolder(options.out, "figures");
   ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
   if (mpi_rank() != 0) return 0;
-  bool failed = false;
-  for (const TableEntry& entry : results.entries)
-    for (const ComputedFigure& computed : entry.computed) failed = failed || !computed.value;
   Stopwatch stopwatch;
   if (options.json)
     std::cout << json_text(results_to_json(results));
+  else if (options.trace)
+    write_audit_text(std::cout, results);
   else
-    write_tables_text(std::cout, results, options.trace ? Commands::all : Commands::one_per_table);
+    write_tables_text(std::cout, results);
+  if (!options.json && !options.trace) write_where_text(std::cout, results, options.out);
   if (!options.out.empty()) write_thesis_files(options.out, results);
   results.times.push_back({"writing", stopwatch.lap()});
   if (!options.out.empty()) {
@@ -73,7 +74,7 @@ int tables(const TablesOptions& options) {
   }
   for (const auto& [phase, seconds] : results.times)
     std::cerr << fmt::format("{:<44} {:>8.2f} s\n", phase, seconds);
-  return failed;
+  return count_entries(results.entries).n_failed > 0 ? 1 : 0;
 }
 
 } // namespace
@@ -89,7 +90,8 @@ void add_tables_command(CLI::App& program, Action& chosen) {
       "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
   command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--trace", options->trace, "the command that repeats it under every number");
+  command->add_flag("--trace", options->trace,
+                    "the audit in place of the tables: every reference, and the command that repeats it");
   CLI::Option* json = command->add_flag("--json", options->json,
                                         "one JSON document on standard output, and nothing else there");
   add_shard_options(*command, options->shards, out, {json});

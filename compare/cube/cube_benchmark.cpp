@@ -121,6 +121,10 @@ cases::Case cube_case(const CubeTest& test, const cases::Material& material, dou
   return definition;
 }
 
+std::optional<double> worst_if_stable(const CubeErrors& cube) {
+  return cube.is_stable() ? cube.worst() : std::nullopt;
+}
+
 CubeErrors cube_errors(const std::vector<CubeSolve>& solves) {
   return {load_set_errors("small", solves), load_set_errors("large", solves)};
 }
@@ -172,6 +176,18 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     }
     a.cube = cube_errors(solves);
   }
+}
+
+const DesignAttempt* recommended(const std::vector<DesignAttempt>& attempts) {
+  const DesignAttempt* best = nullptr;
+  std::optional<double> least;
+  for (const DesignAttempt& a : attempts) {
+    const auto worst = a.cube ? worst_if_stable(*a.cube) : std::nullopt;
+    if (!worst || (least && *worst >= *least)) continue;
+    best = &a;
+    least = worst;
+  }
+  return best;
 }
 
 double stable_strain(const msm::StabilityRange& range) {

@@ -96,6 +96,9 @@ struct CubeSolve {
   const Comparison &fem, &msm;
 };
 
+/// Worst error of a design that is stable in every test; nothing for any other.
+std::optional<double> worst_if_stable(const CubeErrors& cube);
+
 /// @param solves  in the order of cube_tests
 CubeErrors cube_errors(const std::vector<CubeSolve>& solves);
 
@@ -122,6 +125,10 @@ std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request);
 /// Solves the cube with every design, of cells like the request's. Collective over MPI_COMM_WORLD.
 /// @throws InputError unless the cell is a cube
 void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request);
+
+/// The measured attempt with the smallest worst error over both load sets, among those that are stable in
+/// every test; of equal ones the first. Null when there is none. The advice of `tables` has the same rule.
+const DesignAttempt* recommended(const std::vector<DesignAttempt>& attempts);
 
 /// Smaller of the logarithmic strains to which a lattice can be stretched and compressed.
 double stable_strain(const msm::StabilityRange& range);

@@ -1,5 +1,7 @@
 #include "compare/cube/write_design.hpp"
 
+#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/json.hpp"
@@ -27,6 +29,16 @@ std::array<std::string, 3> limits(const std::optional<msm::StabilityRange>& rang
           limit(range->shear, msm::search_ends.shear)};
 }
 
+/// The ends of stretch and compression in a column of a table.
+std::array<std::string, 2> short_limits(const std::optional<msm::StabilityRange>& range) {
+  if (!range) return {"-", "-"};
+  const auto limit = [](double found, double end, const char* beyond) {
+    return found == end ? fmt::format("{}{:.2f}", beyond, end) : fmt::format("{:.3f}", found);
+  };
+  return {limit(range->stretch, msm::search_ends.stretch, ">"),
+          limit(range->compression, msm::search_ends.compression, "<")};
+}
+
 std::array<double, 3> newton_per_metre(const msm::CellStiffness& k) {
   return {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
 }
@@ -35,7 +47,25 @@ std::array<double, 3> exponents_of(const msm::Exponents& p) {
   return {p.edge, p.face_diagonal, p.internal_diagonal};
 }
 
-/// For either load set a column per measure, then what they come to.
+bool is_volume(const CubeError& m) {
+  return m.measure == "volume";
+}
+
+void write_row_of_errors(std::ostream& out, const std::string& name, const LoadSetErrors& errors) {
+  const auto digits = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.2f}", *value) : "-";
+  };
+  fmt::print(out, "{:<17}", name);
+  for (const CubeError& m : errors.measures)
+    if (!is_volume(m))
+      fmt::print(out, "{:>8}", m.error_percent ? fmt::format("{:+.2f}", *m.error_percent) : "failed");
+  fmt::print(out, "{:>8}{:>8}{:>8}{:>8}\n", digits(errors.worst), digits(errors.mean),
+             digits(errors.worst_volume), errors.is_stable ? "yes" : "no");
+  if (!errors.failure.empty())
+    fmt::print(out, "{:<17}{}\n", "", in_short(one_line(errors.failure), screen_width - 17));
+}
+
+/// For either load set a column per measure, then what they come to; volumes by their worst alone.
 void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
   for (const auto& [name, load_set] :
        {std::pair("small", &CubeErrors::small), std::pair("large", &CubeErrors::large)}) {
@@ -45,17 +75,18 @@ void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& atte
       const LoadSetErrors& errors = (*a.cube).*load_set;
       if (std::exchange(is_first, false)) {
         fmt::print(out, "\nerrors on the cube under {} loads, %\n{:<17}", name, "");
-        for (const CubeError& m : errors.measures) fmt::print(out, "{:>10}", m.measure);
-        fmt::print(out, "{:>8}{:>8}{:>8}\n", "worst", "mean", "stable");
+        for (const CubeError& m : errors.measures)
+          if (!is_volume(m)) fmt::print(out, "{:>8}", m.measure);
+        fmt::print(out, "{:>8}{:>8}{:>8}{:>8}\n", "worst", "mean", "volume", "stable");
       }
-      fmt::print(out, "{:<17}", a.name);
-      for (const CubeError& m : errors.measures)
-        fmt::print(out, "{:>10}", m.error_percent ? fmt::format("{:+.2f}", *m.error_percent) : "failed");
-      for (const auto& of_all : {errors.worst, errors.mean})
-        fmt::print(out, "{:>8}", of_all ? fmt::format("{:.2f}", *of_all) : "-");
-      fmt::print(out, "{:>8}\n", errors.is_stable ? "yes" : "NO");
+      write_row_of_errors(out, a.name, errors);
     }
   }
+}
+
+void write_warnings(std::ostream& out, const msm::DesignResult& design) {
+  for (const std::string& warning : design.warnings)
+    write_paragraph(out, warning, "  warning: ", "           ");
 }
 
 Json range_to_json(const msm::StabilityRange& range) {
@@ -78,11 +109,10 @@ Json cube_to_json(const CubeErrors& cube) {
 void write_fibre_lattice(std::ostream& out, const msm::NearestModuli& lattice) {
   const mechanics::TransverseModuli& c = lattice.moduli;
   const cases::TransverselyIsotropic m = mechanics::engineering_constants(c);
-  fmt::print(
-      out,
-      "  lattice          C11 {:.6g}, C12 {:.6g}, C13 {:.6g}, C33 {:.6g}, C44 {:.6g}, C66 {:.6g} MPa, 3 "
-      "along the fibre\n",
-      c.c11, c.c12, c.c13, c.c33, c.c44, c.c66);
+  fmt::print(out,
+             "  lattice, MPa     C11 {:.6g}, C12 {:.6g}, C13 {:.6g}, C33 {:.6g}, C44 {:.6g}, C66 {:.6g}\n"
+             "                   (3 is along the fibre)\n",
+             c.c11, c.c12, c.c13, c.c33, c.c44, c.c66);
   fmt::print(out, "  along the fibre  E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus_along,
              m.poissons_ratio_along, m.shear_modulus_along);
   fmt::print(out, "  across it        E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n", m.youngs_modulus_across,
@@ -117,6 +147,30 @@ Json moduli_to_json(const msm::DesignResult& design) {
           {"misfit_percent", 100 * design.by_fibre->misfit}};
 }
 
+/// A design's stiffnesses and its lattice's moduli on one line.
+void write_compared(std::ostream& out, const DesignAttempt& a) {
+  const std::string indent(17, ' ');
+  if (!a.design) return write_paragraph(out, "refused: " + a.refusal, fmt::format("{:<17}", a.name), indent);
+  const msm::CellStiffness& k = a.design->stiffness;
+  const msm::LatticeModuli& m = a.design->moduli;
+  const auto [edge, face, internal] = newton_per_metre(k);
+  const auto [stretch, compression] = short_limits(a.stability);
+  if (a.design->by_fibre) {
+    fmt::print(out, "{}\n", a.name);
+    write_fibre_lattice(out, *a.design->by_fibre);
+  } else {
+    const std::string springs =
+        a.design->terms ? ""
+                        : fmt::format("{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}", edge, face, internal, k.volume);
+    fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>7.3f}{:>8}{:>8}\n", a.name, springs,
+               m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, stretch, compression);
+  }
+  if (k.exponents)
+    fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(exponents_of(*k.exponents), ", "));
+  if (a.design->terms) write_paragraph(out, springs_text(*a.design), indent, indent);
+  write_warnings(out, *a.design);
+}
+
 } // namespace
 
 void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
@@ -124,9 +178,9 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   const msm::CellStiffness& k = design.stiffness;
   const msm::LatticeModuli& m = design.moduli;
   const cases::DesignFacts& facts = cases::facts_of(attempt.options.design);
-  fmt::print(out, "{}: {} ({})\n", attempt.name, facts.what, facts.published_in);
+  write_paragraph(out, fmt::format("{}: {} ({})", attempt.name, facts.what, facts.published_in), "", "  ");
   if (design.terms)
-    fmt::print(out, "  springs          {}\n", springs_text(design));
+    write_paragraph(out, springs_text(design), "  springs          ", std::string(19, ' '));
   else
     fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(newton_per_metre(k), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
@@ -145,39 +199,15 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
     fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n", stretch,
                compression, shear);
   }
-  for (const std::string& warning : design.warnings) fmt::print(out, "  WARNING: {}\n", warning);
+  write_warnings(out, design);
   write_cube_errors(out, {attempt});
 }
 
 void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
-  fmt::print(out, "{:<17}{:>9}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>12}{:>13}{:>13}\n", "method", "k_e N/m",
-             "k_f", "k_d", "k_v MPa", "E MPa", "nu", "G MPa", "Zener", "residual", "stretch", "compression");
-  for (const DesignAttempt& a : attempts) {
-    if (!a.design) {
-      fmt::print(out, "{:<17}refused: {}\n", a.name, a.refusal);
-      continue;
-    }
-    const msm::CellStiffness& k = a.design->stiffness;
-    const msm::LatticeModuli& m = a.design->moduli;
-    const auto [edge, face, internal] = newton_per_metre(k);
-    const auto [stretch, compression, shear] = limits(a.stability);
-    if (a.design->by_fibre) {
-      fmt::print(out, "{}\n", a.name);
-      write_fibre_lattice(out, *a.design->by_fibre);
-    } else if (a.design->terms)
-      fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n", a.name, "",
-                 m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, "-", stretch, compression);
-    else
-      fmt::print(out,
-                 "{:<17}{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}{:>9.4g}{:>8.4f}{:>9.4f}{:>8.3f}{:>12}{:>13}{:>13}\n",
-                 a.name, edge, face, internal, k.volume, m.youngs_modulus, m.poissons_ratio, m.shear_modulus,
-                 m.zener, a.design->residual ? fmt::format("{:.4g}", *a.design->residual) : "-", stretch,
-                 compression);
-    if (k.exponents)
-      fmt::print(out, "{:<17}exponents {:.4g}\n", "", fmt::join(exponents_of(*k.exponents), ", "));
-    if (a.design->terms) fmt::print(out, "{:<17}{}\n", "", springs_text(*a.design));
-    for (const std::string& warning : a.design->warnings) fmt::print(out, "  WARNING: {}\n", warning);
-  }
+  fmt::print(out, "{:<17}{:>9}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>7}{:>8}{:>8}\n", "method", "k_e N/m", "k_f",
+             "k_d", "k_v MPa", "E MPa", "nu", "G MPa", "Zener", "longer", "shorter");
+  for (const DesignAttempt& a : attempts) write_compared(out, a);
+  fmt::print(out, "longer, shorter: stretches along an axis to which the lattice is stable\n");
   write_cube_errors(out, attempts);
 }
 

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/modes/eigenspaces.hpp"
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
@@ -189,7 +190,7 @@ void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
   print(out, "\n");
   for (const DesignVibrations& design : study.designs) {
     if (!design.refusal.empty()) {
-      print(out, "  {}: {}\n", design.design, design.refusal);
+      write_paragraph(out, design.design + ": " + design.refusal, "  ", "    ");
       continue;
     }
     print(out, "  {}\n  {:>12}{:>6}{:>12}{:>10}{:>10}\n", design.design, "fem Hz", "dim", "msm Hz", "error %",

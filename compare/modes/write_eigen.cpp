@@ -1,5 +1,6 @@
 #include "compare/modes/write_eigen.hpp"
 
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/gnuplot.hpp"
@@ -16,12 +17,28 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 std::string line_of(const char* model, const std::vector<Eigenspace>& spaces) {
-  std::string line = fmt::format("{:<5}", model);
+  std::vector<std::string> words;
   for (const Eigenspace& space : spaces) {
     const double value = std::abs(space.eigenvalue) < 1e-9 * spaces.back().eigenvalue ? 0 : space.eigenvalue;
-    line += fmt::format("{:>12}", fmt::format("{:.4g}({})", value, space.dimension));
+    words.push_back(fmt::format("{:.4g}({})", value, space.dimension));
   }
-  return line;
+  return paragraph(fmt::format("{}", fmt::join(words, " ")), fmt::format("{:<5}", model), "     ");
+}
+
+constexpr std::size_t share_columns = 7; ///< of the coupling's text
+
+void write_coupling(std::ostream& out, const Eigen::MatrixXd& coupling) {
+  if (static_cast<std::size_t>(coupling.cols()) * share_columns > screen_width) {
+    fmt::print(out, "coupling of {} fem and {} msm spaces: coupling.csv of --out\n", coupling.rows(),
+               coupling.cols());
+    return;
+  }
+  fmt::print(out, "coupling: share of each fem space (row) in each msm space (column)\n");
+  for (const auto row : coupling.rowwise()) {
+    for (const double share : row)
+      fmt::print(out, "{:>{}}", share < 1e-12 ? "." : fmt::format("{:.3f}", share), share_columns);
+    fmt::print(out, "\n");
+  }
 }
 
 Json spaces_to_json(const std::vector<Eigenspace>& spaces) {
@@ -118,18 +135,13 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
 } // namespace
 
 void write_eigenspaces_text(std::ostream& out, const EigenspaceAnalysis& analysis) {
-  fmt::print(out, "eigenvalues in N/mm (multiplicity)\n{}\n{}\n", line_of("fem", analysis.fem_spaces),
+  fmt::print(out, "eigenvalues in N/mm (multiplicity)\n{}{}", line_of("fem", analysis.fem_spaces),
              line_of("msm", analysis.msm_spaces));
   fmt::print(out, "equivalent eigenspaces\n");
   for (const Equivalence& e : analysis.equivalent)
     fmt::print(out, "  fem {} = msm {}, dimension {}, distance {}\n", e.fem_space + 1, e.msm_space + 1,
                analysis.fem_spaces[e.fem_space].dimension, e.distance);
-  fmt::print(out, "coupling: share of each fem space (row) in each msm space (column)\n");
-  for (const auto row : analysis.coupling.rowwise()) {
-    for (const double share : row)
-      fmt::print(out, "{:>7}", share < 1e-12 ? "." : fmt::format("{:.3f}", share));
-    fmt::print(out, "\n");
-  }
+  write_coupling(out, analysis.coupling);
   fmt::print(out, "N = {}, h = {:.4f}\n", analysis.fem_spaces.size(), analysis.h);
 }
 

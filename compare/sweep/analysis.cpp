@@ -46,15 +46,6 @@ std::string factor_text(double factor) {
 
 constexpr const char* without_points = "no model was measured.";
 
-const char* what(Error error) {
-  return error == Error::field ? "displacement field" : "worst measure";
-}
-
-const char* what(Clock clock) {
-  return clock == Clock::first_answer ? "first answer (setup and solve from rest)"
-                                      : "re-solve after a load change of 5 %";
-}
-
 std::vector<std::string> speed_sentences(const Sweep& sweep, Error error, Clock clock) {
   const std::vector<Point> points = points_of(sweep, error, clock);
   const double uncertainty = uncertainty_percent(*sweep.reference, error);
@@ -103,6 +94,15 @@ std::vector<std::size_t> pareto_front(const std::vector<Point>& points) {
     front.push_back(i);
   }
   return front;
+}
+
+std::vector<Point> thinned_front(const std::vector<Point>& points, std::size_t n) {
+  const std::vector<std::size_t> front = pareto_front(points);
+  std::vector<Point> thinned;
+  const std::size_t n_kept = std::min(n, front.size());
+  for (std::size_t i = 0; i < n_kept; ++i)
+    thinned.push_back(points[front[n_kept == 1 ? 0 : i * (front.size() - 1) / (n_kept - 1)]]);
+  return thinned;
 }
 
 std::optional<std::size_t> fastest_within(const std::vector<Point>& points, double error_percent,
@@ -187,6 +187,15 @@ std::vector<std::string> methods_of(const Sweep& sweep) {
     if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
   }
   return methods;
+}
+
+const char* what(Error error) {
+  return error == Error::field ? "displacement field" : "worst measure";
+}
+
+const char* what(Clock clock) {
+  return clock == Clock::first_answer ? "first answer (setup and solve from rest)"
+                                      : "re-solve after a load change of 5 %";
 }
 
 const char* family_name(Family family) {

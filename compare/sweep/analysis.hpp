@@ -20,6 +20,9 @@ struct Point {
 /// @return indices in the order of time
 std::vector<std::size_t> pareto_front(const std::vector<Point>& points);
 
+/// The points of that front, at most `n` of them, spread evenly from the fastest to the most accurate.
+std::vector<Point> thinned_front(const std::vector<Point>& points, std::size_t n);
+
 /// The fastest point whose error is at most a level, of one family or of all; of equally fast ones the more
 /// accurate.
 std::optional<std::size_t> fastest_within(const std::vector<Point>& points, double error_percent,
@@ -48,6 +51,10 @@ enum class Clock {
   first_answer, ///< setup and the solve from rest
   re_solve      ///< the solve after a small change of the load, from the displacement before
 };
+
+/// "displacement field"; "re-solve after a load change of 5 %".
+const char* what(Error error);
+const char* what(Clock clock);
 
 /// Largest error of a measure, without sign; nothing when no measure has one.
 std::optional<double> worst_measure_error(const SweepRow& row);

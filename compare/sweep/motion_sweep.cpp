@@ -193,6 +193,11 @@ std::optional<double> motion_error_percent(const cases::Trajectory& reference,
   return 100 * std::sqrt(difference_squared / squared);
 }
 
+bool has_answer(const MotionSweep& sweep) {
+  return std::any_of(sweep.rows.begin(), sweep.rows.end(),
+                     [](const MotionRow& row) { return row.error_percent.has_value(); });
+}
+
 MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
                          const std::function<void(const MotionSweep&)>& on_row) {
   MotionSweep sweep{definition, "", 0, {}, {}};

@@ -37,7 +37,11 @@ struct MotionSweep {
   double uncertainty_percent = 0; ///< what the last halvings of its cells and of its step changed, together
   std::vector<MotionRow> rows;
   std::vector<LeftOut> left_out;
+  std::vector<std::string> settings{}; ///< of `--set`, which the definition has in it
 };
+
+/// Whether any motion beside the reference was followed to its end.
+bool has_answer(const MotionSweep& sweep);
 
 /// Springs of the designs that a sweep takes (springs_to_sweep()), the case's own with its settings and the
 /// others with their defaults, and the case's finite elements, on levels_of() its body, with twice, once and

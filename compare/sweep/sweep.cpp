@@ -261,6 +261,14 @@ VariantRun variant_run_from(const std::string& answer, const Variant& variant) {
   return run;
 }
 
+bool has_answer(const Sweep& sweep) {
+  if (!sweep.reference) return false;
+  const auto first = sweep.rows.begin() + static_cast<std::ptrdiff_t>(sweep.plan.reference.size());
+  return first == sweep.rows.end() || std::any_of(first, sweep.rows.end(), [](const SweepRow& row) {
+           return row.run.first.status == cases::Status::converged;
+         });
+}
+
 Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
                  const std::optional<double>& budget_seconds) {
   Sweep sweep;

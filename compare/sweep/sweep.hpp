@@ -62,6 +62,7 @@ enum class Processes { one_per_variant, this_one };
 /// Speed against error of one case: one plain record, which the writers read.
 struct Sweep {
   cases::Case definition;
+  std::vector<std::string> settings{}; ///< of `--set`, which the definition has in it
   Plan plan;
   TimingRules rules;
   Processes processes = Processes::one_per_variant;
@@ -71,6 +72,9 @@ struct Sweep {
   std::string reason_without_reference;
   double seconds = 0; ///< that the sweep took
 };
+
+/// Whether the reference was solved, and of the other models, if there are any, one at least.
+bool has_answer(const Sweep& sweep);
 
 /// A sweep without rows.
 /// @param budget_seconds  see cut_to_budget(); nothing: the plan as it is

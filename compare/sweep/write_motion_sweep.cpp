@@ -38,6 +38,7 @@ std::vector<Series> series_of(const MotionSweep& sweep) {
 
 void write_motion_sweep_text(std::ostream& out, const MotionSweep& sweep) {
   print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
+  for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
   print(out, "  one run of each on one thread, one after the other; times without setting up\n");
   print(out, "  reference: {}; uncertainty {:.2g} %\n", sweep.reference, sweep.uncertainty_percent);
   print(out, "  {:<34}{:>12} {:>9} {:>9} {:>24} {:>9}\n", "method", "cells", "step, ms", "unknowns",
@@ -70,6 +71,7 @@ nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep) {
   Json document = provenance();
   document["case"] = sweep.definition.name;
   document["description"] = sweep.definition.description;
+  document["settings"] = sweep.settings;
   document["threads"] = 1;
   document["reference"] = {{"motion", sweep.reference}, {"uncertainty_percent", sweep.uncertainty_percent}};
   document["motions"] = Json::array();

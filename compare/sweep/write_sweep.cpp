@@ -35,6 +35,7 @@ std::string percent(const std::optional<double>& value) {
 void write_head(std::ostream& out, const Sweep& sweep) {
   const Machine machine = describe_machine();
   print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
+  for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
   print(out, "  machine: {}, {} cores, {}, {}, {}\n", machine.processor, machine.cores, machine.system,
         machine.compiler, machine.blas);
   if (sweep.processes == Processes::one_per_variant)
@@ -268,6 +269,7 @@ Json sweep_to_json(const Sweep& sweep) {
   Json document = provenance();
   document["case"] = sweep.definition.name;
   document["description"] = sweep.definition.description;
+  document["settings"] = sweep.settings;
   document["threads"] = 1;
   document["ranks"] = sweep.n_ranks;
   document["own_process_per_variant"] = sweep.processes == Processes::one_per_variant;

@@ -82,11 +82,6 @@ Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   return advice;
 }
 
-/// Over both load sets; nothing for a design that failed or is not stable somewhere.
-std::optional<double> worst_error(const Advice& advice) {
-  return advice.cube.is_stable() ? advice.cube.worst() : std::nullopt;
-}
-
 } // namespace
 
 std::vector<JobPair> design_jobs(const PublishedFigure& figure) {
@@ -124,10 +119,10 @@ std::vector<DesignRow> design_rows(const std::vector<PublishedFigure>& figures, 
 
 void recommend(std::vector<Advice>& advice) {
   for (Advice& candidate : advice) {
-    const auto worst = worst_error(candidate);
+    const auto worst = worst_if_stable(candidate.cube);
     candidate.is_recommended =
         worst && std::none_of(advice.begin(), advice.end(), [&](const Advice& other) {
-          const auto others = worst_error(other);
+          const auto others = worst_if_stable(other.cube);
           const bool is_rival = other.poissons_ratio == candidate.poissons_ratio && &other != &candidate;
           return is_rival && others && (*others < *worst || (*others == *worst && &other < &candidate));
         });

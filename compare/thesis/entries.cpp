@@ -140,6 +140,10 @@ std::optional<double> TableEntry::difference(const ComputedFigure& of) const {
   return of.value ? std::optional(*of.value - published.value) : std::nullopt;
 }
 
+bool TableEntry::has_failed() const {
+  return std::any_of(computed.begin(), computed.end(), [](const ComputedFigure& c) { return !c.value; });
+}
+
 const ComputedFigure* TableEntry::nearest() const {
   const ComputedFigure* best = nullptr;
   for (const ComputedFigure& candidate : computed)
@@ -204,8 +208,14 @@ std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
                        {},        {}};
     group.trace.command = fmt::format("build/springproof tables {}", fmt::join(tables, " "));
     for (const double bound : kind.bounds) group.within.push_back(count(members, bound));
-    for (const TableEntry* entry : members)
-      if (count({entry}, kind.listing_bound).neither == 1) group.beyond.push_back(entry);
+    for (const TableEntry* entry : members) {
+      const bool is_beyond = count({entry}, kind.listing_bound).neither == 1;
+      if (is_beyond) group.beyond.push_back(entry);
+      if (entry->has_failed())
+        ++group.n_failed;
+      else if (!is_beyond)
+        ++group.n_reproduced;
+    }
     groups.push_back(std::move(group));
   }
   return groups;

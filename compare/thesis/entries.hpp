@@ -25,6 +25,7 @@ struct TableEntry {
   std::string finding;                  ///< what is known to be wrong with the printed figure; empty for most
   const ComputedFigure& declared() const { return computed.front(); }
   std::optional<double> difference(const ComputedFigure& of) const; ///< its value less the published one
+  bool has_failed() const; ///< whether it has no value against some reference
   /// The computed figure closest to the published one; null when none has a value.
   const ComputedFigure* nearest() const;
 };
@@ -63,6 +64,8 @@ struct SummaryGroup {
   Trace trace;          ///< counts again
   /// By every reference; the entry's finding explains it, or nothing does.
   std::vector<const TableEntry*> beyond;
+  int n_failed = 0;     ///< without a value against some reference, whatever the others give
+  int n_reproduced = 0; ///< of the others those within the listing bound
 };
 
 /// Counts what is reproduced; pointers go into `entries`.

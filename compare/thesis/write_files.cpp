@@ -2,6 +2,7 @@
 
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/thesis/write_audit.hpp"
 #include "compare/thesis/write_text.hpp"
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
@@ -242,7 +243,8 @@ void write_thesis_files(const std::string& folder, const ThesisResults& results)
   const auto csv_file = [&](const std::string& name, void (*write)(CsvWriter&, const ThesisResults&)) {
     write_csv_file(folder + "/" + name, [&](CsvWriter& csv) { write(csv, results); });
   };
-  file("tables.txt", [&](std::ostream& out) { write_tables_text(out, results, Commands::one_per_table); });
+  file("tables.txt", [&](std::ostream& out) { write_tables_text(out, results); });
+  file("audit.txt", [&](std::ostream& out) { write_audit_text(out, results); });
   file("tables.json", [&](std::ostream& out) { out << json_text(results_to_json(results)); });
   csv_file("tables.csv", write_tables);
   if (!results.designs.empty()) csv_file("designs.csv", write_designs);

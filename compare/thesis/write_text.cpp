@@ -1,283 +1,157 @@
 #include "compare/thesis/write_text.hpp"
 
+#include "cases/case/names.hpp"
+#include "cases/case/read_models.hpp"
+#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/thesis/layout.hpp"
+
 #include <algorithm>
-#include <cmath>
-#include <fmt/ostream.h>
-#include <functional>
+#include <set>
 
 namespace springproof::compare {
 
 namespace {
 
-/// The parts that tell an entry's column from others.
-std::array<std::string, 3> column_of(const PublishedFigure& p) {
-  return {p.design, fmt::format("nu = {:g}", p.poissons_ratio), p.load_set};
+/// Reasons that are told on the screen; the audit has all.
+constexpr std::size_t n_told_reasons = 3, characters_of_reason = 180;
+
+template<class Is>
+bool any_of(const std::vector<TableEntry>& entries, const Is& is) {
+  return std::any_of(entries.begin(), entries.end(), is);
 }
 
-std::string number(const std::optional<double>& value, int digits = 2) {
-  if (!value) return "-";
-  const std::string text = fmt::format("{:.{}f}", *value, digits);
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  return is_zero ? fmt::format("{:.{}f}", 0.0, digits) : text; // never "-0.00"
+/// What the marks in the tables mean, as far as there are any.
+void write_marks(std::ostream& out, const std::vector<TableEntry>& entries) {
+  std::set<std::string> others;
+  for (const TableEntry& entry : entries)
+    if (const ComputedFigure* nearest = entry.nearest(); nearest && nearest != &entry.declared())
+      others.insert(nearest->reference + " (the case declares " + entry.declared().reference + ")");
+  if (!others.empty())
+    write_paragraph(
+        out, fmt::format("the other reference of the thesis is nearer to print: {}", fmt::join(others, ", ")),
+        "  *    ", "       ");
+  if (any_of(entries, [](const TableEntry& entry) { return entry.published.measure == "beta_1"; }))
+    write_paragraph(out, "the printed beta_1 is not the rotation that the text defines; ours is", "  (!)  ",
+                    "       ");
 }
 
-int digits_of(const PublishedFigure& figure) {
-  return figure.test == "cell" ? 4 : 2;
+/// Each reason once, with the first figure that has it.
+void write_failures(std::ostream& out, const std::vector<TableEntry>& entries) {
+  std::vector<std::string> reasons, lines;
+  for (const TableEntry& entry : entries)
+    for (const ComputedFigure& computed : entry.computed) {
+      if (computed.value || std::find(reasons.begin(), reasons.end(), computed.reason) != reasons.end())
+        continue;
+      reasons.push_back(computed.reason);
+      lines.push_back(fmt::format("failed: {} {}, {}: {}", entry.published.table, name_of(entry.published),
+                                  computed.reference, computed.reason));
+    }
+  for (std::size_t l = 0; l < std::min(lines.size(), n_told_reasons); ++l)
+    write_paragraph(out, in_short(one_line(lines[l]), characters_of_reason), "  ", "    ");
+  if (lines.size() > n_told_reasons)
+    print(out, "  and {} more reasons, in the audit\n", lines.size() - n_told_reasons);
 }
 
-/// Rows of one measure: each reference, print, the difference of the nearest, and what explains a beta_1.
-void write_measure(std::ostream& out, const Sheet::Row& row) {
-  const auto line = [&](const std::string& test, const std::string& measure, const std::string& label,
-                        const std::function<std::string(const TableEntry&)>& cell) {
-    fmt::print(out, "  {:<8} {:<18} {:<22}", test, measure, label);
-    for (const TableEntry* entry : row.cells)
-      fmt::print(out, " {:>16}", entry ? cell(*entry) : std::string());
-    fmt::print(out, "\n");
-  };
-  const auto& [test, measure, cells, first] = row;
-  const auto& references = first->computed;
-  const int digits = digits_of(first->published);
-  for (std::size_t k = 0; k < references.size(); ++k)
-    line(k == 0 ? test : "", k == 0 ? measure : "", references[k].reference, [&](const TableEntry& entry) {
-      const bool is_marked = references.size() > 1 && entry.nearest() == &entry.computed[k];
-      return number(entry.computed[k].value, digits) + (is_marked ? "*" : "");
-    });
-  line("", "", measure == "beta_1" ? "published (!)" : "published",
-       [&](const TableEntry& entry) { return number(entry.published.value, digits); });
-  line("", "", "difference", [&](const TableEntry& entry) {
-    const ComputedFigure* nearest = entry.nearest();
-    return number(nearest ? entry.difference(*nearest) : std::nullopt, digits);
+/// "1 point", "2 mm3", "0.005".
+std::string bound_text(const SummaryGroup& group) {
+  if (group.unit == "points" && group.listing_bound == 1) return "1 point";
+  return fmt::format("{:g}{}{}", group.listing_bound, group.unit.empty() ? "" : " ", group.unit);
+}
+
+void write_counts(std::ostream& out, const std::vector<TableEntry>& entries) {
+  const EntryCounts counts = count_entries(entries);
+  print(out, "{} published values: {} reproduced, {} not, {} failed\n", counts.n, counts.n_reproduced,
+        counts.n_not_reproduced(), counts.n_failed);
+  std::vector<std::string> parts;
+  for (const SummaryGroup& group : summarise(entries))
+    parts.push_back(fmt::format("{}: {} of {} within {}", group.name, group.n_reproduced, group.n_entries,
+                                bound_text(group)));
+  write_paragraph(out, fmt::format("{}", fmt::join(parts, "; ")), "  ", "  ");
+  write_failures(out, entries);
+}
+
+std::string one_decimal(const std::optional<double>& value) {
+  return value ? fmt::format("{:.1f}", *value) : "-";
+}
+
+/// The design that a case of this Poisson's ratio takes when it names none, among those that were measured.
+const Advice* default_at(const std::vector<Advice>& advice, double poissons_ratio) {
+  const cases::Design design = cases::default_design({cases::LinearElastic{1, poissons_ratio}});
+  const auto found = std::find_if(advice.begin(), advice.end(), [&](const Advice& a) {
+    return a.poissons_ratio == poissons_ratio && a.design == cases::name_of(design);
   });
-  const bool has_large = std::any_of(cells.begin(), cells.end(), [](const TableEntry* entry) {
-    return entry && entry->published.load_set == "large";
-  });
-  // It explains the large rows in print; of the small ones nothing does.
-  if (measure == "beta_1" && has_large)
-    line("", "", "45 deg + small beta_2", [&](const TableEntry& entry) {
-      if (entry.published.load_set != "large") return std::string();
-      const auto [reference, value] = nearest_from_beta_2(entry);
-      return number(reference ? std::optional(value) : std::nullopt, digits);
-    });
+  return found == advice.end() ? nullptr : &*found;
 }
 
-void write_commands(std::ostream& out, const Sheet& sheet, Commands commands) {
-  if (commands == Commands::one_per_table) {
-    const TableEntry& first = *sheet.entries.front();
-    fmt::print(out, "  {} again: {}\n", name_of(first.published), first.declared().trace.command);
-    return;
-  }
-  for (const TableEntry* entry : sheet.entries)
-    for (const ComputedFigure& c : entry->computed)
-      fmt::print(out, "  {} ({}): {}\n", name_of(entry->published), c.reference, c.trace.command);
+void write_advice_row(std::ostream& out, const Advice& best, const Advice* by_default) {
+  print(out, "  {:<6g}{:<18}{:>6}{:>8}{:>9}", best.poissons_ratio, best.design,
+        one_decimal(best.cube.small.worst), one_decimal(best.cube.large.worst),
+        one_decimal(best.cube.worst_volume()));
+  if (by_default == &best)
+    print(out, "     the same\n");
+  else if (by_default)
+    print(out, "     {:<18}{:>6}{:>8}\n", by_default->design, one_decimal(by_default->cube.small.worst),
+          one_decimal(by_default->cube.large.worst));
+  else
+    print(out, "\n");
 }
 
-void write_sheet(std::ostream& out, const Sheet& sheet, Commands commands) {
-  const bool has_two = sheet.entries.front()->computed.size() > 1;
-  fmt::print(out, "\n{}: {}{}\n", name_of(sheet), subject_of(sheet),
-             has_two ? "; first the declared reference; * the one nearer to print" : "");
-  for (std::size_t part = 0; part < 3; ++part) {
-    fmt::print(out, "  {:<8} {:<18} {:<22}", "", "", "");
-    for (const auto& column : sheet.columns) fmt::print(out, " {:>16}", column[part]);
-    fmt::print(out, "\n");
-  }
-  for (const Sheet::Row& row : sheet.rows) write_measure(out, row);
-  const bool has_beta_1 = std::any_of(sheet.entries.begin(), sheet.entries.end(),
-                                      [](const TableEntry* e) { return e->published.measure == "beta_1"; });
-  if (has_beta_1)
-    fmt::print(out,
-               "  (!) the printed beta_1 is not the rotation that the text defines; ours is: see the end\n");
-  for (const TableEntry* entry : sheet.entries)
-    for (const ComputedFigure& c : entry->computed)
-      if (!c.value)
-        fmt::print(out, "  no value: {} {} nu = {:g} ({}): {}\n", entry->published.test,
-                   entry->published.measure, entry->published.poissons_ratio, c.reference, c.reason);
-  write_commands(out, sheet, commands);
-}
-
-void write_model_volumes(std::ostream& out, const std::string& name, const char* model,
-                         const std::optional<ModelVolumes>& v) {
-  fmt::print(out, "  {:<28} {:<4}", name, model);
-  if (!v) return fmt::print(out, " {:>10}\n", "-");
-  const BoxPlot& b = v->per_cell;
-  fmt::print(out, " {:>10.2f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9}\n", v->total,
-             b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile, b.upper_whisker,
-             b.outliers.size());
-}
-
-std::string worst_and_mean(const LoadSetErrors& errors) {
-  if (!errors.worst) return "-";
-  return fmt::format("{:.1f} ({:.1f}){}", *errors.worst, *errors.mean, errors.is_stable ? "" : " UNSTABLE");
-}
-
-std::string stiffness(const std::optional<msm::CellStiffness>& k) {
-  if (!k) return fmt::format("{:>35}", "");
-  return fmt::format("{:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}", k->edge, k->face_diagonal, k->internal_diagonal,
-                     k->volume);
-}
-
-std::string exponents(const msm::CellStiffness& k) {
-  if (!k.exponents) return "";
-  return fmt::format(", exponents {:.3f}, {:.3f}, {:.3f}", k.exponents->edge, k.exponents->face_diagonal,
-                     k.exponents->internal_diagonal);
-}
-
-/// A line that a reader with E and nu in hand can use as it stands.
-void write_recommendation(std::ostream& out, const Advice& a) {
-  const double youngs_modulus = 0.05;            // MPa, soft tissue
-  const double per_metre = 1e3 * youngs_modulus; // N/m of a cell of 1 mm
-  if (!a.stiffness) {
-    fmt::print(
-        out,
-        "  nu = {:g}: use {}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large "
-        "ones, volume within {:.1f} %.\n      its springs again (E = 1 MPa): {}\n",
-        a.poissons_ratio, a.design, *a.cube.small.worst, *a.cube.large.worst, *a.cube.worst_volume(),
-        a.trace.command);
-    return;
-  }
-  const msm::CellStiffness& k = *a.stiffness;
-  fmt::print(
-      out,
-      "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = {:.5f} "
-      "MPa{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume "
-      "within {:.1f} %.\n      its stiffnesses again (E = 1 MPa): {}\n      its worst errors again: {}\n     "
-      " {}\n",
-      a.poissons_ratio, a.design, per_metre * k.edge, per_metre * k.face_diagonal,
-      per_metre * k.internal_diagonal, youngs_modulus * k.volume, exponents(k), *a.cube.small.worst,
-      *a.cube.large.worst, *a.cube.worst_volume(), a.trace.command, a.small_trace.command,
-      a.large_trace.command);
-}
-
-void write_beyond(std::ostream& out, const TableEntry& entry) {
-  const PublishedFigure& p = entry.published;
-  fmt::print(out, "    {} {} {} {} nu = {:g}, {}: published {:g};", p.table, p.load_set, p.test, p.measure,
-             p.poissons_ratio, p.design, p.value);
-  for (const ComputedFigure& c : entry.computed)
-    fmt::print(
-        out, " {} {}{};", c.reference,
-        c.value ? fmt::format("{:.{}f}", *c.value, digits_of(p)) : "no value: ", c.value ? "" : c.reason);
-  fmt::print(out, " {}\n", entry.finding.empty() ? "unexplained" : entry.finding);
-}
-
-void write_designs_text(std::ostream& out, const std::vector<DesignRow>& rows) {
-  if (rows.empty()) return;
-  fmt::print(
-      out,
-      "\nThe same tables with other designs: |error| against the declared reference, %. A method designs "
-      "from the table's own material.\n  {:<6} {:<34} {:>8} {:>9} {:>9} {:>9}  {}\n",
-      "table", "design", "figures", "missing", "mean", "worst", "where");
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const DesignRow& row = rows[r];
-    fmt::print(out, "  {:<6} {:<34} {:>8} {:>9} {:>9} {:>9}  {}\n",
-               r == 0 || rows[r - 1].table != row.table ? row.table : "", row.design, row.errors.n,
-               row.n_missing, number(row.errors.mean()), number(row.errors.worst), row.worst_at);
-    for (const std::string& reason : row.reasons) fmt::print(out, "         missing: {}\n", reason);
-  }
-}
-
-void write_volumes_text(std::ostream& out, const std::vector<CaseVolumes>& volumes,
-                        const std::vector<CellVolumeChange>& changes) {
-  if (volumes.empty()) return;
-  fmt::print(
-      out,
-      "\nVolumes, mm3: of the body, and of its cells as box plots (figure 5.10; whiskers at the outermost "
-      "values within 1.5 times the interquartile range)\n"
-      "  {:<28} {:<4} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-      "case", "", "body", "whisker", "quartile", "median", "quartile", "whisker", "outliers");
-  for (const CaseVolumes& v : volumes) {
-    write_model_volumes(out, v.name, "fem", v.fem);
-    write_model_volumes(out, "", "msm", v.msm);
-  }
-  for (const CellVolumeChange& change : changes)
-    fmt::print(out, "  largest change of a cell without outliers, Ogden, {} loads: {} %, published {:g} %\n",
-               change.load_set, number(change.computed), change.published);
-}
-
-void write_advice_text(std::ostream& out, const std::vector<Advice>& advice) {
+void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
   if (advice.empty()) return;
-  fmt::print(out,
-             "\nWhich design to use: stiffnesses for any E and L0 (k = figure x E L0, k_v = figure x E) and "
-             "|error| on the thesis's cube, worst (mean), %, against the declared reference\n"
-             "  {:<6} {:<17} {:>8} {:>8} {:>8} {:>8}   {:<22} {:<22}\n",
-             "nu", "design", "k_e", "k_f", "k_d", "k_v", "small loads", "large loads");
-  for (const Advice& a : advice)
-    fmt::print(out, "{} {:<6g} {:<17} {}   {:<22} {:<22}{}\n", a.is_recommended ? ">" : " ", a.poissons_ratio,
-               a.design, stiffness(a.stiffness), worst_and_mean(a.cube.small), worst_and_mean(a.cube.large),
-               a.refusal());
-  for (const Advice& a : advice)
-    if (a.is_recommended) write_recommendation(out, a);
-  fmt::print(out,
-             "  Recommended is the smallest worst error over both sets among the designs that stay stable. "
-             "The errors hold for equal strains: loads in proportion to E.\n");
-}
-
-void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& groups) {
-  fmt::print(out, "\nSummary: published figures that are reproduced\n");
-  for (const SummaryGroup& group : groups) {
-    fmt::print(out, "  {}: {} figures\n", group.name, group.n_entries);
-    for (const Within& w : group.within)
-      fmt::print(out,
-                 "    within {:<6g} {:<6}  {:>3} by the declared reference, {:>3} only by the other, {:>3} "
-                 "by neither\n",
-                 w.bound, group.unit, w.declared, w.other_only, w.neither);
-    if (group.beyond.empty()) continue;
-    fmt::print(out, "    by neither within {:g}{}{}:\n", group.listing_bound, group.unit.empty() ? "" : " ",
-               group.unit);
-    for (const TableEntry* entry : group.beyond) write_beyond(out, *entry);
+  print(out, "\nWhich design to use: worst |error| on the thesis's cube, %, with loads in proportion to E\n");
+  print(out, "  {:<6}{:<18}{:>6}{:>8}{:>9}     {:<18}{:>6}{:>8}\n", "nu", "use", "small", "large", "volume",
+        "without a name", "small", "large");
+  bool differs = false;
+  for (const Advice& best : advice) {
+    if (!best.is_recommended) continue;
+    const Advice* by_default = default_at(advice, best.poissons_ratio);
+    differs = differs || by_default != &best;
+    write_advice_row(out, best, by_default);
   }
+  write_paragraph(
+      out,
+      "The design to use has the smallest worst error of those that are stable in every test; its "
+      "stiffnesses: springproof design --young E --poisson NU --method NAME.",
+      "  ", "  ");
+  if (differs)
+    write_paragraph(out,
+                    "A case that names no design takes the one on the right: its rule asks for a large "
+                    "lattice that stays stable, not for this cube alone.",
+                    "  ", "  ");
 }
 
 } // namespace
 
-std::vector<Sheet> sheets_of(const std::vector<TableEntry>& entries) {
-  std::vector<Sheet> sheets;
-  for (const TableEntry& entry : entries) {
-    if (sheets.empty() || sheets.back().table != entry.published.table)
-      sheets.push_back({entry.published.table});
-    auto& columns = sheets.back().columns;
-    sheets.back().entries.push_back(&entry);
-    if (std::find(columns.begin(), columns.end(), column_of(entry.published)) == columns.end())
-      columns.push_back(column_of(entry.published));
+EntryCounts count_entries(const std::vector<TableEntry>& entries) {
+  EntryCounts counts{static_cast<int>(entries.size())};
+  for (const SummaryGroup& group : summarise(entries)) {
+    counts.n_failed += group.n_failed;
+    counts.n_reproduced += group.n_reproduced;
   }
-  for (auto& [table, columns, rows, of_table] : sheets)
-    for (const TableEntry* entry : of_table) {
-      const PublishedFigure& p = entry->published;
-      auto row = std::find_if(rows.begin(), rows.end(), [&](const Sheet::Row& r) {
-        return r.test == p.test && r.measure == p.measure;
-      });
-      if (row == rows.end())
-        row = rows.insert(row, {p.test, p.measure, std::vector<const TableEntry*>(columns.size()), entry});
-      row->cells[std::find(columns.begin(), columns.end(), column_of(p)) - columns.begin()] = entry;
-    }
-  return sheets;
+  return counts;
 }
 
-std::string name_of(const Sheet& sheet) {
-  return (sheet.table == "5.12" ? "Figure " : "Table ") + sheet.table;
+void write_tables_text(std::ostream& out, const ThesisResults& results) {
+  print(out, "Each figure: ours, then its difference from the printed one. r = (MSM - FEM)/FEM x 100 %.\n\n");
+  for (const std::string& line : lines_of(sheets_of(results.entries))) out << line << '\n';
+  write_marks(out, results.entries);
+  out << '\n';
+  write_counts(out, results.entries);
+  write_advice_table(out, results.advice);
 }
 
-std::string name_of(const PublishedFigure& figure) {
-  std::string name = figure.test + " " + figure.measure;
-  for (const std::string& part : column_of(figure)) name += part.empty() ? "" : ", " + part;
-  return name;
-}
-
-std::string subject_of(const Sheet& sheet) {
-  if (sheet.table == "4.1") return "pseudo-stiffnesses k' of the springs, k = (L0/2) k' E";
-  if (sheet.table == "4.2") return "eigenvalues (N/mm for E = 1 MPa, L0 = 2 mm) and multiplicities";
-  if (sheet.table == "4.3") return "similarity h of the two matrices' eigenspaces";
-  if (sheet.entries.front()->published.unit == "mm3") return "volume of the springs' body, mm3";
-  return "error r = (MSM - FEM)/FEM x 100 %";
-}
-
-void write_tables_text(std::ostream& out, const ThesisResults& results, Commands commands) {
-  for (const Sheet& sheet : sheets_of(results.entries)) write_sheet(out, sheet, commands);
-  if (commands == Commands::one_per_table)
-    fmt::print(out,
-               "\nThe command behind every other number: --trace, or the column `command` of tables.csv.\n");
-  write_designs_text(out, results.designs);
-  write_volumes_text(out, results.volumes, results.cell_volume_changes);
-  write_advice_text(out, results.advice);
-  write_summary_text(out, summarise(results.entries));
+void write_where_text(std::ostream& out, const ThesisResults& results, const std::string& folder) {
+  if (folder.empty())
+    return write_paragraph(out,
+                           "Audit of each figure (every reference, what is known of it, the command that "
+                           "repeats it): springproof tables --trace, or --out DIR for files.");
+  std::string names = "report.html";
+  if (!results.designs.empty()) names += ", designs.csv, advice.csv";
+  if (!results.cases.empty()) names += ", volumes.csv, box_plot.csv";
+  write_paragraph(out, fmt::format("Audit of each figure: audit.txt, tables.csv and tables.json in {}; also "
+                                   "there: {}.",
+                                   folder, names));
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,7 @@
 #include "compare/write/write_stress.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
@@ -22,11 +23,12 @@ std::string eigenvalue_text(const cases::Solution& s) {
 
 void write_row(std::ostream& out, const StressRow& row) {
   const cases::Solution& s = row.answer.solution;
-  print(out, "  {:<7}{:<21} {:>8.5g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n", row.expected.model,
+  print(out, "  {:<7}{:<21} {:>7.4g} {:>9.1e} {:>6} {:>11} {:>9} {:>9.3f}  {}\n", row.expected.model,
         cases::name_of(s.outcome), s.load_reached, s.residual, s.newton_iterations, eigenvalue_text(s),
         s.inverted_cells, row.answer.seconds(), row.misses.empty() ? "as expected" : "DIFFERS");
-  for (const std::string& miss : row.misses) print(out, "         {}\n", miss);
-  if (!s.message.empty()) print(out, "         {}\n", s.message);
+  const std::string indent(9, ' ');
+  for (const std::string& miss : row.misses) write_paragraph(out, miss, indent, indent);
+  if (!s.message.empty()) write_paragraph(out, s.message, indent, indent);
 }
 
 Json row_to_json(const StressRow& row) {
@@ -42,8 +44,8 @@ Json row_to_json(const StressRow& row) {
 } // namespace
 
 void write_stress_text(std::ostream& out, const StressResult& result) {
-  print(out, "{}: {}\n", result.hard_case.name, result.hard_case.description);
-  print(out, "  {:<7}{:<21} {:>8} {:>9} {:>6} {:>11} {:>9} {:>9}\n", "model", "outcome", "load", "residual",
+  write_paragraph(out, result.hard_case.name + ": " + result.hard_case.description, "", "  ");
+  print(out, "  {:<7}{:<21} {:>7} {:>9} {:>6} {:>11} {:>9} {:>9}\n", "model", "outcome", "load", "residual",
         "iter.", "eig. N/mm", "inverted", "seconds");
   for (const StressRow& row : result.rows) write_row(out, row);
   if (const auto ratio = result.hybrid_over_springs())

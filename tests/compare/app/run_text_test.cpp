@@ -113,7 +113,7 @@ TEST_CASE("the verdict has the numbers of the JSON") {
 }
 
 TEST_CASE("what is to be typed next is a command that works, with the settings that were typed",
-          "[unit-long]") {
+          "[long]") {
   const TemporaryFolder folder;
   const std::string text = content(source + "/cases/gates/sheared_block.toml");
   const std::string file = folder.write("it's a case.toml", text.substr(0, text.find("[[expect]]")));

@@ -157,7 +157,7 @@ def assert_same_rows(found, expected, n):
 def test_sweep(folder):
     """A sweep: the same rows, errors and counters, and every file; the mechanism is a failed row."""
     whole = springproof("sweep", "--quick", TINY, "--out", folder / "whole")
-    assert whole.returncode == 1, whole
+    assert whole.returncode == 0, whole
     cut = [springproof("sweep", "--quick", "--budget", 1e-3, TINY, "--out", folder / "cut")]
     cut.append(springproof("merge", *shards(folder / "cut-parts", 2, "sweep", "--quick", "--budget", 1e-3, TINY), "--out", folder / "cut-merged"))
     assert [done.returncode for done in cut] == [0, 0] and all("budget of 0.001" in done.stdout for done in cut), cut
@@ -165,7 +165,7 @@ def test_sweep(folder):
     for n in (2, 3):
         parts = shards(folder, n, "sweep", "--quick", TINY)
         merged = springproof("merge", *parts, "--out", folder / f"merged{n}")
-        assert merged.returncode == 1 and "no stiffness" in merged.stdout, merged
+        assert merged.returncode == 0 and "no stiffness" in merged.stdout, merged
         assert_same_rows(rows(folder / f"merged{n}"), rows(folder / "whole"), 54)
         assert files(folder / f"merged{n}").keys() == files(folder / "whole").keys()
     record = parts[0] / "shard.json"

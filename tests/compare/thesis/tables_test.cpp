@@ -34,8 +34,13 @@ std::string words_of(const Json& entry) {
 TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[long]") {
   const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
-  CHECK(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()) ==
-        output("tables 4.1 4.3 5.12 --workers 3 --out " + three.string()));
+  const auto without = [](std::string text, const std::string& name) { // of the folder, which the text names
+    const std::size_t at = text.find(name);
+    REQUIRE(at != std::string::npos);
+    return text.erase(at, name.size());
+  };
+  CHECK(without(output("tables 4.1 4.3 5.12 --workers 1 --out " + one.string()), one.string()) ==
+        without(output("tables 4.1 4.3 5.12 --workers 3 --out " + three.string()), three.string()));
   int n_files = 0, n_drawn = 0;
   for (const auto& file : fs::recursive_directory_iterator(one)) {
     if (file.is_directory() || file.path().filename() == "report.html")
@@ -45,7 +50,8 @@ TEST_CASE("the same tables come out byte for byte, on one worker and on three", 
     CHECK(content(file.path()) == content(three / inside));
     ++(inside.has_parent_path() ? n_drawn : n_files);
   }
-  CHECK(n_files == 5 + 3); // tables as text, CSV, JSON; volumes and box plots; a .vtu for each bar
+  CHECK(n_files ==
+        6 + 3); // tables as text, CSV, JSON, their audit; volumes and box plots; a .vtu for each bar
   CHECK(n_drawn > 0);
   CHECK(fs::file_size(one / "report.html") > 100'000);
 }
@@ -78,30 +84,38 @@ TEST_CASE("a stiffness of table 4.1 comes out of its command in N/m") {
         Approx(entry["computed"].get<double>()).epsilon(1e-9)); // least squares at another E
 }
 
-// The project's main job, whole; the bounds are those that an independent computation of the thesis's cases
-// reaches.
-TEST_CASE(
-    "at least 75 of 90 errors in print are met within a point, all volumes within 2 mm3, the bar within 1.6 "
-    "points",
-    "[verification][long]") {
-  const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.2 5.3 5.4 5.12 --json"));
-  const auto group = [&](const std::string& name) {
-    for (const Json& candidate : document["summary"]["groups"])
-      if (candidate["name"] == name) return candidate;
-    FAIL("no group " << name);
-    return Json();
-  };
-  const auto n_beyond = [](const Json& of_group, double bound) {
-    for (const Json& within : of_group["within"])
-      if (within["bound"] == bound) return within["neither"].get<int>();
-    FAIL("no bound " << bound);
-    return 0;
-  };
-  CHECK(group("errors, beta_1 aside")["entries"] == 90);
-  CHECK(n_beyond(group("errors, beta_1 aside"), 1) <= 15);
-  CHECK(group("volumes (5.2)")["entries"] == 6);
-  CHECK(n_beyond(group("volumes (5.2)"), 2) == 0);
-  CHECK(group("bar (5.12)")["entries"] == 3);
-  CHECK(n_beyond(group("bar (5.12)"), 1.6) == 0);
+namespace {
+
+Json group(const Json& document, const std::string& name) {
+  for (const Json& candidate : document["summary"]["groups"])
+    if (candidate["name"] == name) return candidate;
+  FAIL("no group " << name);
+  return Json();
+}
+
+int n_beyond(const Json& of_group, double bound) {
+  for (const Json& within : of_group["within"])
+    if (within["bound"] == bound) return within["neither"].get<int>();
+  FAIL("no bound " << bound);
+  return 0;
+}
+
+} // namespace
+
+// The bounds are those that an independent computation of the thesis's cases reaches.
+TEST_CASE("all volumes in print are met within 2 mm3, the bar within 1.6 points", "[verification][long]") {
+  const Json document = Json::parse(output("tables 5.2 5.12 --json"));
+  CHECK(group(document, "volumes (5.2)")["entries"] == 6);
+  CHECK(n_beyond(group(document, "volumes (5.2)"), 2) == 0);
+  CHECK(group(document, "bar (5.12)")["entries"] == 3);
+  CHECK(n_beyond(group(document, "bar (5.12)"), 1.6) == 0);
+}
+
+// A pin of our own count, not a proof: print itself is wrong in some of these.
+TEST_CASE("of the 90 errors in print, beta_1 aside, no more are missed by a point than were",
+          "[regression][long]") {
+  const Json document = Json::parse(output("tables 4.5 4.6 4.7 5.1 5.3 5.4 --json"));
+  CHECK(group(document, "errors, beta_1 aside")["entries"] == 90);
+  CHECK(n_beyond(group(document, "errors, beta_1 aside"), 1) <= 15);
   for (const Json& entry : document["entries"]) CHECK(entry["computed"].is_number());
 }

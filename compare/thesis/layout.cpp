@@ -1,0 +1,192 @@
+#include "compare/thesis/layout.hpp"
+
+#include "compare/provenance/paragraph.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace springproof::compare {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+constexpr std::size_t between_tables = 4; ///< characters
+constexpr std::size_t half_screen = (screen_width - between_tables) / 2;
+
+Lines lines_in(const std::string& text) {
+  Lines lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool is_of_one_cell(const Sheet& sheet) {
+  return sheet.entries.front()->published.test == "cell";
+}
+
+std::string unit_text(const Sheet& sheet) {
+  const std::string& unit = sheet.entries.front()->published.unit;
+  if (is_of_one_cell(sheet)) return subject_of(sheet);
+  return unit == "%" ? "errors r, %" : "volumes of the springs' body, " + unit;
+}
+
+/// A part of the columns' names if all have the same, else nothing.
+std::optional<std::string> common_part(const Sheet& sheet, std::size_t part) {
+  const std::string& first = sheet.columns.front()[part];
+  for (const auto& column : sheet.columns)
+    if (column[part] != first) return std::nullopt;
+  return first;
+}
+
+/// Designs that were made for another Poisson's ratio than the tissue's: ", linear_method designed for ...".
+std::string other_ratios(const Sheet& sheet) {
+  std::set<std::string> designs;
+  for (const TableEntry* entry : sheet.entries)
+    if (const PublishedFigure& p = entry->published; p.design_poissons_ratio != p.poissons_ratio)
+      designs.insert(fmt::format(", {} designed for nu = {:g}", p.design, p.design_poissons_ratio));
+  return fmt::format("{}", fmt::join(designs, ""));
+}
+
+/// Name, quantity, and whatever its columns have in common.
+std::string title_of(const Sheet& sheet) {
+  std::string title = name_of(sheet) + ": " + unit_text(sheet);
+  const bool is_ogden = sheet.entries.front()->published.material == "ogden";
+  if (!is_of_one_cell(sheet))
+    if (const auto design = common_part(sheet, 0)) title += ", springs by " + *design;
+  if (is_ogden)
+    title += ", Ogden's material";
+  else if (const auto nu = common_part(sheet, 1))
+    title += ", " + *nu;
+  if (const auto loads = common_part(sheet, 2); loads && !loads->empty()) title += ", " + *loads + " loads";
+  return title + other_ratios(sheet);
+}
+
+/// What tells a column from the others.
+std::string head_of(const Sheet& sheet, const std::array<std::string, 3>& column) {
+  std::vector<std::string> parts;
+  for (std::size_t part = 0; part < column.size(); ++part)
+    if (!common_part(sheet, part)) parts.push_back(column[part]);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// A row is named by its measure, or by its test where all rows have one measure.
+std::string label_of(const Sheet& sheet, const Sheet::Row& row) {
+  static const std::map<std::string, std::string> symbols{
+      {"edge", "k'_e"}, {"face_diagonal", "k'_f"}, {"internal_diagonal", "k'_d"}, {"beta_1", "beta_1 (!)"}};
+  const bool has_one_measure =
+      std::all_of(sheet.rows.begin(), sheet.rows.end(),
+                  [&](const Sheet::Row& other) { return other.measure == row.measure; });
+  if (has_one_measure && sheet.rows.size() > 1) return row.test;
+  const auto symbol = symbols.find(row.measure);
+  return symbol == symbols.end() ? row.measure : symbol->second;
+}
+
+/// "msm_eigenvalue_2": the second row of the column "msm_eigenvalue".
+Layout spectrum_layout(const Sheet& sheet) {
+  Layout layout{title_of(sheet), {}, {}, 17};
+  for (const Sheet::Row& row : sheet.rows) {
+    const std::size_t last = row.measure.rfind('_');
+    const std::string head = row.measure.substr(0, last), label = row.measure.substr(last + 1);
+    const auto has_label = [&](const Layout::Row& other) { return other.label == label; };
+    auto column = std::find(layout.heads.begin(), layout.heads.end(), head);
+    if (column == layout.heads.end()) column = layout.heads.insert(column, head);
+    auto found = std::find_if(layout.rows.begin(), layout.rows.end(), has_label);
+    if (found == layout.rows.end()) found = layout.rows.insert(found, {label, {}});
+    const auto place = static_cast<std::size_t>(column - layout.heads.begin());
+    if (found->cells.size() <= place) found->cells.resize(place + 1);
+    found->cells[place] = row.first;
+  }
+  for (Layout::Row& row : layout.rows) row.cells.resize(layout.heads.size());
+  return layout;
+}
+
+std::size_t label_width(const Layout& layout) {
+  std::size_t width = 0;
+  for (const Layout::Row& row : layout.rows) width = std::max(width, n_characters(row.label));
+  return 2 + width;
+}
+
+std::size_t width_of(const Layout& layout) {
+  return label_width(layout) + layout.heads.size() * layout.cell_width;
+}
+
+bool is_narrow(const Layout& layout) {
+  return width_of(layout) <= half_screen;
+}
+
+std::string difference_text(const TableEntry& entry, const ComputedFigure& computed) {
+  const std::string text = value_text(entry.difference(computed), digits_of(entry.published));
+  return text.front() == '-' ? text : "+" + text;
+}
+
+Lines beside(const Lines& left, const Lines& right) {
+  Lines lines;
+  for (std::size_t l = 0; l < std::max(left.size(), right.size()); ++l) {
+    const std::string start = l < left.size() ? left[l] : "";
+    lines.push_back(l < right.size() ? fmt::format("{:<{}}{}", start, half_screen + between_tables, right[l])
+                                     : start);
+  }
+  return lines;
+}
+
+} // namespace
+
+Layout layout_of(const Sheet& sheet) {
+  if (is_of_one_cell(sheet) && sheet.columns.size() == 1) return spectrum_layout(sheet);
+  Layout layout{title_of(sheet), {}, {}, is_of_one_cell(sheet) ? std::size_t{15} : 17};
+  for (const auto& column : sheet.columns) layout.heads.push_back(head_of(sheet, column));
+  for (const Sheet::Row& row : sheet.rows) layout.rows.push_back({label_of(sheet, row), row.cells});
+  return layout;
+}
+
+std::string cell_text(const TableEntry& entry) {
+  if (!entry.declared().value) return "failed";
+  const ComputedFigure& nearest = *entry.nearest();
+  return fmt::format("{} {:>7}{}", value_text(nearest.value, digits_of(entry.published)),
+                     difference_text(entry, nearest),
+                     entry.has_failed()               ? "!"
+                     : &nearest != &entry.declared()  ? "*"
+                     : entry.published.test == "cell" ? ""
+                                                      : " ");
+}
+
+std::vector<std::string> lines_of(const Layout& layout) {
+  const std::size_t n = layout.heads.size(), labels = label_width(layout);
+  const std::size_t n_fitting = std::max<std::size_t>(1, (screen_width - labels) / layout.cell_width);
+  const std::size_t n_parts = (n + n_fitting - 1) / n_fitting, n_columns = (n + n_parts - 1) / n_parts;
+  Lines lines = lines_in(paragraph(layout.title, "", "  ", is_narrow(layout) ? half_screen : screen_width));
+  for (std::size_t from = 0; from < n; from += n_columns) {
+    const std::size_t to = std::min(n, from + n_columns);
+    std::string heads(labels, ' ');
+    for (std::size_t c = from; c < to; ++c)
+      heads += fmt::format("{:>{}}", layout.heads[c], layout.cell_width);
+    if (heads.find_first_not_of(' ') != std::string::npos) lines.push_back(heads);
+    for (const auto& [label, cells] : layout.rows) {
+      std::string line = fmt::format("{:<{}}", "  " + label, labels);
+      for (std::size_t c = from; c < to; ++c)
+        line += fmt::format("{:>{}}", cells[c] ? cell_text(*cells[c]) : "", layout.cell_width);
+      lines.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> lines_of(const std::vector<Sheet>& sheets) {
+  std::vector<Layout> layouts;
+  for (const Sheet& sheet : sheets) layouts.push_back(layout_of(sheet));
+  Lines all;
+  for (std::size_t s = 0; s < layouts.size(); ++s) {
+    Lines lines = lines_of(layouts[s]);
+    if (s + 1 < layouts.size() && is_narrow(layouts[s]) && is_narrow(layouts[s + 1]))
+      lines = beside(lines, lines_of(layouts[++s]));
+    if (!all.empty()) all.emplace_back();
+    all.insert(all.end(), lines.begin(), lines.end());
+  }
+  return all;
+}
+
+} // namespace springproof::compare

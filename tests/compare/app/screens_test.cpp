@@ -1,0 +1,163 @@
+// What commands print, as their users see it: lines of a screen, the same options, the exit status.
+
+#include "tests/support/run_program.hpp"
+#include "tests/support/screen.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string source = SPRINGPROOF_SOURCE_DIR;
+const std::string tiny = source + "/tests/compare/sweep/tiny.toml";
+constexpr std::size_t screen = 100; ///< characters
+
+/// Standard output of the program in the project's folder; the exit status must be 0.
+std::string printed_by(const std::string& words) {
+  const ProgramRun run = run_program(words, "cd " + source + " && ");
+  REQUIRE(run.status == 0);
+  return run.out;
+}
+
+} // namespace
+
+TEST_CASE("the tables' audit leaves the text for files of --out, which the text names") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  const std::string text = printed_by("tables 4.1 --out " + out);
+  CHECK(width_of_text(text.substr(0, text.find("Audit"))) <= screen);
+  for (const char* file : {"audit.txt", "tables.csv", "tables.json", "report.html"}) {
+    CHECK_THAT(text, Contains(file));
+    CHECK(fs::file_size(fs::path(out) / file) > 100);
+  }
+  const std::string audit = content(out + "/audit.txt");
+  CHECK_THAT(audit, Contains("build/springproof design --young") && Contains("by the declared reference"));
+  CHECK(audit == printed_by("tables 4.1 --trace"));
+  CHECK(text.rfind(content(out + "/tables.txt"), 0) == 0);
+}
+
+TEST_CASE("all tables with the advice stand on 120 lines of 100 characters", "[verification][long]") {
+  const std::string text = printed_by("tables");
+  CHECK(lines_of_text(text).size() <= 120);
+  CHECK(width_of_text(text) <= screen);
+  CHECK_THAT(text, Contains("published values: ") && Contains("Which design to use"));
+  CHECK_THAT(text, Contains("springproof tables --trace"));
+}
+
+TEST_CASE("a comparison of designs ends with the one to use", "[long]") {
+  const std::string words = "design --young 0.3 --poisson 0.35 --compare --measure";
+  const std::string text = printed_by(words);
+  CHECK(width_of_text(text) <= screen);
+  const std::vector<std::string> lines = lines_of_text(text);
+  const auto last = std::find(lines.rbegin(), lines.rend(), "");
+  REQUIRE(last != lines.rend());
+  const std::string words_of_end = *last.base();
+  const Json document = Json::parse(printed_by(words + " --json"));
+  const std::string recommended = document["recommended"];
+  CHECK(words_of_end.rfind("Use " + recommended + " for E = 0.3 MPa and nu = 0.35: its worst error", 0) == 0);
+  double least = 1e9; // percent
+  std::string best;
+  for (const Json& method : document["methods"])
+    if (method.contains("cube") && method["cube"]["stable"] &&
+        method["cube"]["worst_error_percent"] < least) {
+      least = method["cube"]["worst_error_percent"];
+      best = method["method"];
+    }
+  CHECK(recommended == best);
+}
+
+TEST_CASE("a comparison that is not measured tells how to find the one to use") {
+  const std::string text = printed_by("design --young 0.3 --poisson 0.45 --compare");
+  CHECK(width_of_text(text) <= screen);
+  CHECK_THAT(text, Contains("--measure"));
+}
+
+TEST_CASE("--set changes a key of the case in sweep, gate, eigen and design, and a wrong one is told as run "
+          "tells it") {
+  const std::string cube = "cases/gates/sheared_cube.toml";
+  const std::string eigen = "eigen --case " + cube;
+  CHECK(printed_by(eigen) != printed_by(eigen + " --set material.poissons_ratio=0.2"));
+  CHECK(Json::parse(
+            printed_by("design --case " + cube + " --set material.poissons_ratio=0.2 --json"))["settings"] ==
+        Json{"material.poissons_ratio=0.2"});
+  const std::string wrong = " --set material.poisson=0.2";
+  const std::string before = "cd " + source + " && ";
+  const ProgramRun run = run_program("run " + cube + wrong, before);
+  REQUIRE(run.status == 2);
+  for (const std::string& command :
+       {"gate " + cube, "sweep " + cube, eigen, "eigen " + cube, "design --case " + cube}) {
+    const ProgramRun other = run_program(command + wrong, before);
+    CHECK(other.status == 2);
+    CHECK(other.error == run.error);
+  }
+  CHECK(run_program("eigen --poisson 0.3 --set material.poissons_ratio=0.2").status == 2);
+}
+
+TEST_CASE("a sweep with --set has it in its text and its JSON, and answers another question") {
+  const TemporaryFolder folder;
+  const std::string one = (folder.path / "one").string(), other = (folder.path / "other").string();
+  const std::string words = "sweep --quick --budget 1e-3 " + tiny; // the reference's meshes alone
+  const std::string setting = "material.poissons_ratio=0.3";
+  const std::string text = printed_by(words + " --set " + setting + " --out " + one);
+  CHECK_THAT(text, Contains("with " + setting));
+  CHECK(lines_of_text(text).size() <= 45);
+  CHECK(width_of_text(text.substr(0, text.find("the sweep took"))) <= screen);
+  printed_by(words + " --out " + other);
+  const Json with = Json::parse(content(one + "/sweep.json")),
+             without = Json::parse(content(other + "/sweep.json"));
+  CHECK(with["settings"] == Json{setting});
+  CHECK(without["settings"] == Json::array());
+  CHECK(with["reference"]["field"]["value"] != without["reference"]["field"]["value"]);
+}
+
+TEST_CASE("a part of a sweep that was timed with another --set is timed again, and never merged") {
+  const TemporaryFolder folder;
+  const std::string words = "sweep --quick --budget 1e-3 " + tiny;
+  const auto part = [&](const std::string& number, const std::string& settings) {
+    const std::string out = (folder.path / number).string();
+    REQUIRE(run_program(words + settings + " --shard " + number + "/2 --out " + out).status == 0);
+    return out;
+  };
+  const std::string setting = " --set material.poissons_ratio=0.3";
+  const std::string one = part("1", ""), two = part("2", setting);
+  CHECK(run_program("merge " + one + " " + two).status == 2);
+  part("1", setting); // over what is kept
+  const ProgramRun merged = run_program("merge " + one + " " + two + " --json");
+  REQUIRE(merged.status == 0);
+  const Json document = Json::parse(merged.out);
+  CHECK(document["settings"] == Json{"material.poissons_ratio=0.3"});
+  const ProgramRun whole = run_program(words + setting + " --json");
+  CHECK(Json::parse(whole.out)["reference"]["field"] == document["reference"]["field"]);
+}
+
+TEST_CASE("designs that are refused among others leave the status of what was answered") {
+  // The multi-load method designs for cubes alone.
+  const std::string words =
+      "eigen " + source + "/cases/studies/released_bar.toml --modes 2 --set body.cells=[1,1,4] --designs ";
+  const ProgramRun both = run_program(words + "multi_load,moduli");
+  CHECK(both.status == 0);
+  CHECK_THAT(both.out, Contains("multi_load: ") && Contains("moduli\n"));
+  CHECK(width_of_text(both.out) <= screen);
+  CHECK(run_program(words + "multi_load").status == 1); // all that was asked for is refused
+  CHECK(run_program("design --young 0.3 --poisson -0.2 --compare").status == 0);
+  CHECK(run_program("design --young 0.3 --poisson -0.2 --method hybrid").status == 2);
+}
+
+TEST_CASE("what eigen, export and stress print stands in 100 characters") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path / "out").string();
+  for (const std::string& words :
+       {std::string("eigen --poisson 0.3 --body 2"),
+        std::string("eigen --young 1 --poisson 0 --method moduli"),
+        std::string("stress mechanism disconnected_piece"),
+        "export cases/gates/sheared_cube.toml --to sofa --set msm.design=moduli --out " + out}) {
+    const std::string text = printed_by(words);
+    INFO(text);
+    CHECK(width_of_text(text) <= screen);
+    CHECK_FALSE(has_shouting(text, {"SOFA"}));
+  }
+}
