@@ -65,7 +65,7 @@ void write_row_of_errors(std::ostream& out, const std::string& name, const LoadS
     fmt::print(out, "{:<17}{}\n", "", in_short(one_line(errors.failure), screen_width - 17));
 }
 
-/// For either load set a column per measure, then what they come to; volumes by their worst alone.
+/// Writes, for either load set, a column per measure and what they come to; volumes by their worst alone.
 void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& attempts) {
   for (const auto& [name, load_set] :
        {std::pair("small", &CubeErrors::small), std::pair("large", &CubeErrors::large)}) {

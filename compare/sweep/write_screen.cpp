@@ -31,8 +31,8 @@ std::string short_time(double seconds) {
   return seconds < 0.9995 ? short_number(1e3 * seconds) + " ms" : short_number(seconds) + " s";
 }
 
-/// Without the family, whose column it stands in, and the tolerance, which the files have. Its cells stay
-/// where its method has to be cut.
+/// Name without the family, whose column it stands in, and the tolerance, which the files have. Its cells
+/// stay where its method has to be cut.
 std::string short_name(const Point& point, std::size_t width) {
   const std::string family = "springs ";
   std::string name = point.name.substr(0, point.name.find(" to "));
