@@ -62,6 +62,11 @@ RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
 
 void print_ranking(const RunOptions& options, const cases::Case& definition, const Ranking& ranking) {
   write_ranking_text(std::cout, ranking);
+  if (!options.out.empty())
+    write_wrapped(std::cout,
+                  "Springs of each design and all errors: " + options.out +
+                      "/ranking.json; this table: ranking.txt and ranking.csv there",
+                  2);
   write_next_commands(std::cout, next_commands(as_asked(options, definition), definition.msm, ranking));
 }
 

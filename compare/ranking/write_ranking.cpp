@@ -56,14 +56,14 @@ void write_ranking_text(std::ostream& out, const Ranking& ranking) {
       fmt::format("{}: designs by their worst error against {}", ranking.case_name, reference_text(ranking)),
       2);
   if (ranking.fem.converged()) write_table(out, ranking);
-  if (ranking.recommended())
-    write_wrapped(out, "  > recommended; moduli: whether the lattice has those of the material", 4);
   for (const RankedDesign& ranked : ranking.designs)
     if (!ranked.worst)
       write_wrapped(out,
                     fmt::format("    {} {}: {}", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
                                 ranked.refusal.empty() ? ranked.failure : ranked.refusal),
                     6);
+  if (ranking.recommended())
+    write_wrapped(out, "  >: recommended; moduli: whether the lattice has those of the material", 4);
   write_expectations_text(out, ranking.gates);
   write_wrapped(out, advice_of(ranking), 2);
 }

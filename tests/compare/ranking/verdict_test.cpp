@@ -54,7 +54,7 @@ TEST_CASE("the verdict holds the springs' error against their mesh's as far as b
              Contains("from the finite elements on the same mesh") && !Contains("mesh does"));
 }
 
-TEST_CASE("times of equilibria are compared, setup and solve; a step in time is held against a screen") {
+TEST_CASE("times of equilibria are compared with their setup, and a step in time is held against a screen") {
   compare::Comparison comparison = solved(97, 80);
   CHECK(compare::time_of(comparison) ==
         "Time: the springs 0.1 s; the finite elements 2 s; the springs are 20 times as fast.");
