@@ -3,7 +3,6 @@
 #include "compare/provenance/print.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace springproof::compare {
 
@@ -21,10 +20,12 @@ std::size_t n_characters(const std::string& text) {
 
 std::string paragraph(const std::string& text, const std::string& first, const std::string& others,
                       std::size_t width) {
-  std::istringstream words(text);
   std::string done, line = first;
   bool is_empty = true; // but for what it begins with
-  for (std::string word; words >> word;) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin); // empty between two blanks, which stay
+    begin = end + 1;
     if (!is_empty && n_characters(line) + 1 + n_characters(word) > width) {
       done += line + "\n";
       line = others;

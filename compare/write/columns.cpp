@@ -1,10 +1,10 @@
 #include "compare/write/columns.hpp"
 
+#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 
 namespace springproof::compare {
 
@@ -19,29 +19,12 @@ std::string blanks(std::size_t n) {
 } // namespace
 
 std::size_t printed_width(const std::string& text) {
-  const std::string line = one_line(text);
-  return static_cast<std::size_t>(std::count_if(
-      line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return n_characters(one_line(text));
 }
 
 void write_wrapped(std::ostream& out, const std::string& text, std::size_t indent) {
   const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
-  std::string line = blanks(first);
-  bool is_empty = true; // but for its blanks
-  std::size_t begin = first;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    begin = end + 1;
-    if (!is_empty && printed_width(line) + 1 + printed_width(word) > text_width) {
-      print(out, "{}\n", line);
-      line = blanks(indent);
-      is_empty = true;
-    }
-    line += (is_empty ? "" : " ") + word;
-    is_empty = false;
-  }
-  print(out, "{}\n", line);
+  write_paragraph(out, text.substr(first), blanks(first), blanks(indent));
 }
 
 std::vector<std::size_t> TextTable::widths() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "compare/provenance/paragraph.hpp"
+
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -7,8 +9,6 @@
 
 /// Text for a terminal of 100 columns.
 namespace springproof::compare {
-
-constexpr std::size_t text_width = 100;
 
 /// Number of characters of a text as it is printed, see one_line().
 std::size_t printed_width(const std::string& text);

@@ -133,7 +133,7 @@ void write_measures_text(std::ostream& out, const Comparison& comparison) {
 void write_mesh_study_text(std::ostream& out, const MeshStudy& study) {
   std::size_t n_meshes = study.refine.size();
   if (n_meshes < 2) return;
-  while (n_meshes > 3 && study_table(study, n_meshes).width() > text_width) --n_meshes;
+  while (n_meshes > 3 && study_table(study, n_meshes).width() > screen_width) --n_meshes;
   study_table(study, n_meshes).write(out);
   if (n_meshes < study.refine.size())
     write_wrapped(out, "  values on coarser meshes: in --json, and in results.json of --out", 4);

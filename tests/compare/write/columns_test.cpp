@@ -25,7 +25,7 @@ TEST_CASE("a text is broken at blanks before column 100, and loses none of its w
   std::istringstream in(lines);
   int n_lines = 0;
   for (std::string line; std::getline(in, line); ++n_lines) {
-    CHECK(compare::printed_width(line) <= compare::text_width);
+    CHECK(compare::printed_width(line) <= compare::screen_width);
     CHECK(line.find_first_not_of(' ') == (n_lines == 0 ? 2u : 4u));
   }
   CHECK(n_lines > 3);
