@@ -30,11 +30,6 @@ cases::Ogden checked(const cases::Ogden& ogden) {
   return ogden;
 }
 
-int n_materials(const DesignOptions& o) {
-  return (o.youngs_modulus != 0) + !o.ogden_mu.empty() + !o.mooney_rivlin.empty() + (o.neo_hookean != 0) +
-         !o.yeoh.empty() + !o.curve_file.empty();
-}
-
 /// A curve's material at small strains: its secant at the strain that is closest to 0, and not 0.
 cases::Material at_rest(const msm::UniaxialCurve& curve) {
   std::size_t nearest = curve.axial_strain[0] == 0 ? 1 : 0;
@@ -146,6 +141,11 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
 }
 
 } // namespace
+
+int n_materials(const DesignOptions& o) {
+  return (o.youngs_modulus != 0) + !o.ogden_mu.empty() + !o.mooney_rivlin.empty() + (o.neo_hookean != 0) +
+         !o.yeoh.empty() + !o.curve_file.empty();
+}
 
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");

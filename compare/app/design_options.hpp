@@ -34,6 +34,10 @@ void add_design_options(CLI::App& command, DesignOptions& options);
 
 /// Names of designs, or "all", as --designs.
 CLI::Option* add_designs_option(CLI::App& command, std::vector<std::string>& names, const std::string& text);
+
+/// How many materials the options name, apart from a case file's.
+int n_materials(const DesignOptions& options);
+
 /// The designs that are asked for; "all": every one that is made from a material, and the case's own.
 std::vector<cases::Design> designs_of(const std::vector<std::string>& names, const cases::Case& definition);
 

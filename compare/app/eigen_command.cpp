@@ -75,8 +75,7 @@ int run_vibrations(const EigenOptions& options) {
 
 int run(EigenOptions options) {
   if (!options.vibrating.empty()) return run_vibrations(options);
-  if (options.design.case_file.empty() && options.design.youngs_modulus == 0)
-    options.design.youngs_modulus = 1;
+  if (options.design.case_file.empty() && n_materials(options.design) == 0) options.design.youngs_modulus = 1;
   if (options.design.case_file.empty() && options.design.method.empty())
     options.design.method =
         cases::name_of(cases::Design::linear_method); // whose eigenspaces the thesis prints

@@ -12,13 +12,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string source = SPRINGPROOF_SOURCE_DIR;
-const std::string tiny = source + "/tests/compare/sweep/tiny.toml";
+const std::string source_folder = SPRINGPROOF_SOURCE_DIR;
+const std::string tiny = source_folder + "/tests/compare/sweep/tiny.toml";
 constexpr std::size_t screen = 100; ///< characters
 
 /// Standard output of the program in the project's folder; the exit status must be 0.
 std::string printed_by(const std::string& words) {
-  const ProgramRun run = run_program(words, "cd " + source + " && ");
+  const ProgramRun run = run_program(words, "cd " + source_folder + " && ");
   REQUIRE(run.status == 0);
   return run.out;
 }
@@ -85,7 +85,7 @@ TEST_CASE("--set changes a key of the case in sweep, gate, eigen and design, and
             printed_by("design --case " + cube + " --set material.poissons_ratio=0.2 --json"))["settings"] ==
         Json{"material.poissons_ratio=0.2"});
   const std::string wrong = " --set material.poisson=0.2";
-  const std::string before = "cd " + source + " && ";
+  const std::string before = "cd " + source_folder + " && ";
   const ProgramRun run = run_program("run " + cube + wrong, before);
   REQUIRE(run.status == 2);
   for (const std::string& command :
@@ -136,8 +136,8 @@ TEST_CASE("a part of a sweep that was timed with another --set is timed again, a
 
 TEST_CASE("designs that are refused among others leave the status of what was answered") {
   // The multi-load method designs for cubes alone.
-  const std::string words =
-      "eigen " + source + "/cases/studies/released_bar.toml --modes 2 --set body.cells=[1,1,4] --designs ";
+  const std::string words = "eigen " + source_folder +
+                            "/cases/studies/released_bar.toml --modes 2 --set body.cells=[1,1,4] --designs ";
   const ProgramRun both = run_program(words + "multi_load,moduli");
   CHECK(both.status == 0);
   CHECK_THAT(both.out, Contains("multi_load: ") && Contains("moduli\n"));
