@@ -4,9 +4,11 @@ first_screen_test.py PROGRAM SOURCE FOLDER [--write] [PAGE...]
 
 A ```text block directly below a ```sh block of one command holds that command's standard output. A line "..." in it stands for lines that
 are left out. Figures are compared to the digits printed. Times, memory and residuals differ from machine to machine: any number will do.
-Commands are run in FOLDER, in the order of the page. Without PAGE the page is README.md.
+They also move the ends of lines, so a paragraph that holds some is compared as one line. Commands are run in FOLDER, in the order of the
+page. Without PAGE the page is README.md.
 
---write puts the real output into the page. A block with "..." keeps its shape: as many lines before it, and as many behind it.
+--write puts the real output into the page. A block with "..." keeps its shape: as many lines or paragraphs before the first, behind the
+last, and between two of them from the line on that begins with the same word.
 """
 
 import pathlib
@@ -21,14 +23,37 @@ NUMBER = r"[-+]?\d+(?:[.,:]\d+)*(?:e[-+]?\d+)?"
 OF_THE_MACHINE = (
     (re.compile(rf"{NUMBER} (ns|us|ms|s|min|h|KB|kB|MB|GB)\b"), r"N \1"),
     (re.compile(rf"(residual[^\s,;]*) {NUMBER}"), r"\1 N"),
+    (re.compile(rf"the (springs|finite elements) are {NUMBER} times as fast"), "one is N times as fast"),
+    (re.compile(r", (not )?less than the N ms"), ", beside the N ms"),
+    (re.compile(r"a step: [^;.]*"), "a step"),  # which rate it keeps
+    (re.compile(rf"real time x {NUMBER}"), "real time x N"),
+    (re.compile(rf"  (yes|no|-) +{NUMBER}$"), r"  \1  N"),  # milliseconds of a design
     (re.compile(r" {2,}"), "  "),  # columns move with the width of a time
 )
+# What begins a paragraph with times in it, and how far its other lines are indented.
+WITH_TIMES = ((re.compile(r"Verdict: |Use "), " " * 2), (re.compile(r"  (fem|springs|peer) {2,}"), " " * 11))
 
 
 def normalised(line):
     for pattern, replacement in OF_THE_MACHINE:
         line = pattern.sub(replacement, line)
     return line.strip()
+
+
+def paragraphs(lines):
+    """Lists of lines: those of a paragraph that holds times, else each line by itself."""
+    parts, indent = [], None
+    for line in lines:
+        if indent is not None and line.startswith(indent):
+            parts[-1].append(line)
+            continue
+        parts.append([line])
+        indent = next((blanks for begins, blanks in WITH_TIMES if begins.match(line)), None)
+    return parts
+
+
+def joined(lines):
+    return [" ".join([part[0], *(line.strip() for line in part[1:])]) for part in paragraphs(lines)]
 
 
 def printed(folder, command):
@@ -39,6 +64,7 @@ def printed(folder, command):
 
 def is_shown_by(shown, output):
     """The first line of a block that the output has not in its place; None where all are there."""
+    shown, output = joined(shown), joined(output)
     at, may_skip = 0, False
     for line in shown:
         if line.strip() == "...":
@@ -53,11 +79,23 @@ def is_shown_by(shown, output):
 
 
 def in_the_shape_of(shown, output):
-    gaps = [n for n, line in enumerate(shown) if line.strip() == "..."]
-    n_before, n_behind = (gaps[0], len(shown) - gaps[-1] - 1) if gaps else (len(output), 0)
-    if n_before + n_behind >= len(output):
+    """The output, with as much left out as the block leaves out."""
+    wanted = [[]]  # lists of paragraphs between "..."
+    for part in paragraphs(shown):
+        if part == ["..."]:
+            wanted.append([])
+        else:
+            wanted[-1].append(part)
+    there = paragraphs(output)
+    if sum(map(len, wanted)) >= len(there) or len(wanted) == 1:
         return output
-    return [*output[:n_before], "...", *output[len(output) - n_behind:]]
+    kept, at = there[:len(wanted[0])], len(wanted[0])
+    for parts in wanted[1:-1]:
+        begin = next((n for n in range(at, len(there)) if there[n][0].split()[:1] == parts[0][0].split()[:1]), at)
+        kept += [["..."], *there[begin:begin + len(parts)]]
+        at = begin + len(parts)
+    kept += [["..."], *there[max(at, len(there) - len(wanted[-1])):]]
+    return [line for part in kept for line in part]
 
 
 def check(folder, page, write):
@@ -101,6 +139,11 @@ def check_the_comparison():
     assert is_shown_by(["...", "verdict"], output) is None and is_shown_by(["u_x  0.6711 mm  -3.2 %", "..."], output) is None
     assert is_shown_by(["u_x  0.6712 mm  -3.2 %", "..."], output) and is_shown_by(output[:2], output) and is_shown_by([*output, "more"], output)
     assert in_the_shape_of(["a", "...", "b"], output) == [output[0], "...", output[2]] and in_the_shape_of(["a"], output) == output
+    rows = ["title", "measure  a", "u_x  1", "Verdict: 2 % in 3 s; the springs", "  are 2 times as fast.", "next", "more"]
+    other = ["title", "measure  a", "u_x  1", "Verdict: 2 % in 12.5 s; the", "  finite elements are 7 times as fast.", "next", "more"]
+    shape = ["title", "...", "u_x  0", "Verdict: 1 %", "..."]
+    assert in_the_shape_of(shape, rows) == ["title", "...", *rows[2:5], "..."]
+    assert is_shown_by(in_the_shape_of(shape, rows), other) is None and is_shown_by(["...", "Verdict: 1 % in 3 s", "..."], other)
 
 
 def main():
