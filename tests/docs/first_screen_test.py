@@ -11,12 +11,13 @@ page. Without PAGE the page is README.md.
 last, and between two of them from the line on that begins with the same word.
 """
 
+import os
 import pathlib
 import re
 import subprocess
 import sys
 
-from run_commands import BLOCK, as_run, commands_of, prepare, write_to_file
+from run_commands import BLOCK, commands_of, prepare, write_to_file
 
 OUTPUT = re.compile(r"\n*```text\n(?P<text>.*?)^```\n", re.DOTALL | re.MULTILINE)
 NUMBER = r"[-+]?\d+(?:[.,:]\d+)*(?:e[-+]?\d+)?"
@@ -57,7 +58,9 @@ def joined(lines):
 
 
 def printed(folder, command):
-    done = subprocess.run(["sh", "-c", as_run(command.partition(" #")[0])], cwd=folder, capture_output=True, text=True, timeout=600)
+    path = f"{folder / 'build'}:{os.environ['PATH']}"  # the program is called as typed, for it prints its name
+    done = subprocess.run(["sh", "-c", command.partition(" #")[0]], cwd=folder, env={**os.environ, "PATH": path}, capture_output=True,
+                          text=True, timeout=600)
     assert done.stdout or done.stderr, f"{command}: nothing printed"
     return [line.rstrip() for line in done.stdout.splitlines()]
 
