@@ -208,7 +208,7 @@ TEST_CASE("the strain energy of a finite strain is the work of the load on its w
 }
 
 TEST_CASE("a cell's stress, strain and energy approach their limits with the square of the mesh width",
-          "[verification]") {
+          "[verification][long]") {
   const auto field = [](const Vector3d& x) -> Vector3d {
     return 0.06 * Vector3d(std::sin(2 * x.y() + x.z()), std::cos(2 * x.x() - x.z()),
                            std::sin(1.5 * x.x() + 1.5 * x.y() - x.z()));

@@ -110,7 +110,7 @@ TEST_CASE(
     CHECK(springs.find("\"" + std::string(field) + "\"") != std::string::npos);
 }
 
-TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none") {
+TEST_CASE("run --converge gives each measure an error bar, or the reason why there is none", "[long]") {
   const ProgramRun study =
       run_program("run --json --only fem --converge " + cases_folder + "/studies/clamped_block_shear.toml");
   REQUIRE(study.status == 0);
@@ -185,7 +185,8 @@ TEST_CASE("run --peer ccx is a third column, and says why when it stays empty") 
   CHECK(result["measures"][0]["peer"].is_null());
 }
 
-TEST_CASE("the place for temporary files is no command, and where it takes none the peer has failed") {
+TEST_CASE("the place for temporary files is no command, and where it takes none the peer has failed",
+          "[long]") {
   const TemporaryFolder folder;
   const fs::path place = folder.path / "it's; touch P; '";
   fs::create_directory(place);

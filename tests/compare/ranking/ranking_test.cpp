@@ -69,7 +69,8 @@ TEST_CASE("a ranking's text ends with its advice, in lines of 100 columns, whate
   std::ostringstream out;
   compare::write_ranking_text(out, ranking);
   std::istringstream in(out.str());
-  for (std::string line; std::getline(in, line);) CHECK(compare::printed_width(line) <= compare::screen_width);
+  for (std::string line; std::getline(in, line);)
+    CHECK(compare::printed_width(line) <= compare::screen_width);
   CHECK_THAT(unwrapped(out.str()), Catch::EndsWith(" " + compare::advice_of(ranking) + " "));
 }
 
@@ -272,8 +273,11 @@ TEST_CASE("designs are ranked by energy and stress too, whatever their cells con
   for (const RankedDesign& ranked : ranking.designs) {
     CAPTURE(ranked.name, ranked.refusal, ranked.failure);
     REQUIRE(ranked.measures.size() == 2);
-    // the load is 121 x 0.002 N on 100 mm^2 in every model: 0.00242 MPa, on the middle of the cube nearly so
-    CHECK(*ranked.measures[1].msm == Approx(*ranked.measures[1].fem).epsilon(0.5));
+    // The load is 121 x 0.002 N on 100 mm^2. Over the height the shear stress of a bar is a parabola, 3/2 of
+    // its mean in the middle; in a body as short as it is high, a few percent from it.
+    const double in_the_middle = 1.5 * 121 * 0.002 / 100;
+    CHECK(*ranked.measures[1].fem == Approx(in_the_middle).epsilon(0.05));
+    CHECK(*ranked.measures[1].msm == Approx(in_the_middle).epsilon(0.05));
     CHECK(*ranked.measures[0].msm > 0);
     CHECK(ranked.worst);
   }

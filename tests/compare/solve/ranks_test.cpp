@@ -149,7 +149,7 @@ Field<double> any_field(const Body& body, unsigned seed) {
 
 TEST_CASE_METHOD(WithMpi,
                  "a grid's equilibrium is the same on any number of ranks, and on full bodies the way to it",
-                 "[ranks]") {
+                 "[ranks][long]") {
   msm::CellStiffness hooke = bodies::hybrid_cell, power_log = hooke;
   power_log.exponents = {-1.3, -1.8, -2.2};
   // Bodies with holes have merged cells on one rank and rediscretised lattices on several: another way.

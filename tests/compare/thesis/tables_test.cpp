@@ -56,7 +56,7 @@ TEST_CASE("the same tables come out byte for byte, on one worker and on three", 
   CHECK(fs::file_size(one / "report.html") > 100'000);
 }
 
-TEST_CASE("tables --json has the promised keys, and each command gives its number again") {
+TEST_CASE("tables --json has the promised keys, and each command gives its number again", "[long]") {
   const Json document = Json::parse(output("tables 4.2 4.3 5.12 --json"));
   CHECK(document["schema"] == 1);
   const Json& entries = document["entries"];

@@ -184,7 +184,7 @@ TEST_CASE("both backends agree on a body with holes, of two materials, and refin
   agree(scene);
 }
 
-TEST_CASE("both backends agree on gravity, of two materials and of weights", "[verification]") {
+TEST_CASE("both backends agree on gravity, of two materials and of weights", "[verification][long]") {
   for (const auto element : {Element::q1_bbar, Element::q2}) {
     CAPTURE(cases::name_of(element));
     auto definition = cube(cases::Formulation::log_strain, element);

@@ -180,8 +180,7 @@ TEST_CASE("one multigrid cycle removes most of an error at rest") {
   springs.product(msm::grid::Clamp::no, rest, exact, right);
   multigrid.apply(right, found);
   const double left = energy_norm(exact - found) / energy_norm(exact);
-  WARN(left);
-  CHECK(left < 0.2);
+  CHECK(left < 0.1); // 0.03 is left; with a broken level 0.5 or more
 }
 
 TEST_CASE("merged cells interpolate linear fields exactly, whatever the body") {
