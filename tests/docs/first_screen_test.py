@@ -29,6 +29,8 @@ OF_THE_MACHINE = (
     (re.compile(r"a step: [^;.]*"), "a step"),  # which rate it keeps
     (re.compile(rf"real time x {NUMBER}"), "real time x N"),
     (re.compile(rf"  (yes|no|-) +{NUMBER}$"), r"  \1  N"),  # milliseconds of a design
+    (re.compile(rf"{NUMBER}  as expected"), "N  as expected"),  # seconds of a hard case
+    (re.compile(rf"{NUMBER} x the time"), "N x the time"),
     (re.compile(r" {2,}"), "  "),  # columns move with the width of a time
 )
 # What begins a paragraph with times in it, and how far its other lines are indented.
