@@ -80,9 +80,11 @@ int run(EigenOptions options) {
     options.design.method =
         cases::name_of(cases::Design::linear_method); // whose eigenspaces the thesis prints
   const msm::DesignRequest request = request_from(options.design);
-  const cases::LinearElastic material = msm::small_strain_material(request.material);
+  cases::LinearElastic material = msm::small_strain_material(request.material);
+  material.poissons_ratio = request.options.poissons_ratio.value_or(material.poissons_ratio);
   if (!(material.poissons_ratio < 0.5))
-    throw cases::InputError("eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5");
+    throw cases::InputError(
+        "eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5, or --poisson");
   const msm::CellMatrix fem = request.element_stiffness(material);
   const msm::DesignResult design = msm::design(request);
   if (design.terms)

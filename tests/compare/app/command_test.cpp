@@ -293,6 +293,17 @@ TEST_CASE("eigen --json numbers the spaces from 1 as the thesis does") {
   CHECK(document["free_body"].size() > 0);
 }
 
+TEST_CASE("eigen takes every material, and an incompressible one with another Poisson's ratio") {
+  const ProgramRun refused = run_program("eigen --neo-hookean 0.05"),
+                   taken = run_program("eigen --neo-hookean 0.05 --poisson 0.4 --json"),
+                   linear = run_program("eigen --young 0.15 --poisson 0.4 --json");
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.error, Catch::Contains("--poisson"));
+  REQUIRE(taken.status == 0);
+  const auto h_of = [](const ProgramRun& run) { return nlohmann::json::parse(run.out)["h"].get<double>(); };
+  CHECK(h_of(taken) == Approx(h_of(linear)).epsilon(1e-9)); // 3 mu is Young's modulus
+}
+
 TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "eigen").string();
