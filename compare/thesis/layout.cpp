@@ -144,12 +144,12 @@ Layout layout_of(const Sheet& sheet) {
 }
 
 std::string cell_text(const TableEntry& entry) {
-  if (!entry.declared().value) return "failed";
-  const ComputedFigure& nearest = *entry.nearest();
-  return fmt::format("{} {:>7}{}", value_text(nearest.value, digits_of(entry.published)),
-                     difference_text(entry, nearest),
+  const ComputedFigure& declared = entry.declared();
+  if (!declared.value) return "failed";
+  return fmt::format("{} {:>7}{}", value_text(declared.value, digits_of(entry.published)),
+                     difference_text(entry, declared),
                      entry.has_failed()               ? "!"
-                     : &nearest != &entry.declared()  ? "*"
+                     : entry.nearest() != &declared   ? "*"
                      : entry.published.test == "cell" ? ""
                                                       : " ");
 }

@@ -18,10 +18,9 @@ struct Layout {
 };
 Layout layout_of(const Sheet& sheet);
 
-/// Our value and its difference from print: "  34.21   +0.05". It is the value of the reference that is
-/// nearest to print, with "*" when the case file declares another one. "failed" without a value of the
-/// declared one;
-/// "!" when another reference's solve failed.
+/// Our value and its difference from print: "  34.21   +0.05". The value is against the reference that the
+/// case file declares; "*" says that print is nearer to another reference of the thesis. "failed" without a
+/// value of the declared one; "!" when another reference's solve failed.
 std::string cell_text(const TableEntry& entry);
 
 /// A table's lines, without their ends; one that is wider than the screen is divided into parts of as many

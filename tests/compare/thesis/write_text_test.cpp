@@ -71,10 +71,10 @@ TEST_CASE("entries become tables in the order of print, and each has its place")
   CHECK(sheets[1].rows[0].cells == std::vector{&entries[3]});
 }
 
-TEST_CASE(
-    "a cell has the value nearest to print, its difference, and a mark when another reference gave it") {
+TEST_CASE("a cell has the value of the declared reference, its difference, and a mark when print is nearer "
+          "to another") {
   CHECK(compare::cell_text(valued({10.25, 12})) == "10.25   +0.25 ");
-  CHECK(compare::cell_text(valued({12, 9.5})) == "9.50   -0.50*");
+  CHECK(compare::cell_text(valued({12, 9.5})) == "12.00   +2.00*");
   CHECK(compare::cell_text(valued({10, 12})) == "10.00   +0.00 ");
   CHECK(compare::cell_text(valued({12, std::nullopt})) == "12.00   +2.00!");
 }
