@@ -29,7 +29,9 @@ void write_marks(std::ostream& out, const std::vector<TableEntry>& entries) {
       others.insert(nearest->reference + " (the case declares " + entry.declared().reference + ")");
   if (!others.empty())
     write_paragraph(
-        out, fmt::format("print is nearer to the other reference of the thesis: {}", fmt::join(others, ", ")),
+        out,
+        fmt::format("print is nearer to the other reference of the thesis, which counts as well: {}",
+                    fmt::join(others, ", ")),
         "  *    ", "       ");
   if (any_of(entries, [](const TableEntry& entry) { return entry.published.measure == "beta_1"; }))
     write_paragraph(out, "the printed beta_1 is not the rotation that the text defines; ours is", "  (!)  ",
