@@ -182,7 +182,8 @@ def solved_in(out):
 
 def told(answer):
     """The lines that neither times nor --out change: of run the cases, their bodies and loads, the rows of measures, the expectations."""
-    lines = [line.split(",")[0].split("converged")[0] for line in answer.stdout.splitlines()]
+    without_verdict = re.sub(r"^Verdict: .*?^What to type next:$", "", answer.stdout, flags=re.DOTALL | re.MULTILINE)
+    lines = [line.split(",")[0].split("converged")[0] for line in without_verdict.splitlines()]
     if "run" in answer.args:
         lines = [line for line in lines if re.match(r"[a-z-]+: |  (body|loads|measure|met) |  \w+ +\w+ +-?[\d.]+ ", line)]
     return lines
