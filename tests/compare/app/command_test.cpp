@@ -231,7 +231,7 @@ TEST_CASE("design --json is one document with the keys that were promised") {
   CHECK(document["stability"]["compression"].get<double>() < 1);
 }
 
-TEST_CASE("design --compare shows every method, and why one refuses") {
+TEST_CASE("design --compare shows every method, and why one refuses", "[long]") {
   const ProgramRun outcome = run_program("design --young 0.3 --poisson -0.2 --compare --json");
   REQUIRE(outcome.status == 0);
   const auto methods = nlohmann::json::parse(outcome.out)["methods"];
@@ -304,7 +304,7 @@ TEST_CASE("eigen takes every material, and an incompressible one with another Po
   CHECK(h_of(taken) == Approx(h_of(linear)).epsilon(1e-9)); // 3 mu is Young's modulus
 }
 
-TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures") {
+TEST_CASE("eigen --out leaves the diagram, the shapes and their pictures", "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "eigen").string();
   REQUIRE(run_program("eigen --poisson 0.35 --out " + out).status == 0);

@@ -101,7 +101,7 @@ TEST_CASE("a study is a screen too", "[long]") {
   check_static_case("cases/studies/liver_press/case.toml", from_the_limit);
 }
 
-TEST_CASE("the verdict has the numbers of the JSON") {
+TEST_CASE("the verdict has the numbers of the JSON", "[long]") {
   const std::string file = "cases/gates/sheared_block.toml";
   const auto measures =
       nlohmann::json::parse(run_program("run --json " + file, in_source).out)["cases"][0]["measures"];
@@ -173,7 +173,8 @@ TEST_CASE("springs that fail leave the reason, and the command that looks for ot
           Catch::Contains("# designs that may hold here"));
 }
 
-TEST_CASE("run --converge has the table of its meshes in 100 columns, and --out says which files there are") {
+TEST_CASE("run --converge has the table of its meshes in 100 columns, and --out says which files there are",
+          "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
   const ProgramRun run =

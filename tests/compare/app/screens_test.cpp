@@ -25,7 +25,7 @@ std::string printed_by(const std::string& words) {
 
 } // namespace
 
-TEST_CASE("the tables' audit leaves the text for files of --out, which the text names") {
+TEST_CASE("the tables' audit leaves the text for files of --out, which the text names", "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
   const std::string text = printed_by("tables 4.1 --out " + out);
@@ -97,7 +97,7 @@ TEST_CASE("--set changes a key of the case in sweep, gate, eigen and design, and
   CHECK(run_program("eigen --poisson 0.3 --set material.poissons_ratio=0.2").status == 2);
 }
 
-TEST_CASE("a sweep with --set has it in its text and its JSON, and answers another question") {
+TEST_CASE("a sweep with --set has it in its text and its JSON, and answers another question", "[long]") {
   const TemporaryFolder folder;
   const std::string one = (folder.path / "one").string(), other = (folder.path / "other").string();
   const std::string words = "sweep --quick --budget 1e-3 " + tiny; // the reference's meshes alone
@@ -114,7 +114,7 @@ TEST_CASE("a sweep with --set has it in its text and its JSON, and answers anoth
   CHECK(with["reference"]["field"]["value"] != without["reference"]["field"]["value"]);
 }
 
-TEST_CASE("a part of a sweep that was timed with another --set is timed again, and never merged") {
+TEST_CASE("a part of a sweep that was timed with another --set is timed again, and never merged", "[long]") {
   const TemporaryFolder folder;
   const std::string words = "sweep --quick --budget 1e-3 " + tiny;
   const auto part = [&](const std::string& number, const std::string& settings) {
@@ -134,7 +134,7 @@ TEST_CASE("a part of a sweep that was timed with another --set is timed again, a
   CHECK(Json::parse(whole.out)["reference"]["field"] == document["reference"]["field"]);
 }
 
-TEST_CASE("designs that are refused among others leave the status of what was answered") {
+TEST_CASE("designs that are refused among others leave the status of what was answered", "[long]") {
   // The multi-load method designs for cubes alone.
   const std::string words = "eigen " + source_folder +
                             "/cases/studies/released_bar.toml --modes 2 --set body.cells=[1,1,4] --designs ";
