@@ -71,7 +71,8 @@ void deflects(Element element, int n, const std::vector<double>& printed, double
 
 } // namespace
 
-TEST_CASE("Cook's membrane of q1 cells deflects as the deal.II code gallery prints it", "[verification]") {
+TEST_CASE("Cook's membrane of q1 cells deflects as the deal.II code gallery prints it",
+          "[verification][long]") {
   deflects(Element::q1, 2, {8.638}, 0.001);
   deflects(Element::q1, 4, {12.07, 13.86, 14.49, 14.67, 14.72}, 0.01);
 }

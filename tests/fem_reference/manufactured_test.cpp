@@ -94,7 +94,7 @@ TEST_CASE("log_strain converges to a manufactured solution with the order of its
 }
 
 TEST_CASE("a compressible Ogden solid converges to a manufactured solution with the order of its elements",
-          "[verification]") {
+          "[verification][long]") {
   converges<InPrincipalStretches<mechanics::Ogden>>({{0.2, 0.1}, {3.3, -2}, 1.},
                                                     cases::Formulation::hyperelastic, every_element);
 }

@@ -269,7 +269,7 @@ TEST_CASE("what turns about itself keeps its angular momentum, by the scheme tha
   CHECK((angular_after - angular).norm() <= 1e-9 * angular.norm());
 }
 
-TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark", "[verification]") {
+TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark", "[verification][long]") {
   cases::Case definition = bar(true, cases::Formulation::small_strain, cases::Element::q1);
   definition.body = cases::Box{{side, side, length}, {1, 1, 2}};
   const cases::Scene scene = cases::make_scene(definition);

@@ -62,7 +62,7 @@ TEST_CASE("texts of a case are printed and written as data, in every format") {
     check_harmless(text);
 }
 
-TEST_CASE("a sweep's plan and tables have the texts of a case as data") {
+TEST_CASE("a sweep's plan and tables have the texts of a case as data", "[long]") {
   const TemporaryFolder folder;
   std::string text = content(SPRINGPROOF_SOURCE_DIR "/tests/compare/sweep/tiny.toml");
   text.replace(text.find("name = "), text.find('\n', text.find("name = ")) - text.find("name = "),

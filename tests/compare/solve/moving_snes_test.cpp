@@ -73,7 +73,7 @@ double difference(const cases::Solution& a, const cases::Solution& b) {
 } // namespace
 
 TEST_CASE_METHOD(WithMpi, "SNES moves a body as the direct path does, by every scheme",
-                 "[snes][verification]") {
+                 "[snes][verification][long]") {
   const auto [scheme, cell] =
       GENERATE(table<cases::Scheme, msm::CellStiffness>({{cases::Scheme::implicit_euler, power_log},
                                                          {cases::Scheme::newmark, hybrid_springs},
@@ -97,7 +97,7 @@ TEST_CASE_METHOD(WithMpi, "SNES moves a body as the direct path does, by every s
 }
 
 TEST_CASE_METHOD(WithMpi, "SNES in time with algebraic multigrid follows the same motion",
-                 "[snes][verification]") {
+                 "[snes][verification][long]") {
   const cases::Scene scene = driven_block(cases::Scheme::generalized_alpha);
   const cases::Solution factorised = follow_by_snes(scene, hybrid_springs);
   PetscOptionsSetValue(nullptr, "-msm_ksp_type", "cg");
@@ -113,7 +113,8 @@ TEST_CASE_METHOD(WithMpi, "SNES in time with algebraic multigrid follows the sam
   CHECK(difference(iterated, factorised) <= 1e-8); // as against the direct path
 }
 
-TEST_CASE_METHOD(WithMpi, "a motion by SNES is the same on any number of ranks", "[snes][verification]") {
+TEST_CASE_METHOD(WithMpi, "a motion by SNES is the same on any number of ranks",
+                 "[snes][verification][long]") {
   cases::Scene scene = driven_block(cases::Scheme::newmark);
   scene.definition.dynamics->start = cases::MotionStart::equilibrium;
   scene.loads.front().load.history.points = {{0., 1.}, {0., 0.2}}; // most of the weight is taken at time 0

@@ -134,7 +134,7 @@ TEST_CASE("both backends agree on flat cells, tractions, torques, symmetry and s
   agree(cases::make_scene(twisted));
 }
 
-TEST_CASE("both backends agree where supports move and turn", "[verification]") {
+TEST_CASE("both backends agree where supports move and turn", "[verification][long]") {
   const int motion = GENERATE(0, 1, 2);
   for (const auto element : {Element::q1, Element::q1_bbar, Element::q2}) {
     auto definition = cube(cases::Formulation::log_strain, element);

@@ -69,7 +69,7 @@ TEST_CASE("both backends move alike, whatever the law, the element, the mass, th
 }
 
 TEST_CASE("both backends move alike with several materials, weights, histories and starts in equilibrium",
-          "[verification]") {
+          "[verification][long]") {
   for (const auto element : {Element::q1, Element::q1_bbar}) {
     CAPTURE(cases::name_of(element));
     cases::Case definition = block(cases::Formulation::log_strain, element);
