@@ -6,7 +6,7 @@ block(PROPAGATE absent) # VTK sets variables of many other packages
   find_package(LibArchive QUIET)
   find_package(ZLIB QUIET)
   find_package(benchmark QUIET)
-  file(GLOB PYTHON_H /usr/include/python3*/Python.h) # of Debian's own Python, whichever comes first in PATH
+  file(GLOB PYTHON_H /usr/include/python3*/Python.h) # those of Debian's own Python, whichever comes first in PATH
   find_file(PYBIND11_H pybind11/pybind11.h)
   find_file(THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/nodejs/three/build NO_DEFAULT_PATH)
   find_file(ORBIT_CONTROLS_JS OrbitControls.js

@@ -12,7 +12,7 @@ namespace springproof::compare {
 /// How the command line names a material, a cell and a method.
 struct DesignOptions {
   std::string case_file;
-  std::vector<std::string> settings; ///< of the case's keys
+  std::vector<std::string> settings; ///< keys of the case
   double youngs_modulus = 0,
          poissons_ratio = -2; ///< as if left out: both are required without another material
   double edge = 1;

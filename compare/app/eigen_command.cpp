@@ -22,7 +22,7 @@ namespace {
 struct EigenOptions {
   DesignOptions design;
   std::string vibrating;            ///< a case file; empty: eigenspaces of a cell
-  std::vector<std::string> designs; ///< of its springs; empty: its own
+  std::vector<std::string> designs; ///< designs of its springs; empty: its own
   int n_modes = 20;
   int body_cells = 0;
   std::string out;

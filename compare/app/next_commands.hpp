@@ -12,7 +12,7 @@ std::string typed_command();
 struct RunOfCase {
   std::string program; ///< as typed
   std::string file;
-  std::vector<std::string> settings{}; ///< of --set
+  std::vector<std::string> settings{}; ///< what --set sets
   bool has_meshes = false;             ///< --converge was given
   bool has_folder = false;             ///< --out was given
 };

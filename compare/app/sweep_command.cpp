@@ -26,7 +26,7 @@ namespace {
 
 struct SweepOptions {
   std::string file, out;
-  std::vector<std::string> settings; ///< of the case's keys
+  std::vector<std::string> settings; ///< keys of the case
   std::optional<double> budget;      ///< seconds
   bool json = false, quick = false, perf = false;
   std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();

@@ -59,8 +59,8 @@ std::string recommendation_text(const std::vector<DesignAttempt>& attempts,
   std::string text = fmt::format(
       "Use {} for E = {:.4g} MPa and nu = {:.4g}: its worst error on the thesis's cube is {:.2f} % ({}), its "
       "worst volume error {:.2f} %.",
-      best->name, material.youngs_modulus, material.poissons_ratio, *best->cube->worst(),
-      place_of_worst(*best->cube), best->cube->worst_volume().value_or(0));
+      best->name, material.youngs_modulus, request.options.poissons_ratio.value_or(material.poissons_ratio),
+      *best->cube->worst(), place_of_worst(*best->cube), best->cube->worst_volume().value_or(0));
   const std::vector<DesignAttempt> rivals = rivals_of(*best, attempts);
   if (const DesignAttempt* next = recommended(rivals))
     text +=

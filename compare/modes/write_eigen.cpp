@@ -25,7 +25,7 @@ std::string line_of(const char* model, const std::vector<Eigenspace>& spaces) {
   return paragraph(fmt::format("{}", fmt::join(words, " ")), fmt::format("{:<5}", model), "     ");
 }
 
-constexpr std::size_t share_columns = 7; ///< of the coupling's text
+constexpr std::size_t share_columns = 7; ///< columns of the coupling's text
 
 void write_coupling(std::ostream& out, const Eigen::MatrixXd& coupling) {
   if (static_cast<std::size_t>(coupling.cols()) * share_columns > screen_width) {

@@ -45,7 +45,7 @@ void write_paragraph(std::ostream& out, const std::string& text, const std::stri
 std::string in_short(const std::string& text, std::size_t n) {
   if (n_characters(text) <= n) return text;
   const std::string dots = "...";
-  std::size_t end = 0; // of the first n - 3 characters
+  std::size_t end = 0; // where the first n - 3 characters end
   for (std::size_t n_seen = 0; end < text.size(); ++end)
     if (starts_character(text[end]) && n_seen++ == n - dots.size()) break;
   const std::size_t blank = text.find_last_of(' ', end);

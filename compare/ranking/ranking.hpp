@@ -19,7 +19,7 @@ struct RankedDesign {
   bool is_stable = false;                        ///< in a stable equilibrium without inverted cells
   std::optional<double> misfit{}; ///< msm::ModuliMisfit::largest of the lattice, where it is known
   double milliseconds = 0;        ///< design, setup and solve
-  std::optional<double> milliseconds_a_step{}; ///< of a motion
+  std::optional<double> milliseconds_a_step{}; ///< for a motion
   std::vector<MeasuredValue> measures{};
   std::vector<Gate> gates{}; ///< of the case's expectations; empty when it was refused
   bool is_sound = false;     ///< Comparison::is_sound(); false when it was refused

@@ -37,7 +37,7 @@ struct MotionSweep {
   double uncertainty_percent = 0; ///< what the last halvings of its cells and of its step changed, together
   std::vector<MotionRow> rows;
   std::vector<LeftOut> left_out;
-  std::vector<std::string> settings{}; ///< of `--set`, which the definition has in it
+  std::vector<std::string> settings{}; ///< what `--set` has set in the definition
 };
 
 /// Whether any motion beside the reference was followed to its end.

@@ -62,7 +62,7 @@ enum class Processes { one_per_variant, this_one };
 /// Speed against error of one case: one plain record, which the writers read.
 struct Sweep {
   cases::Case definition;
-  std::vector<std::string> settings{}; ///< of `--set`, which the definition has in it
+  std::vector<std::string> settings{}; ///< what `--set` has set in the definition
   Plan plan;
   TimingRules rules;
   Processes processes = Processes::one_per_variant;

@@ -17,8 +17,8 @@ constexpr std::array<double, 2> told_rates{500, 60};   ///< Hz: touch, a screen
 constexpr std::size_t label_columns = 8;
 constexpr std::array<std::size_t, 2> side_columns{43, screen_width - label_columns - 43};
 constexpr std::size_t front_columns = screen_width / 2 - 2;
-constexpr std::size_t n_told_points = 6;       ///< of a front
-constexpr std::size_t n_told_failures = 2;     ///< of models; the files have all
+constexpr std::size_t n_told_points = 6;       ///< points of a front
+constexpr std::size_t n_told_failures = 2;     ///< failed models; the files have all
 constexpr std::size_t reason_characters = 180; ///< which two lines hold
 constexpr std::size_t characters_of_title = 180;
 

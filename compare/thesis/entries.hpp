@@ -65,7 +65,7 @@ struct SummaryGroup {
   /// By every reference; the entry's finding explains it, or nothing does.
   std::vector<const TableEntry*> beyond;
   int n_failed = 0;     ///< without a value against some reference, whatever the others give
-  int n_reproduced = 0; ///< of the others those within the listing bound
+  int n_reproduced = 0; ///< entries without a failure within the listing bound
 };
 
 /// Counts what is reproduced; pointers go into `entries`.

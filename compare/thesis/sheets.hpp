@@ -11,7 +11,7 @@ struct Sheet {
   struct Row {
     std::string test, measure;
     std::vector<const TableEntry*> cells; ///< one per column; null where print has no figure
-    const TableEntry* first;              ///< of the cells that are not null
+    const TableEntry* first;              ///< first cell that is not null
   };
   std::string table;
   std::vector<std::array<std::string, 3>> columns{}; ///< design, "nu = 0.35", load set

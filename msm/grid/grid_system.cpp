@@ -43,11 +43,10 @@ template<class Action>
 void for_each_node(const Problem& problem, const Body& body, const Action& action) {
   if (const auto& whole = problem.mesh.nodes.rule) { // whose nodes are numbered by their places
     const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
-    for_each_place(body.layout.nodes, [&](int i, int j, int k) {
+    return for_each_place(body.layout.nodes, [&](int i, int j, int k) {
       const std::size_t row = index(first[1] + j) + index(whole->cells[1] + 1) * index(first[2] + k);
       action(index(first[0] + i) + index(whole->cells[0] + 1) * row, std::array<int, 3>{i, j, k});
     });
-    return;
   }
   for (std::size_t n = 0; n < problem.mesh.nodes.size(); ++n)
     if (const auto place = place_of(problem, body, n)) action(n, *place);
@@ -225,8 +224,7 @@ class MatrixFreeSystem : public GridSystem {
   }
 
  private:
-  static constexpr int max_iterations = 300; ///< healthy lattices take less than 30
-  static constexpr int max_mode_iterations = 100;
+  static constexpr int max_iterations = 300, max_mode_iterations = 100; ///< healthy lattices take 30
   static constexpr double rounding = 1e-12; ///< of an eigenvalue: it leaves 1e-16, the softest lattice 1e-8
   static constexpr double no_energy = 1e-18, no_stiffness = 1e-290; ///< as of the direct system
 

@@ -15,7 +15,7 @@ import sys
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 REFERENCE = SOURCE / "docs" / "reference"
 
-# Of each command of json.md: what prints its keys, in seconds. A sweep takes minutes, and a hard case needs none of its own.
+# Command lines that print the keys of json.md, in seconds. A sweep takes minutes, and a hard case needs none of its own.
 STATIC = SOURCE / "cases/thesis/linear_elastic/cube_shear_small.toml"
 BLOCK = SOURCE / "cases/studies/clamped_block_shear.toml"
 MOVING = SOURCE / "cases/studies/released_bar.toml"

@@ -108,7 +108,7 @@ def dangling_links(source, page, lines):
     for number, line in enumerate(without_code_blocks(lines), 1):
         for target in re.findall(r"\]\(\s*<?([^)\s>]+)", re.sub(r"(`+)(?:(?!`).)+?\1", "", line)):
             if re.match(r"[a-z]+:", target):
-                continue  # of another server
+                continue  # another server's
             path, _, anchor = target.partition("#")
             leads_to = (page.parent / path).resolve() if path else page
             if not leads_to.exists() or source not in [leads_to, *leads_to.parents]:

@@ -86,7 +86,7 @@ namespace {
 Eigen::Vector2d exact_strains(const msm::CellStiffness& cell, double traction) {
   struct Spring {
     double count, stiffness;
-    Eigen::Vector2d squares; ///< of its vector's parts across and along, mm2
+    Eigen::Vector2d squares; ///< squared parts across and along, mm2
   };
   const Spring springs[] = {{8, cell.edge, {1, 0}},
                             {4, cell.edge, {0, 1}},

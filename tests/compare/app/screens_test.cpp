@@ -40,7 +40,7 @@ TEST_CASE("the tables' audit leaves the text for files of --out, which the text 
   CHECK(text.rfind(content(out + "/tables.txt"), 0) == 0);
 }
 
-TEST_CASE("all tables with the advice stand on 120 lines of 100 characters", "[verification][long]") {
+TEST_CASE("all tables with the advice stand on 120 lines of 100 characters", "[long]") {
   const std::string text = printed_by("tables");
   CHECK(lines_of_text(text).size() <= 120);
   CHECK(width_of_text(text) <= screen);

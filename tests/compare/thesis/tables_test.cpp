@@ -34,7 +34,7 @@ std::string words_of(const Json& entry) {
 TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[long]") {
   const TemporaryFolder folder;
   const fs::path one = folder.path / "one", three = folder.path / "three";
-  const auto without = [](std::string text, const std::string& name) { // of the folder, which the text names
+  const auto without = [](std::string text, const std::string& name) { // the folder, which the text names
     const std::size_t at = text.find(name);
     REQUIRE(at != std::string::npos);
     return text.erase(at, name.size());
