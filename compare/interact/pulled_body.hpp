@@ -16,10 +16,10 @@ struct PullSettings {
   int n_threads = 1;           ///< of the multigrid path
 };
 
-/// A dynamic case's springs, moved step by step while a place of their surface, a sphere's part of it, is
-/// pulled by a spring. The spring is a part of each step's equation, so that one of any stiffness drives no
-/// body on; its force in a step is known after it, and as a load of that step has the same solution: so a
-/// recording of forces replays in any model.
+/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface. The
+/// pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is known
+/// after the step; applied as a load of that step it gives the same solution. A recording of forces can
+/// therefore be replayed in any model.
 class PulledBody {
  public:
   /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start

@@ -43,7 +43,8 @@ struct Interpolated {
   Answer fem_and_back;
 };
 
-/// All that solving a case has found. Produced whole by solve(), and not changed afterwards.
+/// All that solving a case has found: the answers of solve(). A peer's answer is added, and another program's
+/// displacements replace the springs', before they are compared.
 struct Answers {
   cases::Fem resolved;              ///< [fem] with what "auto" was found to mean
   std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
