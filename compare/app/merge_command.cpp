@@ -10,9 +10,8 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr const char* recorded_options[] = {
-    "--set=",   "--converge=", "--msm-displacements=", "--interpolate=", "--replay=", "--trace=",
-    "--quick=", "--budget="};
+constexpr const char* recorded_options[] = {"--set=",         "--converge=", "--msm-displacements=",
+                                            "--interpolate=", "--replay=",   "--trace="};
 
 struct MergeOptions {
   std::vector<std::string> folders;
@@ -44,7 +43,7 @@ int merge(const MergeOptions& options) {
   if (options.annotate) words.emplace_back("--annotate");
   CLI::App commands;
   Action chosen;
-  for (const auto add : {add_gate_command, add_sweep_command, add_tables_command}) add(commands, chosen);
+  for (const auto add : {add_gate_command, add_tables_command}) add(commands, chosen);
   commands.require_subcommand(1);
   std::reverse(words.begin(), words.end()); // as CLI11 takes them
   try {
@@ -60,7 +59,7 @@ int merge(const MergeOptions& options) {
 void add_merge_command(CLI::App& program, Action& chosen) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = program.add_subcommand(
-      "merge", "one report and one exit status of the shards of gate, tables or sweep");
+      "merge", "one report and one exit status of the shards of gate or tables");
   command->add_option("folder", options->folders, "of each shard's --out")->required();
   command->add_option("--out", options->out, "folder for the files of the whole command's --out");
   command->add_option("--junit", options->junit, "of gate: file for the verdicts as JUnit's XML");

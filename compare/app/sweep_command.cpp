@@ -1,7 +1,6 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/number_option.hpp"
-#include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -9,7 +8,6 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
-#include "compare/sweep/sharded_sweep.hpp"
 #include "compare/sweep/write_motion_sweep.hpp"
 #include "compare/sweep/write_screen.hpp"
 #include "compare/sweep/write_sweep.hpp"
@@ -29,21 +27,16 @@ struct SweepOptions {
   std::vector<std::string> settings; ///< keys of the case
   std::optional<double> budget;      ///< seconds
   bool json = false, quick = false, perf = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
   Extent extent() const { return quick ? Extent::quick : Extent::full; }
   TimingRules rules() const { return quick ? TimingRules{5, 0.1} : TimingRules{}; }
 };
-
-void write_plan_to(const std::string& folder, const Sweep& sweep) {
-  if (!folder.empty()) write_file(folder + "/plan.txt", [&](std::ostream& out) { write_plan(out, sweep); });
-}
 
 /// What is to be solved, on a terminal and in the folder, before it is.
 /// @throws InputError if a variant needs more memory than there is
 void announce(const Sweep& sweep, const std::string& folder) {
   check_memory(sweep);
   if (mpi_rank() != 0) return;
-  write_plan_to(folder, sweep);
+  if (!folder.empty()) write_file(folder + "/plan.txt", [&](std::ostream& out) { write_plan(out, sweep); });
   if (isatty(STDERR_FILENO)) write_plan(std::cerr, sweep);
 }
 
@@ -65,17 +58,6 @@ Sweep planned(const SweepOptions& options) {
   return sweep;
 }
 
-int time_part(const SweepOptions& options) {
-  const Shard shard = shard_from(options.shards->part).value();
-  const Sweep whole = planned(options);
-  claim_folder(options.out);
-  announce(whole, options.out);
-  const TimedPart part = time_shard(whole, shard, options.out, options.shards->command, "/proc/self/exe");
-  if (mpi_rank() == 0)
-    print_shard(shard, part.n_variants, whole.plan.variants.size(), part.n_failed, options.out);
-  return 0;
-}
-
 Sweep time_all(const SweepOptions& options) {
   claim_folder(options.out);
   const Sweep whole = planned(options);
@@ -86,20 +68,11 @@ Sweep time_all(const SweepOptions& options) {
   });
 }
 
-Sweep merge_parts(const SweepOptions& options) {
-  Sweep merged = merged_sweep(planned(options), read_shards(options.shards->folders));
-  claim_folder(options.out);
-  write_plan_to(options.out, merged);
-  if (!options.out.empty()) write_csv_of(merged, options.out);
-  return merged;
-}
-
-/// Of a dynamic case.
+/// Sweeps a dynamic case.
 int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
-  if (n_mpi_ranks() > 1 || options.budget || !options.shards->part.empty() ||
-      !options.shards->folders.empty())
+  if (n_mpi_ranks() > 1 || options.budget)
     throw cases::InputError(definition.file +
-                            ": dynamics: a sweep in time has no --budget and no parts, and runs on one rank");
+                            ": dynamics: a sweep in time has no --budget, and runs on one rank");
   claim_folder(options.out);
   const auto write_csv = [&](const MotionSweep& so_far) {
     if (options.out.empty()) return;
@@ -125,8 +98,7 @@ int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
 int sweep(const SweepOptions& options) {
   if (const cases::Case definition = cases::read_case(options.file, options.settings); definition.dynamics)
     return sweep_in_time(options, definition);
-  if (!options.shards->part.empty()) return time_part(options);
-  const Sweep result = options.shards->folders.empty() ? time_all(options) : merge_parts(options);
+  const Sweep result = time_all(options);
   const int status = has_answer(result) ? 0 : 1; // a model that failed is a row with its reason
   if (mpi_rank() != 0) return status;
   if (options.json)
@@ -166,19 +138,15 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
   command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
   command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
       ->allow_extra_args(false);
-  CLI::Option* out =
-      command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
+  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
   command
       ->add_option("--budget", options->budget,
                    "seconds: leave out the variants of the longest estimated times until the others fit")
       ->check(number_between(1e-3, 1e9));
-  CLI::Option* perf = command->add_flag(
-      "--perf", options->perf,
-      "count the instructions of the springs' kernels with valgrind instead; needs no case");
-  add_shard_options(*command, options->shards, out, {json, perf});
+  command->add_flag("--perf", options->perf,
+                    "count the instructions of the springs' kernels with valgrind instead; needs no case");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

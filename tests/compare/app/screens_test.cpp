@@ -114,26 +114,6 @@ TEST_CASE("a sweep with --set has it in its text and its JSON, and answers anoth
   CHECK(with["reference"]["field"]["value"] != without["reference"]["field"]["value"]);
 }
 
-TEST_CASE("a part of a sweep that was timed with another --set is timed again, and never merged", "[long]") {
-  const TemporaryFolder folder;
-  const std::string words = "sweep --quick --budget 1e-3 " + tiny;
-  const auto part = [&](const std::string& number, const std::string& settings) {
-    const std::string out = (folder.path / number).string();
-    REQUIRE(run_program(words + settings + " --shard " + number + "/2 --out " + out).status == 0);
-    return out;
-  };
-  const std::string setting = " --set material.poissons_ratio=0.3";
-  const std::string one = part("1", ""), two = part("2", setting);
-  CHECK(run_program("merge " + one + " " + two).status == 2);
-  part("1", setting); // over what is kept
-  const ProgramRun merged = run_program("merge " + one + " " + two + " --json");
-  REQUIRE(merged.status == 0);
-  const Json document = Json::parse(merged.out);
-  CHECK(document["settings"] == Json{"material.poissons_ratio=0.3"});
-  const ProgramRun whole = run_program(words + setting + " --json");
-  CHECK(Json::parse(whole.out)["reference"]["field"] == document["reference"]["field"]);
-}
-
 TEST_CASE("designs that are refused among others leave the status of what was answered", "[long]") {
   // The multi-load method designs for cubes alone.
   const std::string words = "eigen " + source_folder +
