@@ -7,7 +7,7 @@
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_motion.hpp"
 #include "mechanics/interruption.hpp"

@@ -7,7 +7,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <algorithm>

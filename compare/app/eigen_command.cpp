@@ -8,7 +8,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -11,7 +11,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 #include "compare/write/write_gates.hpp"
 

@@ -10,8 +10,8 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/page.hpp"
 #include "compare/solve/estimate.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -11,7 +11,7 @@
 #include "compare/sweep/write_motion_sweep.hpp"
 #include "compare/sweep/write_screen.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <iostream>
 #include <memory>

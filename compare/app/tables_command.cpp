@@ -6,10 +6,10 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/solve/ranks.hpp"
+#include "compare/table/json.hpp"
 #include "compare/thesis/write_audit.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
-#include "compare/write/json.hpp"
 
 #include <fmt/format.h>
 #include <iostream>

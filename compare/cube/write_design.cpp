@@ -2,9 +2,8 @@
 
 #include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/springs_text.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "compare/interact/recording.hpp"
 
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 
 namespace springproof::compare {
 

@@ -7,8 +7,7 @@
 #include "compare/provenance/print.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write_fields.hpp"
 #include "msm/vibrating_lattice.hpp"
 
@@ -203,7 +202,6 @@ void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
 }
 
 nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study) {
-  using Json = nlohmann::ordered_json;
   Json designs = Json::array();
   for (const DesignVibrations& design : study.designs) {
     Json modes = Json::array();

@@ -2,7 +2,7 @@
 
 #include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/write.hpp"
 

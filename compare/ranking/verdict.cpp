@@ -5,7 +5,7 @@
 #include "compare/provenance/print.hpp"
 #include "compare/ranking/advice.hpp"
 #include "compare/ranking/pace.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/measures_text.hpp"
 
 #include <algorithm>

@@ -3,9 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/ranking/advice.hpp"
-#include "compare/write/columns.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write_gates.hpp"
 
 #include <algorithm>
@@ -33,9 +31,9 @@ void write_table(std::ostream& out, const Ranking& ranking) {
   const RankedDesign* best = ranking.recommended();
   const bool moves = std::any_of(ranking.designs.begin(), ranking.designs.end(),
                                  [](const RankedDesign& r) { return r.milliseconds_a_step.has_value(); });
-  TextTable table({{"  design", TextTable::Side::left},
+  TextTable table({{"  design"},
                    {"worst %"},
-                   {"measure", TextTable::Side::left},
+                   {"measure", "", "{:<}"},
                    {"volume %"},
                    {"stable"},
                    {"moduli"},
@@ -88,7 +86,6 @@ void write_ranking_csv(std::ostream& out, const std::vector<Ranking>& rankings) 
 }
 
 nlohmann::ordered_json ranking_to_json(const Ranking& ranking) {
-  using Json = nlohmann::ordered_json;
   const auto text_or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
   Json designs = Json::array();
   for (const RankedDesign& ranked : ranking.designs) {

@@ -1,7 +1,7 @@
 #include "compare/report/bodies.hpp"
 
 #include "compare/report/lengths.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include "compare/report/page.hpp"
 #include "compare/report/skin.hpp"
 #include "compare/report/springs_of_case.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "compare/measure/landmarks.hpp"
 #include "compare/report/lengths.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 namespace springproof::compare {
 

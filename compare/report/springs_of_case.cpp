@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/cube/write_design.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 namespace springproof::compare {
 

@@ -4,9 +4,9 @@
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
 #include "compare/solve/springs.hpp"
+#include "compare/table/json.hpp"
 #include "compare/thesis/write_files.hpp"
 #include "compare/thesis/write_text.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "compare/sweep/error_plot.hpp"
 
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 
 #include <algorithm>

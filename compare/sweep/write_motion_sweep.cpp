@@ -5,8 +5,7 @@
 #include "compare/sweep/error_plot.hpp"
 #include "compare/sweep/motion_conclusions.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
 #include <cmath>
@@ -67,7 +66,6 @@ void write_motion_sweep_csv(std::ostream& out, const MotionSweep& sweep) {
 }
 
 nlohmann::ordered_json motion_sweep_to_json(const MotionSweep& sweep) {
-  using Json = nlohmann::ordered_json;
   Json document = provenance();
   document["case"] = sweep.definition.name;
   document["description"] = sweep.definition.description;

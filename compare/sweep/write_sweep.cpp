@@ -6,16 +6,13 @@
 #include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
 #include "compare/sweep/error_plot.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <array>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

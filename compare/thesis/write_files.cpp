@@ -2,18 +2,15 @@
 
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/table/table.hpp"
 #include "compare/thesis/write_audit.hpp"
 #include "compare/thesis/write_text.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

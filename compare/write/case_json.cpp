@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/measures_text.hpp"
 #include "compare/write/scene_text.hpp"
 #include "compare/write/springs_text.hpp"
@@ -14,8 +14,6 @@
 #include <nlohmann/json.hpp>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ void write_table(std::ostream& out, const Comparison& comparison) {
   const auto& peer = comparison.answers.peer;
   const bool has_limits = std::any_of(measures.begin(), measures.end(),
                                       [](const MeasuredValue& m) { return m.fem_limit.has_value(); });
-  std::vector<TextTable::Column> columns{{"measure", TextTable::Side::left}, {"unit"}, {"fem"}, {"springs"}};
+  Columns columns{{"measure"}, {"unit"}, {"fem"}, {"springs"}};
   if (has_limits) columns.push_back({"fem's limit"});
   columns.push_back({"error %"});
   if (has_limits) columns.push_back({"fem's error %"});
@@ -88,7 +88,7 @@ void write_missing_values(std::ostream& out, const MeasuredValue& m) {
 /// The study on its finest meshes.
 TextTable study_table(const MeshStudy& study, std::size_t n_meshes) {
   const std::size_t first = study.refine.size() - n_meshes;
-  std::vector<TextTable::Column> columns{{"fem on refined meshes", TextTable::Side::left}};
+  Columns columns{{"fem on refined meshes"}};
   for (std::size_t mesh = first; mesh < study.refine.size(); ++mesh)
     columns.push_back({fmt::format("refine {}", study.refine[mesh])});
   columns.insert(columns.end(), {{"order"}, {"limit"}, {"GCI %"}, {"fem +- %"}});

@@ -4,14 +4,12 @@
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/scene/scene.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <ostream>
 

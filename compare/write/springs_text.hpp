@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "msm/design/design.hpp"
 
 namespace springproof::compare {

@@ -3,8 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write_landmarks.hpp"
 #include "compare/write/write_motion.hpp"
 

@@ -2,17 +2,14 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/ranges.h>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

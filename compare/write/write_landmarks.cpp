@@ -1,9 +1,7 @@
 #include "compare/write/write_landmarks.hpp"
 
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/columns.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +26,7 @@ bool has_equilibrium(const Comparison& comparison) {
 void write_landmarks_text(std::ostream& out, const Comparison& comparison) {
   if (comparison.landmarks.empty()) return;
   const bool both = has_equilibrium(comparison);
-  std::vector<TextTable::Column> columns{{"landmark, mm", TextTable::Side::left}};
+  Columns columns{{"landmark, mm"}};
   columns.insert(columns.end(), {{"springs to fem"}, {"deviation"}, {"rays"}, {"fem moved"}});
   if (both) columns.insert(columns.end(), {{"to their equilibrium"}, {"deviation"}});
   TextTable table(std::move(columns));

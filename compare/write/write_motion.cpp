@@ -3,9 +3,8 @@
 #include "compare/measure/measure.hpp"
 #include "compare/measure/numerical_damping.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
 #include "compare/write/write_fields.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
@@ -11,8 +11,6 @@
 namespace springproof::compare {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The lowest eigenvalue where the solver has it, else how many are negative.
 std::string eigenvalue_text(const cases::Solution& s) {

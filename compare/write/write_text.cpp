@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/measures_text.hpp"
 #include "compare/write/scene_text.hpp"
 #include "compare/write/springs_text.hpp"

@@ -4,7 +4,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 #include "tests/support/largest.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/unwrapped.hpp"

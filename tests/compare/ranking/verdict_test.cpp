@@ -1,6 +1,6 @@
 #include "compare/ranking/verdict.hpp"
 
-#include "compare/write/columns.hpp"
+#include "compare/table/table.hpp"
 
 #include <catch2/catch.hpp>
 #include <sstream>
