@@ -9,7 +9,6 @@
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_motion.hpp"
 #include "mechanics/interruption.hpp"
 
 #include <algorithm>

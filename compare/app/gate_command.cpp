@@ -13,7 +13,6 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_gates.hpp"
 
 #include <algorithm>
 #include <iostream>

@@ -11,7 +11,7 @@
 #include "compare/report/page.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/table/json.hpp"
-#include "compare/write/escape.hpp"
+#include "compare/write/quote.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

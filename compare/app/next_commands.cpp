@@ -1,7 +1,7 @@
 #include "compare/app/next_commands.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/write/shell.hpp"
+#include "compare/write/quote.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -6,12 +6,10 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
-#include "compare/sweep/write_motion_sweep.hpp"
-#include "compare/sweep/write_screen.hpp"
+#include "compare/sweep/sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
-#include "compare/table/json.hpp"
+#include "compare/table/table.hpp"
 
 #include <iostream>
 #include <memory>
@@ -40,65 +38,42 @@ void announce(const Sweep& sweep, const std::string& folder) {
   if (isatty(STDERR_FILENO)) write_plan(std::cerr, sweep);
 }
 
+/// The names of the files but for their endings.
+std::string file_name(const Sweep& sweep, const std::string& folder) {
+  return folder + (sweep.definition.dynamics ? "/motion_sweep" : "/sweep");
+}
+
+/// What is finished is on disk before the next variant starts.
 void write_csv_of(const Sweep& sweep, const std::string& folder) {
-  write_file(folder + "/sweep.csv", [&](std::ostream& out) { write_sweep_csv(out, sweep); });
+  if (mpi_rank() == 0 && !folder.empty())
+    write_file(file_name(sweep, folder) + ".csv", [&](std::ostream& out) { write_sweep_csv(out, sweep); });
 }
 
 void write_files(const std::string& folder, const Sweep& sweep) {
-  write_file(folder + "/sweep.txt", [&](std::ostream& out) { write_sweep_text(out, sweep); });
-  write_file(folder + "/sweep.json", [&](std::ostream& out) { out << json_text(sweep_to_json(sweep)); });
+  write_file(file_name(sweep, folder) + ".txt", [&](std::ostream& out) { write_sweep_text(out, sweep); });
+  write_json_file(file_name(sweep, folder) + ".json", sweep_to_json(sweep));
   plot_sweep(folder, sweep);
 }
 
-Sweep planned(const SweepOptions& options) {
-  const cases::Case definition = cases::read_case(options.file, options.settings);
-  check_same_on_ranks("cases", n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
-  Sweep sweep = make_sweep(definition, options.extent(), options.rules(), options.budget);
-  sweep.settings = options.settings;
-  return sweep;
-}
-
-Sweep time_all(const SweepOptions& options) {
-  claim_folder(options.out);
-  const Sweep whole = planned(options);
-  announce(whole, options.out);
-  // What is finished is on disk before the next variant starts.
-  return run_sweep(whole, "/proc/self/exe", [&](const Sweep& so_far) {
-    if (mpi_rank() == 0 && !options.out.empty()) write_csv_of(so_far, options.out);
-  });
-}
-
-/// Sweeps a dynamic case.
-int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
-  if (n_mpi_ranks() > 1 || options.budget)
-    throw cases::InputError(definition.file +
-                            ": dynamics: a sweep in time has no --budget, and runs on one rank");
-  claim_folder(options.out);
-  const auto write_csv = [&](const MotionSweep& so_far) {
-    if (options.out.empty()) return;
-    write_file(options.out + "/motion_sweep.csv",
-               [&](std::ostream& out) { write_motion_sweep_csv(out, so_far); });
-  };
-  MotionSweep result = sweep_motion(definition, options.extent(), write_csv);
-  result.settings = options.settings;
-  if (options.json)
-    std::cout << json_text(motion_sweep_to_json(result));
-  else
-    write_motion_sweep_screen(std::cout, result, options.out);
-  if (!options.out.empty()) {
-    write_file(options.out + "/motion_sweep.txt",
-               [&](std::ostream& out) { write_motion_sweep_text(out, result); });
-    write_file(options.out + "/motion_sweep.json",
-               [&](std::ostream& out) { out << json_text(motion_sweep_to_json(result)); });
-    plot_motion_sweep(options.out, result);
+Sweep time_all(const SweepOptions& options, const cases::Case& definition) {
+  const auto write_csv = [&](const Sweep& so_far) { write_csv_of(so_far, options.out); };
+  if (definition.dynamics) {
+    if (n_mpi_ranks() > 1 || options.budget)
+      throw cases::InputError(definition.file +
+                              ": dynamics: a sweep in time has no --budget, and runs on one rank");
+    claim_folder(options.out);
+    return sweep_motion(definition, options.extent(), write_csv);
   }
-  return has_answer(result) ? 0 : 1;
+  claim_folder(options.out);
+  check_same_on_ranks("cases", n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
+  const Sweep whole = make_sweep(definition, options.extent(), options.rules(), options.budget);
+  announce(whole, options.out);
+  return run_sweep(whole, "/proc/self/exe", write_csv);
 }
 
 int sweep(const SweepOptions& options) {
-  if (const cases::Case definition = cases::read_case(options.file, options.settings); definition.dynamics)
-    return sweep_in_time(options, definition);
-  const Sweep result = time_all(options);
+  Sweep result = time_all(options, cases::read_case(options.file, options.settings));
+  result.settings = options.settings;
   const int status = has_answer(result) ? 0 : 1; // a model that failed is a row with its reason
   if (mpi_rank() != 0) return status;
   if (options.json)

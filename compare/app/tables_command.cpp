@@ -7,9 +7,7 @@
 #include "compare/report/write_report.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/table/json.hpp"
-#include "compare/thesis/write_audit.hpp"
-#include "compare/thesis/write_files.hpp"
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/write.hpp"
 
 #include <fmt/format.h>
 #include <iostream>

@@ -4,7 +4,7 @@
 #include "compare/provenance/print.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/springs_text.hpp"
+#include "compare/write/write.hpp"
 
 #include <array>
 #include <fmt/ostream.h>

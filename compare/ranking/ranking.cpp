@@ -7,7 +7,7 @@
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/springs_text.hpp"
+#include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <cmath>

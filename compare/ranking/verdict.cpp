@@ -6,7 +6,7 @@
 #include "compare/ranking/advice.hpp"
 #include "compare/ranking/pace.hpp"
 #include "compare/table/table.hpp"
-#include "compare/write/measures_text.hpp"
+#include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

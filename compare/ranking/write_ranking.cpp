@@ -4,7 +4,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/ranking/advice.hpp"
 #include "compare/table/table.hpp"
-#include "compare/write/write_gates.hpp"
+#include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/error_bars/measured_values.hpp"
-#include "compare/thesis/plot_bodies.hpp"
+#include "compare/thesis/figures.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

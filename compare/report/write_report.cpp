@@ -5,8 +5,8 @@
 #include "compare/report/page.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
-#include "compare/thesis/write_files.hpp"
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/layout.hpp"
+#include "compare/thesis/write.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 namespace springproof::compare {
 
@@ -17,7 +18,7 @@ const std::string& key_of(const Column& column) {
   return column.key.empty() ? column.heading : column.key;
 }
 
-std::string text_of(const Json& value, const std::string& format) {
+std::string printed_value(const Json& value, const std::string& format) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -26,6 +27,16 @@ std::string text_of(const Json& value, const std::string& format) {
 }
 
 } // namespace
+
+Columns columns_of(const std::string& text) {
+  Columns columns;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t end = std::min(word.find('='), word.size());
+    columns.push_back({word.substr(0, end), word.substr(std::min(end + 1, word.size()))});
+  }
+  return columns;
+}
 
 Json value_at(const Json& row, const std::string& key) {
   const std::size_t dot = std::min(key.find('.'), key.size());
@@ -68,7 +79,7 @@ TextTable::TextTable(Columns columns, const Json& rows) : columns_(std::move(col
   for (const Json& row : rows) {
     rows_.emplace_back();
     for (const Column& column : columns_)
-      rows_.back().push_back(text_of(value_at(row, key_of(column)), column.format));
+      rows_.back().push_back(printed_value(value_at(row, key_of(column)), column.format));
   }
 }
 

@@ -28,6 +28,10 @@ struct Column {
 };
 using Columns = std::vector<Column>;
 
+/// The columns that a text names, parted by blanks: "case cells_x=cells.0" has the column cells_x of what is
+/// in a row at cells.0.
+Columns columns_of(const std::string& text);
+
 /// The value at a column's key; null where the row has none.
 Json value_at(const Json& row, const std::string& key);
 
@@ -40,7 +44,7 @@ class CsvWriter {
 
   template<class... Fields>
   void row(const Fields&... fields) {
-    [[maybe_unused]] const char* comma = ""; // of a row without fields
+    [[maybe_unused]] const char* comma = ""; // a row may have no fields
     ((out_ << std::exchange(comma, ",") << field(fields)), ...);
     out_ << '\n';
   }
@@ -48,7 +52,7 @@ class CsvWriter {
   void end_block() { out_ << "\n\n"; }
 
  private:
-  /// As RFC 4180 has it: a text with a comma or a quote stands in quotes, and its quotes are doubled. An
+  /// Follows RFC 4180: a text with a comma or a quote stands in quotes, and its quotes are doubled. An
   /// apostrophe goes before what begins as a formula does.
   std::string field(const std::string& any_text) const {
     std::string text = one_line(any_text);

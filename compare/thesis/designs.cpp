@@ -1,7 +1,6 @@
-#include "compare/thesis/designs.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/thesis/volumes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/write.hpp"
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_models.hpp"

@@ -1,17 +1,16 @@
-#include "compare/write/write_motion.hpp"
+#include "compare/write/write.hpp"
 
 #include "compare/measure/measure.hpp"
 #include "compare/measure/numerical_damping.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"
-#include "compare/write/escape.hpp"
+#include "compare/write/quote.hpp"
 #include "compare/write/write_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -24,7 +23,8 @@ const Trajectory* trajectory_of(const Answer& answer) {
   return trajectory ? &*trajectory : nullptr;
 }
 
-/// Of the finite elements, or else of the springs: both have the times of [dynamics]. Null: neither moved.
+/// Motion of the finite elements, or else of the springs: both have the times of [dynamics]. Null: neither
+/// moved.
 const Trajectory* any_trajectory(const Comparison& comparison) {
   const Trajectory* of_fem = trajectory_of(comparison.answers.fem);
   return of_fem ? of_fem : trajectory_of(comparison.answers.msm);
@@ -49,7 +49,7 @@ std::vector<Courses> courses_of(const Comparison& comparison) {
   return all;
 }
 
-/// Of the measure's values, whatever number of their course the case asks for.
+/// Unit of the measure's values, whatever number of their course the case asks for.
 std::string unit_of_values(cases::Measure measure) {
   measure.over_time.reset();
   return unit_of(measure);
@@ -121,22 +121,19 @@ void write_motion_csv(std::ostream& out, const Comparison& comparison) {
               entry_at(fem, step), entry_at(msm, step));
 }
 
-nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
+Json motion_to_json(const Comparison& comparison) {
   const Trajectory* motion = any_trajectory(comparison);
   if (!motion) return nullptr;
-  nlohmann::ordered_json measures = nlohmann::ordered_json::array();
+  Json measures = Json::array();
   for (const auto& [measure, fem, msm] : courses_of(comparison))
     measures.push_back(
         {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
-  nlohmann::ordered_json document{
-      {"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
-  if (const auto& surface = comparison.surface_motion)
-    document["surface"] = {{"time", surface->time},
-                           {"fem", surface->fem},
-                           {"msm", surface->msm},
-                           {"difference", surface->difference},
-                           {"largest_difference", surface->largest},
-                           {"error_percent", surface->error_percent}};
+  Json document{{"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
+  if (const auto& surface = comparison.surface_motion) {
+    document["surface"] = SPRINGPROOF_MEMBERS(*surface, time, fem, msm, difference);
+    document["surface"].update(
+        {{"largest_difference", surface->largest}, {"error_percent", surface->error_percent}});
+  }
   return document;
 }
 

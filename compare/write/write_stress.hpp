@@ -1,8 +1,8 @@
 #pragma once
 
 #include "compare/hard/stress.hpp"
+#include "compare/table/json.hpp"
 
-#include <nlohmann/json_fwd.hpp>
 #include <ostream>
 
 namespace springproof::compare {
@@ -16,7 +16,6 @@ void write_stress_summary(std::ostream& out, const std::vector<StressResult>& re
                           const std::vector<std::string>& skipped);
 
 /// The document of `stress --json`.
-nlohmann::ordered_json stress_to_json(const std::vector<StressResult>& results,
-                                      const std::vector<std::string>& skipped);
+Json stress_to_json(const std::vector<StressResult>& results, const std::vector<std::string>& skipped);
 
 } // namespace springproof::compare

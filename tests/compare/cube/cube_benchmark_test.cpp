@@ -2,7 +2,7 @@
 
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/thesis/designs.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // The gates gate: what can go wrong in a simulator or in its measuring is done to a case on purpose, and some
 // gate must say so. The mutants live here alone; the program knows nothing of them.
 
-#include "compare/write/write_gates.hpp"
+#include "compare/write/write.hpp"
 
 #include "cases/case/read_case.hpp"
 

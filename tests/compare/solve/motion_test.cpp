@@ -7,7 +7,6 @@
 #include "compare/solve/answer_bytes.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_motion.hpp"
 
 #include <algorithm>
 #include <array>

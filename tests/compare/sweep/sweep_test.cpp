@@ -4,7 +4,6 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/sweep/analysis.hpp"
-#include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"

@@ -1,5 +1,5 @@
 #include "compare/table/table.hpp"
-#include "compare/write/shell.hpp"
+#include "compare/write/quote.hpp"
 
 #include "tests/support/unwrapped.hpp"
 
@@ -77,15 +77,11 @@ TEST_CASE("one row makes JSON, CSV and text, and a column finds its value by a k
   for (const char* absent : {"cells.2", "cells.x", "seconds.first.mean", "name.0", "again", ""})
     CHECK(compare::value_at(rows[0], absent).is_null());
   std::ostringstream csv, text;
-  compare::write_csv(csv,
-                     {{"name"},
-                      {"cells_x", "cells.0"},
-                      {"first_s", "seconds.first.median"},
-                      {"again_s", "seconds.again.median"},
-                      {"error", "errors.a.b"},
-                      {"stable"},
-                      {"notes"}},
-                     rows, 3);
+  compare::write_csv(
+      csv,
+      compare::columns_of("name cells_x=cells.0 first_s=seconds.first.median again_s=seconds.again.median "
+                          "error=errors.a.b stable notes"),
+      rows, 3);
   CHECK(csv.str() == "name,cells_x,first_s,again_s,error,stable,notes\nu,2,0.123,,-1.5,1,one two\n");
   compare::TextTable(
       {{"name"}, {"s", "seconds.first.median", "{:.2f}"}, {"again", "seconds.again"}, {"stable"}}, rows)

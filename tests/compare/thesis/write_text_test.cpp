@@ -1,4 +1,4 @@
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/write.hpp"
 
 #include "compare/provenance/paragraph.hpp"
 #include "compare/thesis/layout.hpp"

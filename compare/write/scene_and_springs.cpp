@@ -1,4 +1,4 @@
-#include "compare/write/scene_text.hpp"
+#include "compare/write/write.hpp"
 
 #include "cases/scene/histories.hpp"
 #include "cases/scene/loads.hpp"
@@ -6,8 +6,10 @@
 #include "cases/scene/regions.hpp"
 #include "compare/table/table.hpp"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace springproof::compare {
 
@@ -79,6 +81,37 @@ Json components_to_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+std::string cell_text(const msm::CellTerms& terms) {
+  const std::array<std::string, 3> kind_names{"edges", "face diagonals", "internal diagonals"};
+  std::map<std::pair<int, std::string>, int> n_of; // springs of one kind and stiffness, as printed
+  std::vector<std::string> parts;
+  for (const msm::CellSpring& spring : terms.springs)
+    ++n_of[{msm::n_axes(spring), fmt::format("{:.4g} N/m", 1e3 * spring.stiffness)}];
+  for (const auto& [spring, n] : n_of)
+    parts.push_back(
+        fmt::format("{} {} of {}", n, kind_names[static_cast<std::size_t>(spring.first - 1)], spring.second));
+  if (!terms.tetrahedra.empty())
+    parts.push_back(fmt::format("{} tetrahedra of biquadratic springs", terms.tetrahedra.size()));
+  if (terms.volume != 0) parts.push_back(fmt::format("k_v = {:.4g} MPa", terms.volume));
+  return fmt::format("{} in a cell", fmt::join(parts, ", "));
+}
+
+Json cell_to_json(const msm::BodyTerms& terms) {
+  const msm::CellTerms& cell = terms.kinds.front();
+  Json springs = Json::array(), tetrahedra = springs;
+  for (const msm::CellSpring& spring : cell.springs) {
+    springs.push_back({{"vertices", spring.vertices}, {"stiffness_N_per_m", 1e3 * spring.stiffness}});
+    if (spring.exponent) springs.back()["exponent"] = *spring.exponent;
+  }
+  for (const msm::CellTetrahedron& tetrahedron : cell.tetrahedra)
+    tetrahedra.push_back(
+        {{"vertices", tetrahedron.vertices}, {"lambda_MPa", tetrahedron.lambda}, {"mu_MPa", tetrahedron.mu}});
+  return {{"springs", springs},
+          {"tetrahedra", tetrahedra},
+          {"mirrored_from_cell_to_cell", terms.kinds.size() > 1},
+          {"boundary", cases::name_of(terms.boundary)}};
+}
+
 } // namespace
 
 void write_scene_text(std::ostream& out, const cases::Scene& scene) {
@@ -114,6 +147,36 @@ Json loads_to_json(const cases::Scene& scene) {
           {"moment_N_mm", all ? components_to_json(all->moment) : Json()},
           {"about_mm", all ? components_to_json(all->centre) : Json()},
           {"areas_mm2", areas}};
+}
+
+std::string springs_text(const msm::DesignResult& design) {
+  if (design.terms && design.terms->kinds.empty()) return "of the case's file";
+  if (design.terms && design.terms->boundary == msm::Boundary::whole)
+    return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
+  const msm::CellStiffness& k = design.stiffness;
+  const std::string exponents = k.exponents
+                                    ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
+                                                  k.exponents->face_diagonal, k.exponents->internal_diagonal)
+                                    : "";
+  if (design.terms) return cell_text(design.terms->kinds.front()) + exponents;
+  std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
+                                 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
+  return text + exponents;
+}
+
+Json springs_to_json(const msm::DesignResult& design) {
+  const msm::CellStiffness& k = design.stiffness;
+  Json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
+  if (!design.terms)
+    springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+  if (k.exponents)
+    springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+  if (design.terms && !design.terms->kinds.empty()) {
+    springs["volume_stiffness_MPa"] = design.terms->kinds.front().volume;
+    springs["cell"] = cell_to_json(*design.terms);
+  }
+  return springs;
 }
 
 } // namespace springproof::compare
