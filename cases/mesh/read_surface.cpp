@@ -2,9 +2,10 @@
 
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/read_vtk.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -12,10 +13,6 @@
 namespace springproof::cases {
 
 namespace {
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 TriangleMesh with_triangles(const Surface& surface) {
   TriangleMesh mesh = joined(surface);
@@ -26,7 +23,7 @@ TriangleMesh with_triangles(const Surface& surface) {
 } // namespace
 
 TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks) {
-  if (ends_with(path, ".stl")) return with_triangles(read_triangles(path, remarks));
+  if (std::filesystem::path(path).extension() == ".stl") return with_triangles(read_triangles(path, remarks));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read");
   const std::string content{std::istreambuf_iterator<char>(file), {}};

@@ -2,7 +2,7 @@
 
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/gates/comparison.hpp"
 
 namespace springproof::compare {

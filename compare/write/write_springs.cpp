@@ -1,6 +1,6 @@
 #include "compare/write/write_springs.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/solve/springs.hpp"
 
 #include <algorithm>

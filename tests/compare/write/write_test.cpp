@@ -83,10 +83,7 @@ TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and 
                              {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}};
   msm.fields = fem.fields;
   msm.fields->stress[0] = {4, 0, 0, 0, 0, 0};
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 4};
+  cases::Load load{{"z+"}, cases::loads::Traction{{0, 0, 4}}};
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   comparison.scene.material_of_cell = {2};
   std::ostringstream out;
@@ -110,10 +107,7 @@ TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and 
 
 TEST_CASE("the text says what force is applied and on what area") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0.25, -4};
+  cases::Load load{{"z+"}, cases::loads::Traction{{0, 0.25, -4}}};
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   std::ostringstream out;
   compare::write_text(out, comparison);
@@ -132,10 +126,7 @@ TEST_CASE("the place that a moment is about is printed to six digits, as the mom
   cases::Case definition;
   definition.body = cases::Box{{1.0 / 3, 20.0 / 7, 1}, {1, 1, 1}};
   comparison.scene = cases::make_scene(definition);
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, -4};
+  cases::Load load{{"z+"}, cases::loads::Traction{{0, 0, -4}}};
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   std::ostringstream out;
   compare::write_text(out, comparison);
@@ -144,9 +135,7 @@ TEST_CASE("the place that a moment is about is printed to six digits, as the mom
 
 TEST_CASE("the error of a field is marked as a norm, which has no sign") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Measure field;
-  field.name = "everywhere";
-  field.kind = cases::MeasureKind::displacement_field_l2;
+  cases::Measure field{"everywhere", cases::measures::DisplacementFieldL2{}};
   comparison.scene.definition.measures = {field};
   comparison.measures = {{"everywhere", "mm", 2.0, 2.0, 12.5}};
   std::ostringstream out;
@@ -170,10 +159,7 @@ TEST_CASE("what a program warns of is in its text and in its JSON, a sentence ea
 
 TEST_CASE("forces that follow a history are not added up as if their factors were 1") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, -4};
+  cases::Load load{{"z+"}, cases::loads::Traction{{0, 0, -4}}};
   comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
   load.history.points = {{0, 0}, {1, 0.5}};
   comparison.scene.loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
