@@ -44,7 +44,7 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Cub
       if (!error && errors.failure.empty())
         errors.failure = fmt::format("{} {}: {}", load_set, cube_tests[t].test, pair.reason);
       if (!error) continue;
-      if (measure.kind == cases::MeasureKind::volume)
+      if (cases::is<cases::measures::Volume>(measure))
         volumes.add(*error);
       else if (lengths_and_angles.add(*error))
         errors.worst_test = t;
@@ -114,10 +114,11 @@ cases::Case cube_case(const CubeTest& test, const cases::Material& material, dou
                        msm::small_strain_material(definition.material).youngs_modulus * edge * edge;
   definition.material = material;
   std::get<cases::Box>(definition.body).size *= edge; // from cells of 1 mm
-  for (cases::Load& load : definition.loads) load.value *= scale;
+  for (cases::Load& load : definition.loads) load.scale(scale);
   for (cases::Measure& measure : definition.measures)
-    for (cases::Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-      if (region->near) *region->near *= edge;
+    cases::for_each_region(measure, [&](cases::Region& region, bool) {
+      if (region.near) *region.near *= edge;
+    });
   return definition;
 }
 

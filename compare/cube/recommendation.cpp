@@ -1,7 +1,7 @@
 #include "compare/cube/recommendation.hpp"
 
 #include "cases/case/names.hpp"
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 
 #include <algorithm>
 #include <cmath>

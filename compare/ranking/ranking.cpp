@@ -61,13 +61,13 @@ void check_measures(const cases::Scene& scene) {
 void add_errors(RankedDesign& ranked, const Comparison& comparison) {
   const std::vector<cases::Measure>& asked = comparison.scene.definition.measures;
   const bool has_others = std::any_of(asked.begin(), asked.end(), [](const cases::Measure& m) {
-    return m.kind != cases::MeasureKind::volume;
+    return !cases::is<cases::measures::Volume>(m);
   });
   for (std::size_t m = 0; m < comparison.measures.size(); ++m) {
     const MeasuredValue& measured = comparison.measures[m];
     if (!measured.error_percent) continue;
     const double error = std::abs(*measured.error_percent);
-    const bool is_volume = m < asked.size() && asked[m].kind == cases::MeasureKind::volume;
+    const bool is_volume = m < asked.size() && cases::is<cases::measures::Volume>(asked[m]);
     if (is_volume) ranked.worst_volume = std::max(ranked.worst_volume.value_or(0), error);
     if ((is_volume && has_others) || (ranked.worst && !(error > *ranked.worst))) continue;
     ranked.worst = error;

@@ -243,7 +243,7 @@ TEST_CASE("a ranked design has the errors that run prints of it", "[verification
         compare::compare_case(small_shear({"msm.design=" + ranked.name}).definition);
     double worst = 0;
     for (std::size_t m = 0; m < run.measures.size(); ++m)
-      if (run.scene.definition.measures[m].kind != cases::MeasureKind::volume)
+      if (!cases::is<cases::measures::Volume>(run.scene.definition.measures[m]))
         worst = larger(worst, std::abs(run.measures[m].error_percent.value()));
     REQUIRE(ranked.worst);
     CHECK(*ranked.worst == Approx(worst).margin(1e-9)); // the same solves
@@ -256,14 +256,8 @@ TEST_CASE("a ranked design has the errors that run prints of it", "[verification
 TEST_CASE("designs are ranked by energy and stress too, whatever their cells consist of",
           "[verification][long]") {
   cases::Scene scene = small_shear();
-  cases::Measure energy, stress;
-  energy.name = "energy";
-  energy.kind = cases::MeasureKind::strain_energy;
-  stress.name = "stress";
-  stress.kind = cases::MeasureKind::stress;
-  stress.point = {5, 5, 5};
-  stress.tensor_component = cases::TensorComponent::xz;
-  scene.definition.measures = {energy, stress};
+  scene.definition.measures = {{"energy", cases::measures::StrainEnergy{}},
+                               {"stress", cases::measures::Stress{{cases::TensorComponent::xz, {5, 5, 5}}}}};
   scene.definition.has_fields = true;
   const std::vector<cases::Design> designs{cases::Design::hybrid, cases::Design::lloyd,
                                            cases::Design::biquadratic, cases::Design::uniform};
