@@ -14,10 +14,6 @@ namespace {
 
 /// By PETSc's solver, or the grid's on several ranks.
 cases::Solution solve_by_snes(const cases::Scene& scene, const msm::DesignResult& design) {
-  if (scene.definition.dynamics) {
-    MovingSprings moving = make_moving_springs(scene, design);
-    return solvers().follow_lattice_by_snes(scene, std::move(moving.lattice), std::move(moving.damping));
-  }
   return with_fields(scene, design,
                      design.terms ? solvers().solve_lattice_by_snes(scene, assembled_lattice(scene, design))
                                   : solvers().solve_by_snes(scene, stiffness_of_cells(design)));

@@ -2,7 +2,7 @@
 #include "fem_reference/motion.hpp"
 #include "fem_reference/session.hpp"
 #include "fem_reference/vibrating_elements.hpp"
-#include "msm/snes/motion.hpp"
+#include "msm/snes/snes.hpp"
 
 #include <dlfcn.h>
 #include <mpi.h>
@@ -42,11 +42,6 @@ cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice la
   return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
 }
 
-cases::Solution follow_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice,
-                                       msm::Lattice damping) {
-  return msm::follow_lattice_by_snes(scene, std::move(lattice), std::move(damping), MPI_COMM_WORLD);
-}
-
 } // namespace
 
 const SolverFunctions springproof_solvers{start,
@@ -55,7 +50,6 @@ const SolverFunctions springproof_solvers{start,
                                           fem_reference::vibrating_body,
                                           solve_by_snes,
                                           solve_lattice_by_snes,
-                                          follow_lattice_by_snes,
                                           mechanics::petsc::full_spectrum,
                                           mechanics::petsc::lowest_spectrum,
                                           mechanics::petsc::lowest_vibrations};
