@@ -194,9 +194,10 @@ void check_dynamics(Table& root, const Case& definition) {
     throw InputError(definition.fem.where, "formulation must not be \"auto\" beside [dynamics]: whether the "
                                            "strains are small is known at the end alone");
   if (definition.msm.solver != Solver::newton)
-    throw InputError(definition.msm.where, fmt::format("solver is \"{}\", must be \"newton\" beside [dynamics]: "
-                                                       "the others find equilibria alone",
-                                                       name_of(definition.msm.solver)));
+    throw InputError(definition.msm.where,
+                     fmt::format("solver is \"{}\", must be \"newton\" beside [dynamics]: "
+                                 "the others find equilibria alone",
+                                 name_of(definition.msm.solver)));
 }
 
 } // namespace springproof::cases

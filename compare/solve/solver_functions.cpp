@@ -34,12 +34,8 @@ cases::Solution follow_finite_elements(const cases::Scene& scene) {
   return fem_reference::follow(scene);
 }
 
-cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
-  return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
-}
-
-cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice) {
-  return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
+cases::Solution solve_by_snes(const cases::Scene& scene, const msm::SpringBody& springs) {
+  return msm::solve_by_snes(scene, springs, MPI_COMM_WORLD);
 }
 
 } // namespace
@@ -49,7 +45,6 @@ const SolverFunctions springproof_solvers{start,
                                           follow_finite_elements,
                                           fem_reference::vibrating_body,
                                           solve_by_snes,
-                                          solve_lattice_by_snes,
                                           mechanics::petsc::full_spectrum,
                                           mechanics::petsc::lowest_spectrum,
                                           mechanics::petsc::lowest_vibrations};

@@ -179,22 +179,14 @@ class SnesProblem : public petsc::DistributedProblem {
 
 } // namespace
 
-cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                              MPI_Comm communicator, const mechanics::EquilibriumSettings& settings,
-                              const Points& start) {
-  if (takes_multigrid(scene, stiffness))
-    return Model(scene, stiffness,
-                 {Path::multigrid, 1, deal_out_to(communicator),
-                  mechanics::share_out(scene.mesh, communicator)})
-        .solve(settings, start);
-  return solve_lattice_by_snes(scene, make_lattice(scene.mesh, stiffness), communicator, settings, start);
-}
-
-cases::Solution solve_lattice_by_snes(const cases::Scene& scene, Lattice lattice, MPI_Comm communicator,
-                                      const mechanics::EquilibriumSettings& settings, const Points& start) {
+cases::Solution solve_by_snes(const cases::Scene& scene, const SpringBody& springs, MPI_Comm communicator,
+                              const mechanics::EquilibriumSettings& settings, const Points& start) {
   const auto sharing = mechanics::share_out(scene.mesh, communicator);
+  if (takes_multigrid(scene, springs))
+    return Model(scene, springs, {Path::multigrid, 1, deal_out_to(communicator), sharing})
+        .solve(settings, start);
   Problem problem = make_problem(scene);
-  problem.lattice = std::move(lattice);
+  problem.lattice = make_lattice(scene.mesh, springs);
   SnesProblem system(problem, settings, communicator);
   const mechanics::Equilibrium equilibrium =
       mechanics::find_equilibrium(system, system.state(start), "mass-spring equilibrium by SNES",
