@@ -171,7 +171,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     std::vector<CubeSolve> solves;
     for (const Comparison& test : fem) {
       cases::Case definition = test.scene.definition;
-      definition.msm = a.design->terms ? a.options : given(k);
+      definition.msm = a.design->springs.cells() ? given(k) : a.options;
       springs.push_back(compare_case(definition, {cases::Side::msm}));
       solves.push_back({test, springs.back()});
     }

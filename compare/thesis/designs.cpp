@@ -61,7 +61,7 @@ Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   const Comparison& msm = solves.front().msm;
   const auto& design = msm.answers.design;
   advice.is_designed = design.has_value();
-  if (design && !design->terms) advice.stiffness = over_modulus_and_edge(design->stiffness, msm.scene);
+  if (design && design->springs.cells()) advice.stiffness = over_modulus_and_edge(design->stiffness, msm.scene);
   advice.cube = cube_errors(solves);
   std::vector<double> fem_seconds, msm_seconds;
   for (const auto& [fem, springs] : solves) {
