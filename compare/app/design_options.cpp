@@ -3,7 +3,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 #include "compare/app/number_option.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"

@@ -1,6 +1,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/modes/write_eigen.hpp"

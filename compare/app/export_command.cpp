@@ -1,6 +1,6 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"

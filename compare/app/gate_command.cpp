@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/replay_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"

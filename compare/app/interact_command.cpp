@@ -1,6 +1,6 @@
 #include "cases/case/installation.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/number_option.hpp"
 #include "compare/interact/recording.hpp"

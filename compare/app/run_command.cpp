@@ -1,6 +1,6 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/app/next_commands.hpp"
 #include "compare/app/replay_option.hpp"

@@ -31,7 +31,7 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Com
       if (!error && errors.failure.empty())
         errors.failure = fmt::format("{} {}: {}", load_set, cube_tests[t].test, reason);
       if (!error) continue;
-      const bool is_volume = test.scene.definition.measures[m].kind == cases::MeasureKind::volume;
+      const bool is_volume = cases::is<cases::measures::Volume>(test.scene.definition.measures[m]);
       (is_volume ? volumes : lengths_and_angles).add(*error, t);
     }
   }
@@ -83,10 +83,11 @@ cases::Case cube_case(const CubeTest& test, const cases::Material& material, dou
                        msm::small_strain_material(definition.material).youngs_modulus * edge * edge;
   definition.material = material;
   std::get<cases::Box>(definition.body).size *= edge; // from cells of 1 mm
-  for (cases::Load& load : definition.loads) load.value *= scale;
+  for (cases::Load& load : definition.loads) load.scale(scale);
   for (cases::Measure& measure : definition.measures)
-    for (cases::Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-      if (region->near) *region->near *= edge;
+    cases::for_each_region(measure, [&](cases::Region& region, bool) {
+      if (region.near) *region.near *= edge;
+    });
   return definition;
 }
 

@@ -1,6 +1,6 @@
 #include "compare/cube/write_design.hpp"
 
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"

@@ -54,9 +54,8 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
       throw cases::InputError(
           fmt::format("{}: pulls {} nodes and vertices in all, may pull {}: fewer places or smaller ones",
                       path, n_loaded, most_loaded));
-    patch.load.kind = cases::LoadKind::nodal_force;
     for (int axis = 0; axis < 3; ++axis) {
-      patch.load.value = Vector3d::Unit(axis); // N, times the factor
+      patch.load.kind = cases::loads::NodalForce{Vector3d::Unit(axis)}; // N, times the factor
       patch.load.history = history_of(hold, axis, dynamics->step);
       scene.loads.push_back(patch);
     }

@@ -103,7 +103,7 @@ mechanics::EmbeddedSurface embedded_surface(const cases::Scene& scene) {
     return mechanics::embed(file ? scene.surface : outer(), scene.mesh);
   } catch (const std::runtime_error& error) {
     if (!file) throw;
-    throw cases::InputError(file->where, file->path + ": " + error.what());
+    file->file.refuse(error.what());
   }
 }
 

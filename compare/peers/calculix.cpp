@@ -147,7 +147,7 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
   if (!definition.moved.empty()) return "its input has no moved regions";
   if (definition.dynamics) return reason_without_calculix_motion(definition);
   if (std::any_of(definition.loads.begin(), definition.loads.end(),
-                  [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; }))
+                  [](const cases::Load& load) { return load.on() == cases::loads::On::masses; }))
     return "its input has no gravity";
   if (!definition.region_materials.empty()) return "its input has one material";
   if (std::holds_alternative<cases::TransverselyIsotropic>(definition.material))
@@ -230,10 +230,10 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
     return "its implicit steps have no damping";
   if (!definition.moved.empty()) return "its input has no moved regions";
   for (const cases::Load& load : definition.loads)
-    if (load.kind == cases::LoadKind::gravity || load.history.frequency != 0)
+    if (load.on() == cases::loads::On::masses || load.history.frequency != 0)
       return "its loads have histories in points, and none is gravity";
   for (const cases::Measure& measure : definition.measures)
-    if (measure.kind == cases::MeasureKind::volume) return "volumes over time are not read";
+    if (cases::is<cases::measures::Volume>(measure)) return "volumes over time are not read";
   return std::nullopt;
 }
 

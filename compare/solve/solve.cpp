@@ -56,9 +56,8 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto& selection = scene.loads[i].selection;
     const cases::Load& load = scene.loads[i].load;
-    const bool is_point_force = load.kind == cases::LoadKind::nodal_force ||
-                                (load.kind == cases::LoadKind::total_force && !is_area(selection));
-    if (is_point_force && !load.value.isZero(0))
+    const bool is_shared_by_area = cases::is<cases::loads::TotalForce>(load) && is_area(selection);
+    if (load.on() == cases::loads::On::nodes && !is_shared_by_area && !load.is_zero())
       return fmt::format(
           "load[{}] is a concentrated force (on points or edges), which has no continuum limit: the "
           "displacement under it grows without bound as the mesh is refined; use a traction",

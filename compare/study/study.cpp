@@ -26,7 +26,7 @@ void check_measures(const cases::Scene& scene) {
 
 void add_errors(Trial& trial, const Comparison& comparison) {
   const std::vector<cases::Measure>& asked = comparison.scene.definition.measures;
-  const auto is_volume = [](const cases::Measure& m) { return m.kind == cases::MeasureKind::volume; };
+  const auto is_volume = [](const cases::Measure& m) { return cases::is<cases::measures::Volume>(m); };
   const bool has_others = !std::all_of(asked.begin(), asked.end(), is_volume);
   WorstError errors, volumes;
   for (std::size_t m = 0; m < trial.measures.size(); ++m) {

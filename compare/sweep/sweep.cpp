@@ -39,10 +39,7 @@ bool solve_timed(cases::Solution& solution, Times& times, const std::function<ca
 }
 
 cases::Scene with_load(cases::Scene scene, double factor) {
-  for (auto& applied : scene.loads) {
-    applied.load.value *= factor;
-    applied.load.moment *= factor;
-  }
+  for (auto& applied : scene.loads) applied.load.scale(factor);
   for (auto& moved : scene.moved) {
     moved.motion.displacement *= factor;
     moved.motion.angle *= factor;

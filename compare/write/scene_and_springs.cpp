@@ -1,6 +1,6 @@
 #include "compare/write/write.hpp"
 
-#include "cases/scene/histories.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
@@ -21,7 +21,7 @@ struct Body {
 };
 
 Body measured_body(const cases::HexMesh& mesh) {
-  Body body{cases::bounding_box(mesh).sizes()};
+  Body body{cases::bounding_box(mesh.nodes).sizes()};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     body.volume += cases::cell_volume(cases::cell_vertices(mesh, c));
   return body;
@@ -41,7 +41,7 @@ void remove_rounding(Eigen::Vector3d& vector, double scale) {
 
 std::optional<Resultant> resultant_of(const cases::Scene& scene) {
   if (scene.loads.empty() || cases::has_load_histories(scene)) return std::nullopt;
-  Resultant all{cases::bounding_box(scene.mesh).center()};
+  Resultant all{cases::bounding_box(scene.mesh.nodes).center()};
   double size = 0, turning = 0;
   for (const auto& [node, force] : cases::applied_forces(scene)) {
     const Eigen::Vector3d arm = scene.mesh.nodes[cases::index(node)] - all.centre;

@@ -2,8 +2,7 @@
 
 #include "cases/case/rows.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "cases/mesh/vtk.hpp"
-#include "cases/scene/histories.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/tensor.hpp"
@@ -68,7 +67,7 @@ void add_errors(cases::GridFields& all, const cases::HexMesh& mesh, const cases:
   all.point_vectors.push_back({"difference", difference, "mm"});
   all.point_numbers.push_back({"error", error, "mm"});
   const double largest =
-      field_norm(cases::MeasureKind::displacement_field_max, mesh, fem.displacement, fem.sharing.get());
+      field_norm(cases::measures::DisplacementFieldMax{}, mesh, fem.displacement, fem.sharing.get());
   if (largest > 0) {
     for (double& value : error) value /= largest;
     all.point_numbers.push_back({"relative_error", error, "1"});

@@ -50,11 +50,7 @@ cases::Case small_block(const Vector3d& size, const std::array<int, 3>& cells,
   auto definition = scenes::cube(scenes::Test::shear, scenes::LoadSet::small, scenes::thesis_elastic(),
                                  cases::Formulation::log_strain, element, 2);
   definition.body = cases::Box{size, cells};
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = Vector3d(0.006, 0.001, -0.002);
-  definition.loads = {load};
+  definition.loads = {{{"z+"}, cases::loads::Traction{Vector3d(0.006, 0.001, -0.002)}}};
   return definition;
 }
 
@@ -105,7 +101,8 @@ std::vector<cases::Scene> scenes_for_ranks() {
 
   auto column = small_block({1, 1, 10}, {4, 4, 40});
   column.material = cases::LinearElastic{1, 0};
-  column.loads.front().value = Vector3d(0, 0, -0.0033); // 1.6 times the Euler load of both directions
+  column.loads.front().kind =
+      cases::loads::Traction{{0, 0, -0.0033}}; // 1.6 times the Euler load of both directions
   scenes.push_back(cases::make_scene(column));
   return scenes;
 }
@@ -138,7 +135,7 @@ TEST_CASE("the grid's backend has the same answer on any number of ranks", "[.][
 
 TEST_CASE("every rank hears of a load that cannot be carried", "[.][ranks][grid_ranks]") {
   auto definition = small_block({10, 10, 10}, {8, 8, 8});
-  definition.loads.front().value = Vector3d(0, 0, 1);
+  definition.loads.front().kind = cases::loads::Traction{{0, 0, 1}};
   const auto scene = cases::make_scene(definition);
   CHECK_THROWS_AS(fem_reference::Model(scene, MPI_COMM_WORLD, fem_reference::Backend::grid).solve(),
                   cases::SolveError);

@@ -15,8 +15,11 @@ TEST_CASE("a cube of another material has the declared formulation, and loads th
     CHECK(thesis.fem.element == cases::Element::q1_bbar);
     CHECK(std::get<cases::Box>(other.body).size == Eigen::Vector3d(30, 30, 30));
     REQUIRE(other.loads.size() == thesis.loads.size());
+    const auto force = [](const cases::Load& load) {
+      return std::get<cases::loads::NodalForce>(load.kind).value;
+    };
     for (std::size_t l = 0; l < thesis.loads.size(); ++l)
-      CHECK((other.loads[l].value - 18 * thesis.loads[l].value).norm() <=
+      CHECK((force(other.loads[l]) - 18 * force(thesis.loads[l])).norm() <=
             1e-15);                          // rounding of forces below 1 N
     CHECK_NOTHROW(cases::make_scene(other)); // the measures find their nodes
   }
@@ -31,7 +34,7 @@ compare::Comparison test_with(double height, double volume, cases::Status status
   test.scene.definition.measures.resize(2);
   test.scene.definition.measures[0].name = "L_1";
   test.scene.definition.measures[1].name = "volume";
-  test.scene.definition.measures[1].kind = cases::MeasureKind::volume;
+  test.scene.definition.measures[1].kind = cases::measures::Volume{};
   test.measures = {{"L_1", "mm", 100.0, height, std::nullopt},
                    {"volume", "mm3", 100.0, volume, std::nullopt}};
   if (status == cases::Status::converged)

@@ -82,9 +82,7 @@ TEST_CASE("a body that is pulled comes to the static equilibrium of the spring's
     const auto patch = mechanics::patch_within(
         body.surface(), body.surface().rest.vertices[cases::index(*held)], body.spheres().radius);
     for (const auto& [node, weight] : cases::on_nodes(patch, scene.mesh)) {
-      cases::Load load;
-      load.kind = cases::LoadKind::nodal_force;
-      load.value = weight * body.force();
+      cases::Load load{{}, cases::loads::NodalForce{weight * body.force()}};
       loaded.loads.push_back({{{node}, {}, {}}, load});
     }
     loaded.definition.dynamics.reset();

@@ -28,11 +28,7 @@ cases::Case cell(const std::string& name) {
   definition.body = cases::Box{{1, 1, 1}, {1, 1, 1}};
   definition.material = cases::LinearElastic{1, 0.3};
   definition.fixed.push_back({{"z-", std::nullopt, {"a.toml", 7, 1, "fixed[0].region"}}});
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 1};
-  definition.loads.push_back(load);
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, 1}}});
   return definition;
 }
 

@@ -29,13 +29,9 @@ mechanics::IntegrationSettings tight() {
 /// A block whose ends move and turn, under gravity that bends it by a third of its height; all of it is seen.
 cases::Scene driven_block(cases::Scheme scheme) {
   cases::Scene scene = turned_block(steps(scheme, 0.002, 0.02), damped);
-  cases::Load pull = gravity();
-  pull.value = {0, 1500, -3000}; // m/s²
-  pull.history.points = {{0., 0.}, {0.005, 1.}};
-  scene.loads.push_back({{}, pull});
-  cases::Measure volume;
-  volume.kind = cases::MeasureKind::volume;
-  scene.definition.measures = {volume};
+  const cases::loads::Gravity pull{{0, 1500, -3000}}; // m/s²
+  scene.loads.push_back({{}, {{}, pull, {{{0., 0.}, {0.005, 1.}}}}});
+  scene.definition.measures = {{"", cases::measures::Volume{}}};
   return scene;
 }
 
@@ -159,7 +155,7 @@ TEST_CASE_METHOD(WithMpi, "a body on which nothing acts stays where it is under 
 TEST_CASE_METHOD(WithMpi, "SNES keeps the energy of a small undamped swing by newmark",
                  "[snes][verification]") {
   cases::Scene scene = block(steps(cases::Scheme::newmark, 0.0005, 0.1), undamped, false, 3);
-  scene.loads.front().load.value *= 1e-3; // strains of 1e-5, so that the springs are linear to that
+  scene.loads.front().load.scale(1e-3); // strains of 1e-5, so that the springs are linear to that
   const cases::Solution motion = follow_by_snes(scene, hybrid_springs, {});
   const msm::Lattice lattice = msm::make_lattice(scene.mesh, {hybrid_springs});
   const std::vector<double> mass = msm::make_inertia(scene, {}).mass;
@@ -200,7 +196,7 @@ TEST_CASE_METHOD(WithMpi, "a step that SNES leaves with no more than rounding is
 TEST_CASE_METHOD(WithMpi, "a step that SNES does not solve is halved, and the motion goes on", "[snes]") {
   // It begins with a hundred times its weight, of which nothing is left after three steps.
   cases::Scene scene = block(steps(cases::Scheme::implicit_euler, 0.01, 0.05), {1000., 0, 0.002}, false, 3);
-  scene.loads.front().load.value *= 100;
+  scene.loads.front().load.scale(100);
   scene.loads.front().load.history.points = {{0., 1.}, {0.03, 0.}};
   mechanics::IntegrationSettings few = tight();
   few.newton.tolerance = 1e-9;

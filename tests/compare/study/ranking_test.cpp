@@ -230,7 +230,7 @@ TEST_CASE("the worst error of a trial is of lengths and angles before volumes, w
   run.measures = {{"up", "mm", 1, 1.02, 2}, {"down", "mm", 1, 0.97, -3}, {"volume", "mm3", 1, 0.9, -10}};
   run.measures[1].error_uncertainty_percent = 0.5;
   run.scene.definition.measures.resize(3);
-  run.scene.definition.measures[2].kind = cases::MeasureKind::volume;
+  run.scene.definition.measures[2].kind = cases::measures::Volume{};
   const Trial trial = compare::trial_of(run);
   CHECK(*trial.worst == 3);
   CHECK(trial.worst_at == "down");
@@ -257,14 +257,8 @@ TEST_CASE("a design that a case cannot have is refused, and the best has the err
 TEST_CASE("designs are ranked by energy and stress too, whatever their cells consist of",
           "[verification][long]") {
   cases::Scene scene = small_shear();
-  cases::Measure energy, stress;
-  energy.name = "energy";
-  energy.kind = cases::MeasureKind::strain_energy;
-  stress.name = "stress";
-  stress.kind = cases::MeasureKind::stress;
-  stress.point = {5, 5, 5};
-  stress.tensor_component = cases::TensorComponent::xz;
-  scene.definition.measures = {energy, stress};
+  scene.definition.measures = {{"energy", cases::measures::StrainEnergy{}},
+                               {"stress", cases::measures::Stress{{cases::TensorComponent::xz, {5, 5, 5}}}}};
   scene.definition.has_fields = true;
   const std::vector<cases::Design> designs{cases::Design::hybrid, cases::Design::lloyd,
                                            cases::Design::biquadratic, cases::Design::uniform};

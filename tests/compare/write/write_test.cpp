@@ -37,10 +37,7 @@ compare::Comparison one_cell_comparison() {
 
 /// Adds a traction on the upper face, MPa.
 cases::Load& add_traction(compare::Comparison& comparison, const Eigen::Vector3d& value) {
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
+  const cases::Load load{{"z+"}, cases::loads::Traction{value}};
   auto& loads = comparison.scene.loads;
   loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
   return loads.back().load;
@@ -149,9 +146,7 @@ TEST_CASE("the place that a moment is about is printed to six digits, as the mom
 
 TEST_CASE("the error of a field is marked as a norm, which has no sign") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Measure field;
-  field.name = "everywhere";
-  field.kind = cases::MeasureKind::displacement_field_l2;
+  cases::Measure field{"everywhere", cases::measures::DisplacementFieldL2{}};
   comparison.scene.definition.measures = {field};
   comparison.measures = {{"everywhere", "mm", 2.0, 2.0, 12.5}};
   const std::string text = text_of(comparison);
