@@ -3,7 +3,6 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
-#include "compare/modes/vibrations.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -96,7 +95,8 @@ int run(EigenOptions options) {
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));
+  const EigenspaceAnalysis analysis =
+      analyse_eigenspaces(solvers().full_spectrum(fem), solvers().full_spectrum(msm));
   const std::optional<cases::HexMesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);

@@ -3,7 +3,7 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/solve/springs.hpp"

@@ -94,7 +94,7 @@ std::vector<NextCommand> next_commands(const RunOfCase& run, const Comparison& c
 
 std::vector<NextCommand> next_commands(const RunOfCase& run, const cases::Msm& own, const Ranking& ranking) {
   std::vector<NextCommand> next;
-  const RankedDesign* best = ranking.recommended();
+  const Trial* best = ranking.recommended();
   if (best && best->name != cases::name_of(own.design))
     next.push_back({line_of(words_of(run, {"msm=", "msm."}), {"--set", msm_setting(best->name, own)}),
                     "this design by itself"});

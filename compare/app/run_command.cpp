@@ -10,7 +10,7 @@
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/ranking/write_ranking.hpp"
+#include "compare/study/write_ranking.hpp"
 #include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"

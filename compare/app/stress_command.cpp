@@ -9,7 +9,7 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/table/json.hpp"
-#include "compare/write/write_stress.hpp"
+#include "compare/hard/stress.hpp"
 
 #include <filesystem>
 #include <iostream>

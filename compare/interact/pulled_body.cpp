@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

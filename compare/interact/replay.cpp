@@ -2,7 +2,7 @@
 
 #include "cases/scene/loads.hpp"
 #include "compare/interact/read_recording.hpp"
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 #include "mechanics/surface/patch.hpp"
 
 #include <fmt/format.h>

@@ -330,8 +330,10 @@ std::optional<double> value_of(const cases::Measure& measure, const cases::Scene
 std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
                               const cases::Solution& solution) {
   if (!can_evaluate(measure, solution)) return "the solution is of displacements alone, without its fields";
-  if (measure.over_time && solution.trajectory)
-    return why_without_number(*measure.over_time, series_of(measure, scene, solution));
+  if (measure.over_time && solution.trajectory) {
+    const auto number = number_over_time(*measure.over_time, series_of(measure, scene, solution));
+    return std::holds_alternative<double>(number) ? "" : std::get<std::string>(number);
+  }
   const auto value = value_of(measure, scene, solution);
   return value && std::isfinite(*value) ? "" : "it is not a finite number";
 }
@@ -377,7 +379,7 @@ double zero_of_displacements(const cases::Scene& scene, const cases::Solution& s
 
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
   if (!can_evaluate(measure, fem)) return 0; // one that failed beside meshes that have a limit
-  if (measure.over_time && has_own_unit(*measure.over_time)) return 0;
+  if (measure.over_time && !unit_over_time(*measure.over_time, "").empty()) return 0; // has its own
   return zero_of_values(measure, scene, fem);
 }
 

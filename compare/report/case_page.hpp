@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/ranking/ranking.hpp"
+#include "compare/study/study.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

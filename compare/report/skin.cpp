@@ -1,6 +1,6 @@
 #include "compare/report/skin.hpp"
 
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 #include "compare/report/lengths.hpp"
 #include "compare/table/json.hpp"
 

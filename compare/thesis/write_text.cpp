@@ -2,7 +2,6 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/readers.hpp"
-#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/thesis/layout.hpp"
 

@@ -1,4 +1,4 @@
-#include "compare/gates/judge.hpp"
+#include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/tensor.hpp"
 

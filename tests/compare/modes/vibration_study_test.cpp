@@ -1,6 +1,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/modes/vibrations.hpp"
+#include "compare/modes/write_eigen.hpp"
 #include "compare/peers/calculix.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -16,10 +16,8 @@ using namespace springproof;
 
 namespace {
 
-/// A bar of a square section along x, of water and 0.1 MPa, held at one end or nowhere.
-cases::Scene bar(bool is_held, const std::string& further = "") {
-  return cases::make_scene(cases::read_case_text(R"(
-schema = 1
+/// A bar of a square section along x, of water and 0.1 MPa, that nothing holds.
+const std::string free_bar = R"(schema = 1
 name = "bar"
 [body]
 shape = "box"
@@ -30,19 +28,17 @@ model = "linear_elastic"
 youngs_modulus = 0.1
 poissons_ratio = 0.3
 density = 1000
-)" + std::string(is_held ? "[[fixed]]\nregion = \"x-\"\n" : R"([dynamics]
-scheme = "newmark"
-step = 0.001
-end = 0.001
-)") + R"([[load]]
-kind = "gravity"
-value = [0, 0, -9.81]
-[fem]
-accuracy = "none"
 [msm]
 design = "hybrid"
-)" + further,
-                                                 "bar.toml"));
+)";
+
+/// The same held at one end or moving freely.
+cases::Scene bar(bool is_held) {
+  const std::string held = "[[fixed]]\nregion = \"x-\"\n",
+                    moving = "[dynamics]\nscheme = \"newmark\"\nstep = 0.001\nend = 0.001\n",
+                    load = "[[load]]\nkind = \"gravity\"\nvalue = [0, 0, -9.81]\n"
+                           "[fem]\naccuracy = \"none\"\n";
+  return cases::make_scene(cases::read_case_text(free_bar + (is_held ? held : moving) + load, "bar.toml"));
 }
 
 const double wave = std::sqrt(0.1 / 1e-9); // mm/s, along a rod
@@ -52,21 +48,7 @@ const double wave = std::sqrt(0.1 / 1e-9); // mm/s, along a rod
 TEST_CASE("a case for its vibrations alone needs neither supports nor loads nor [dynamics]",
           "[verification]") {
   const TemporaryFolder folder;
-  const std::string file = folder.write("free.toml", R"(
-schema = 1
-name = "free bar"
-[body]
-shape = "box"
-size = [40, 10, 10]
-cells = [8, 2, 2]
-[material]
-model = "linear_elastic"
-youngs_modulus = 0.1
-poissons_ratio = 0.3
-density = 1000
-[msm]
-design = "hybrid"
-)");
+  const std::string file = folder.write("free.toml", free_bar);
   CHECK_THROWS_WITH(cases::read_case(file), Catch::Contains("nothing holds the body"));
   const auto free = cases::make_scene(cases::read_case(file, {}, cases::Purpose::vibrations));
   const compare::VibrationStudy alone = compare::study_vibrations(free, {}, 4),
@@ -105,7 +87,7 @@ TEST_CASE("a model's vibrations overlap with themselves, degenerate ones too") {
   const compare::VibrationStudy study = compare::study_vibrations(scene, {}, 10);
   // Turned within its space of two, the first pair is as good a pair.
   compare::Vibrations turned = study.fem;
-  const auto spaces = compare::spaces_of(turned.hertz);
+  const auto spaces = compare::cluster(turned.hertz, 0, compare::same_frequency);
   REQUIRE(spaces.front().dimension == 2);
   const double c = std::cos(0.7), s = std::sin(0.7);
   const Eigen::VectorXd first = turned.shapes.col(0), second = turned.shapes.col(1);

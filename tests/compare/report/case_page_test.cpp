@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/ranking/verdict.hpp"
+#include "compare/study/verdict.hpp"
 #include "compare/solve/springs.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -3,7 +3,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/numerical_damping.hpp"
+#include "compare/measure/over_time.hpp"
 #include "compare/solve/answer_bytes.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/write/write.hpp"
@@ -184,7 +184,7 @@ TEST_CASE(
 }
 
 // A warning that needs what the fault removes. Looked for also in: the overshoot and frequency of a measure
-// (why_without_number() says that it does not swing), --converge-time (an error from two solutions that are
+// (number_over_time() says that it does not swing), --converge-time (an error from two solutions that are
 // both damped: its figures say so), a limit of the mesh (taken from several meshes, not from one).
 TEST_CASE(
     "a step beyond the period of the slowest vibration is warned about, though nothing swings any more") {

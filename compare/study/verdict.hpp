@@ -1,13 +1,23 @@
 #pragma once
 
-#include "compare/gates/comparison.hpp"
+#include "compare/study/study.hpp"
 
 #include <ostream>
 #include <string>
 #include <vector>
 
-/// What a run comes to, in words, and what its reader may type next.
+/// What a run or a ranking comes to, in words, and what its reader may type next.
 namespace springproof::compare {
+
+/// "2.31", or "-" without a value.
+std::string two_digits(const std::optional<double>& value);
+
+/// "2.31 +- 0.4": the worst error with what the reference's uncertainty leaves of it.
+std::string worst_text(const Trial& trial);
+
+/// Which design to use: its numbers as the table has them, the finite elements' own error as far as it is
+/// known, what the reference's uncertainty does not tell it from, and why it and not those.
+std::string advice_of(const Ranking& ranking);
 
 /// What a case's own springs come to, in a sentence: their worst errors, with the reference's uncertainty,
 /// and the finite elements' own, of the measures whose limit is known; or why there is nothing to compare.

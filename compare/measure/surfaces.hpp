@@ -4,6 +4,7 @@
 #include "compare/solve/answers.hpp"
 #include "mechanics/surface/embedded_surface.hpp"
 
+/// How far the surfaces of both models are apart: at landmarks, and while they move.
 namespace springproof::compare {
 
 /// Of the rays that met the other surface.
@@ -34,5 +35,21 @@ std::vector<LandmarkDistance> landmark_distances(const cases::Scene& scene, cons
 /// The surface that a case names, or else the outer one of its cells, bound to the cells.
 /// @throws cases::InputError at the place of the surface in the case file if it cannot be bound
 mechanics::EmbeddedSurface embedded_surface(const cases::Scene& scene);
+
+/// How far the springs' surface is from the finite elements' while both move.
+struct SurfaceMotion {
+  std::vector<double> time; ///< s, of the written bodies
+  std::vector<double> fem;  ///< mm: root mean square, over the vertices, of the finite elements' displacement
+  std::vector<double> msm;  ///< mm: the same of the springs'
+  std::vector<double> difference;      ///< mm: the same of the difference of both models' displacements
+  std::vector<double> largest;         ///< mm: the largest difference of a vertex
+  std::optional<double> error_percent; ///< root mean square of difference over time, over that of fem
+};
+
+/// Of the surface that a dynamic case names ([surface]), at the times of its written bodies, with
+/// dynamics.write_every; vertices count alike. Nothing where the case names no surface, or a model did not
+/// move to the end; no error where the finite elements' surface rests but for rounding.
+/// @throws cases::InputError if the surface cannot be bound to the cells
+std::optional<SurfaceMotion> surface_motion(const cases::Scene& scene, const Answers& answers);
 
 } // namespace springproof::compare

@@ -1,4 +1,4 @@
-#include "compare/ranking/verdict.hpp"
+#include "compare/study/verdict.hpp"
 
 #include "compare/table/table.hpp"
 
