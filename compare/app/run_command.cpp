@@ -48,7 +48,7 @@ struct RunOptions {
 void ask_peer(const cases::Scene& scene, Answers& answers) {
   const cases::Solution fem = gathered(answers.fem.solution);
   answers.peer.emplace();
-  const Answer answer = shared_from_rank_0(scene.mesh, [&] {
+  const Answer answer = shared_from_rank_0<Answer>(scene.mesh, [&] {
     answers.peer = ask_calculix(with_fem(scene, answers.resolved), fem);
     return answers.peer->answer;
   });

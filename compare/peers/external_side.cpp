@@ -58,7 +58,7 @@ ExternalDisplacements read_interpolated(const cases::HexMesh& mesh, const std::s
 /// A displacement of all nodes of the mesh as an answer, shared by the ranks.
 Answer answer_of(const cases::HexMesh& mesh, const std::string& message,
                  const std::function<std::vector<Eigen::Vector3d>()>& displacement) {
-  return shared_from_rank_0(mesh, [&] {
+  return shared_from_rank_0<Answer>(mesh, [&] {
     Answer answer;
     cases::Solution& solution = answer.solution;
     solution.status = cases::Status::converged;

@@ -64,6 +64,9 @@ struct Answers {
 };
 
 /// All solutions among the answers, in an order that depends on which there are alone.
+inline std::vector<cases::Solution*> solutions_of(Answer& answer) {
+  return {&answer.solution};
+}
 inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
   std::vector<cases::Solution*> all{&answers.fem.solution, &answers.msm.solution};
   if (answers.peer) all.push_back(&answers.peer->answer.solution);

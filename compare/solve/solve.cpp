@@ -27,7 +27,7 @@ cases::Solution solve_by_snes(const cases::Scene& scene, const msm::DesignResult
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
   if (scene.definition.msm.solver != cases::Solver::snes)
-    return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
+    return shared_from_rank_0<Answer>(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
   solvers(); // loading them is no part of the time
   const auto designed = [&] {
     design = design_for(scene);
@@ -97,7 +97,7 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
       return solve_side([&] { return std::cref(scene); },
                         [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
     };
-    return {shared_from_rank_0(scene.mesh, move), scene.definition.fem, {}, {}};
+    return {shared_from_rank_0<Answer>(scene.mesh, move), scene.definition.fem, {}, {}};
   }
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   decltype(make_finite_elements(scene)) solved;

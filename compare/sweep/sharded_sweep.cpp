@@ -4,7 +4,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/frame.hpp"
 #include "compare/solve/kept.hpp"
 #include "compare/sweep/costs.hpp"
 
