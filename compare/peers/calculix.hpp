@@ -18,19 +18,6 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 /// @param scene  already refined
 void write_calculix_input(std::ostream& out, const cases::Scene& scene);
 
-/// Why CalculiX cannot tell the frequencies of this case; nothing if it can.
-std::optional<std::string> reason_without_calculix_frequencies(const cases::Case& definition);
-
-/// The lowest frequencies (Hz) of a body with supports and without loads, rigid motions among them;
-/// consistent masses. Seven digits.
-/// @param scene  without a reason_without_calculix_frequencies(), of a density
-/// @return nothing when there is no `ccx`   @throws SolveError when it stops
-std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes);
-
-/// Its input, of a scene that is refined already; and what it leaves in a .dat file.
-void write_calculix_frequency_input(std::ostream& out, const cases::Scene& scene, int n_modes);
-std::vector<double> read_calculix_frequencies(std::istream& in);
-
 /// Displacements of a CalculiX .dat file (mm), and the part of the load, or the time (s), they belong to.
 struct CalculixOutput {
   std::vector<Eigen::Vector3d> displacement;
@@ -40,20 +27,12 @@ struct CalculixOutput {
 /// Reads what *NODE PRINT leaves in a .dat file, block after block: seven digits a component.
 /// @throws SolveError if a node has no displacement in some block, or there is no block
 std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n_nodes);
-/// The last block.
-inline CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
-  return read_calculix_blocks(in, n_nodes).back();
-}
-
-/// Why CalculiX cannot follow this dynamic case; nothing if it can.
-std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition);
 
 /// All nodes after every step of a linear motion from rest: *DYNAMIC at the case's own step, with alpha = 0,
 /// which is newmark (1/4, 1/2); loads by their histories.
-/// @param scene  without a reason_without_calculix_motion(), of a density
+/// @param scene  without a reason_without_calculix(), of a density
 /// @return nothing when there is no `ccx`   @throws SolveError when it stops
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene);
-void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene);
 
 /// Runs `ccx` in a temporary folder, one thread. Skipped, with the reason as its message, when there is no
 /// such program or it cannot express the case; residual and linear iterations stay 0, since CalculiX does not
