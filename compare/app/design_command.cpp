@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -118,9 +117,8 @@ int run(const CommandOptions& options) {
 } // namespace
 
 void add_design_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<CommandOptions>();
-  CLI::App* command =
-      program.add_subcommand("design", "stiffnesses of a cell for a material, and the lattice's moduli");
+  const auto [command, options] = add_command<CommandOptions>(
+      program, chosen, "design", "stiffnesses of a cell for a material, and the lattice's moduli", run);
   add_design_options(*command, options->design);
   command->add_flag("--compare", options->compare, "every method side by side");
   command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
@@ -128,8 +126,7 @@ void add_design_command(CLI::App& program, Action& chosen) {
   command->add_flag("--measure", options->measure,
                     "the errors of the thesis's cube with these designs (solves both models)");
   command->add_option("--out", options->out, "folder for design.json and the method's figures");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk.hpp"
-#include "compare/app/replay_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -120,17 +118,15 @@ int gate(const GateOptions& options) {
 } // namespace
 
 void add_gate_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<GateOptions>();
-  CLI::App* command = program.add_subcommand("gate", "judge what each case expects: one line per gate");
+  const auto [command, options] = add_command<GateOptions>(
+      program, chosen, "gate", "judge what each case expects: one line per gate", gate);
   command->add_option("case", options->files, "case files (TOML)")->required();
-  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
   add_displacement_options(*command, options->displacements);
   add_converge_option(*command, options->meshes);
   add_replay_option(*command, options->replay);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = add_json_option(*command, options->json);
   CLI::Option* annotate = command->add_flag(
       "--annotate", options->annotate, "GitHub's annotations too; with --json they go to standard error");
   CLI::Option* bless =
@@ -142,9 +138,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
                                          "folder for results.json, comparison.csv and fields as .vtu; cases "
                                          "that it holds already are not solved again");
   bless->excludes(add_shard_options(*command, options->shards, out, {junit, json, annotate, bless}));
-  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
-      ->check(CLI::Range(1, 1024));
-  command->callback([options, &chosen] { chosen = [options] { return gate(*options); }; });
+  add_workers_option(*command, options->workers);
 }
 
 } // namespace springproof::compare

@@ -2,7 +2,6 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/number_option.hpp"
 #include "compare/interact/recording.hpp"
 #include "compare/interact/server.hpp"
 #include "compare/provenance/machine.hpp"
@@ -143,12 +142,11 @@ int run(const InteractOptions& options) {
 } // namespace
 
 void add_interact_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<InteractOptions>();
-  CLI::App* command = program.add_subcommand(
-      "interact", "a dynamic case's springs on a page of this machine, to turn and to pull in real time");
+  const auto [command, options] = add_command<InteractOptions>(
+      program, chosen, "interact",
+      "a dynamic case's springs on a page of this machine, to turn and to pull in real time", run);
   command->add_option("case", options->file, "case file (TOML) with [dynamics]")->required();
-  command->add_option("--set", options->settings, "override a key of the case: dynamics.step=0.02")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key of the case: dynamics.step=0.02");
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
@@ -168,7 +166,6 @@ void add_interact_command(CLI::App& program, Action& chosen) {
   command->add_flag(
       "--json", options->json,
       "what has been, as one JSON document on standard output; the address goes to standard error");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 } // namespace springproof::compare

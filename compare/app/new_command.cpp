@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -81,12 +80,11 @@ int write_new_case(const NewOptions& options) {
 } // namespace
 
 void add_new_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<NewOptions>();
-  CLI::App* command = program.add_subcommand("new", "write a commented case file to start from");
+  const auto [command, options] = add_command<NewOptions>(
+      program, chosen, "new", "write a commented case file to start from", write_new_case);
   command->add_option("name", options->name, "of the case; the file is NAME.toml")->required();
   command->add_option("--template", options->template_name, "box | layers | mesh | voxels")
       ->capture_default_str();
-  command->callback([options, &chosen] { chosen = [options] { return write_new_case(*options); }; });
 }
 
 } // namespace springproof::compare

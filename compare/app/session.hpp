@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <streambuf>
 #include <string>
 
 /// A command's process, and its job's other ranks.
@@ -16,5 +18,19 @@ void start_ranks();
 /// For a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
+
+/// Colours the verdicts at the beginnings of lines that go to std::cout: met green, missed and failed red,
+/// warnings yellow. On a terminal alone, and not when the environment variable NO_COLOR is set (no-color.org)
+/// or TERM is "dumb". It ends with the object.
+class Colours {
+ public:
+  Colours();
+  ~Colours();
+  Colours(const Colours&) = delete;
+
+ private:
+  std::streambuf* plain_;
+  std::unique_ptr<std::streambuf> colouring_; ///< null: nothing is coloured
+};
 
 } // namespace springproof::compare

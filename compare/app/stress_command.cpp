@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -147,16 +146,15 @@ int run(const StressOptions& options) {
 } // namespace
 
 void add_stress_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<StressOptions>();
-  CLI::App* command = program.add_subcommand("stress", "the hard cases: does each end as it must?");
+  const auto [command, options] =
+      add_command<StressOptions>(program, chosen, "stress", "the hard cases: does each end as it must?", run);
   command->add_option("case", options->names,
                       "names of hard cases, or paths of their files; all but the heavy ones when left out");
   command->add_flag("--all", options->all, "the heavy ones too");
   command->add_option("--threads", options->n_threads, "of the springs' solver on grids of cells")
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", options->out, "folder for stress.txt and stress.json");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

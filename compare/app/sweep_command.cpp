@@ -1,6 +1,5 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/number_option.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -16,7 +15,6 @@
 #include "compare/write/json.hpp"
 
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <unistd.h>
 
@@ -160,16 +158,13 @@ int run(const SweepOptions& options) {
 } // namespace
 
 void add_sweep_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<SweepOptions>();
-  CLI::App* command =
-      program.add_subcommand("sweep", "speed against error, of both models at many resolutions");
+  const auto [command, options] = add_command<SweepOptions>(
+      program, chosen, "sweep", "speed against error, of both models at many resolutions", run);
   command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
-  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = add_json_option(*command, options->json);
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
   command
       ->add_option("--budget", options->budget,
@@ -179,7 +174,6 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
       "--perf", options->perf,
       "count the instructions of the springs' kernels with valgrind instead; needs no case");
   add_shard_options(*command, options->shards, out, {json, perf});
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 } // namespace springproof::compare

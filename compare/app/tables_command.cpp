@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -80,22 +79,18 @@ int tables(const TablesOptions& options) {
 } // namespace
 
 void add_tables_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<TablesOptions>();
-  CLI::App* command =
-      program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
+  const auto [command, options] = add_command<TablesOptions>(
+      program, chosen, "tables", "regenerate the thesis's tables, ours beside the published", tables);
   command->add_option("table", options->tables,
                       "numbers of tables; without any: all, designs and advice too");
   CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
-  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
-      ->check(CLI::Range(1, 1024));
+  add_workers_option(*command, options->workers);
   command->add_flag("--trace", options->trace,
                     "the audit in place of the tables: every reference, and the command that repeats it");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = add_json_option(*command, options->json);
   add_shard_options(*command, options->shards, out, {json});
-  command->callback([options, &chosen] { chosen = [options] { return tables(*options); }; });
 }
 
 } // namespace springproof::compare
