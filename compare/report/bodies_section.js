@@ -82,8 +82,8 @@ function bodies() {
       for (const entry of seen) show_body(entry.target.id.replace(/^view-/, ""));
     }, { rootMargin: "200px" });
     for (const id of view_records.keys()) watcher.observe(document.getElementById("view-" + id));
-    window.addEventListener("resize", () => redraw_bodies((view) => view.draw()));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw_bodies((view) => view.draw()));
+    window.addEventListener("resize", () => live_views.forEach((view) => view.draw()));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => live_views.forEach((view) => view.draw()));
   };
   return section;
 }
