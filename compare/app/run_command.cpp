@@ -42,17 +42,6 @@ struct RunOptions {
   bool json = false;
 };
 
-/// CalculiX wants all of the body in one place.
-void ask_peer(const cases::Scene& scene, Answers& answers) {
-  const cases::Solution fem = gathered(answers.fem.solution);
-  answers.peer.emplace();
-  const Answer answer = shared_from_rank_0<Answer>(scene.mesh, [&] {
-    answers.peer = ask_calculix(with_fem(scene, answers.resolved), fem);
-    return answers.peer->answer;
-  });
-  answers.peer->answer = answer;
-}
-
 /// For the commands that a text ends with.
 RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
   return {options.program->get_name(), definition.file, options.settings, options.meshes > 0,
@@ -118,8 +107,8 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   const auto& [scene, request] = question;
   const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
                                   long_solve_text(scene.definition.name, models));
-  Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question));
-  if (!request.peer.empty()) ask_peer(scene, answers);
+  Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question),
+                          ask_calculix);
   finished.keep(question, answers);
   return answers;
 }

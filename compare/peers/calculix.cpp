@@ -6,6 +6,7 @@
 #include "cases/scene/masses.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
 #include "msm/lattice.hpp"
 #include "msm/problem.hpp"
@@ -326,17 +327,23 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   return solution;
 }
 
-Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem) {
+Peer ask_calculix(const cases::Scene& scene, const Answer& fem) {
+  const cases::Solution ours = gathered(fem.solution);
   Peer peer{"CalculiX", {}, std::nullopt};
-  Stopwatch stopwatch;
-  try {
-    peer.answer.solution = solve_with_calculix(scene);
-  } catch (const std::runtime_error& error) { // a solve that failed, a folder that cannot be made or written
-    peer.answer.solution = failed_solution(error);
-  }
-  peer.answer.solve_seconds = stopwatch.lap();
-  if (peer.answer.solution.status == cases::Status::converged && fem.status == cases::Status::converged)
-    peer.largest_difference = largest_difference(fem, peer.answer.solution);
+  peer.answer = shared_from_rank_0<Answer>(scene.mesh, [&] {
+    Answer answer;
+    Stopwatch stopwatch;
+    try {
+      answer.solution = solve_with_calculix(scene);
+    } catch (
+        const std::runtime_error& error) { // a solve that failed, a folder that cannot be made or written
+      answer.solution = failed_solution(error);
+    }
+    answer.solve_seconds = stopwatch.lap();
+    if (answer.converged() && fem.converged())
+      peer.largest_difference = largest_difference(ours, answer.solution);
+    return answer;
+  });
   return peer;
 }
 

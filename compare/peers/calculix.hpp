@@ -40,8 +40,9 @@ std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene);
 /// @throws SolveError when it stops before the full load
 cases::Solution solve_with_calculix(const cases::Scene& scene);
 
-/// The same with the time it took, held against our finite elements. A solve that fails is a failed answer.
-/// @param fem  our solution of the same scene
-Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem);
+/// The same with the time it took, held against our finite elements, on rank 0. A solve that fails is a
+/// failed answer. Collective.
+/// @param fem  our answer to the same scene
+Peer ask_calculix(const cases::Scene& scene, const Answer& fem);
 
 } // namespace springproof::compare

@@ -43,8 +43,8 @@ struct Interpolated {
   Answer fem_and_back;
 };
 
-/// All that solving a case has found: the answers of solve(). A peer's answer is added, and another program's
-/// displacements replace the springs', before they are compared.
+/// All that solving a case has found: the answers of solve(), complete and not changed afterwards. Of the
+/// same finite elements and other springs, other answers are made: with_displacements(), rank_designs().
 struct Answers {
   cases::Fem resolved;              ///< [fem] with what "auto" was found to mean
   std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons

@@ -19,8 +19,6 @@ namespace springproof::compare {
 
 namespace {
 
-using cases::Element;
-
 /// Measured on two cores of an Intel Xeon with AVX-512, one thread: seconds (of user time, at commits 874c2b4
 /// and 6eb550a) with cases/sweep/cube_shear.toml, 20^3 to 80^3 cells, and with the same block with one edge
 /// moved, which is no grid, 6^3 to 46^3; megabytes with all of cases/sweep, 10^3 to 4x10^5 unknowns, and
@@ -84,54 +82,6 @@ std::string memory_text(double megabytes) {
                          : fmt::format("{:.0f} GB", megabytes / 1e3);
 }
 
-} // namespace
-
-BodySize size_of(const cases::Scene& scene) {
-  BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
-  body.outline.definition = scene.definition;
-  body.outline.mesh.grid = scene.mesh.grid;
-  return body;
-}
-
-std::optional<BodySize> size_of(const cases::Case& definition) {
-  BodySize body{1, 1, {}};
-  body.outline.definition = definition;
-  cases::Grid& grid = body.outline.mesh.grid.emplace();
-  if (const auto* box = std::get_if<cases::Box>(&definition.body)) {
-    grid.cells = box->cells;
-    grid.spacing = box->size.cwiseQuotient(Eigen::Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
-    for (const int n : box->cells) {
-      body.n_cells *= n;
-      body.n_nodes *= n + 1.;
-    }
-  } else if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
-    try {
-      const auto [in_body, of_grid] = cases::count_voxels(*voxels);
-      body.n_cells = std::max(1., in_body);
-      grid.cells = of_grid;
-    } catch (const cases::InputError&) { // make_scene() refuses it in its turn
-      return std::nullopt;
-    }
-    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
-  } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
-    try {
-      const cases::LabelGrid labelled = cases::read_label_grid(*labels);
-      const auto& classes = labelled.class_of_cell;
-      body.n_cells =
-          static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));
-      grid.cells = labelled.cells;
-    } catch (const cases::InputError&) {
-      return std::nullopt;
-    }
-    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3);
-  } else {
-    return std::nullopt;
-  }
-  return body;
-}
-
-namespace {
-
 /// Of a dynamic case. A step takes about as many iterations of Newton's method as half an equilibrium, and a
 /// linear body's are not factorised again: an upper bound for these.
 Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
@@ -153,18 +103,57 @@ double bytes_of_motion(const BodySize& body) {
 
 } // namespace
 
+BodySize size_of(const cases::Scene& scene) {
+  BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
+  body.outline.definition = scene.definition;
+  body.outline.mesh.grid = scene.mesh.grid;
+  return body;
+}
+
+std::optional<BodySize> size_of(const cases::Case& definition) try {
+  BodySize body{1, 1, {}};
+  body.outline.definition = definition;
+  cases::Grid& grid = body.outline.mesh.grid.emplace();
+  if (const auto* box = std::get_if<cases::Box>(&definition.body)) {
+    grid.cells = box->cells;
+    grid.spacing = box->size.cwiseQuotient(Eigen::Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
+    for (const int n : box->cells) {
+      body.n_cells *= n;
+      body.n_nodes *= n + 1.;
+    }
+    return body;
+  }
+  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
+    const auto [in_body, of_grid] = cases::count_voxels(*voxels);
+    body.n_cells = std::max(1., in_body);
+    grid.cells = of_grid;
+  } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
+    const cases::LabelGrid labelled = cases::read_label_grid(*labels);
+    const auto& classes = labelled.class_of_cell;
+    body.n_cells =
+        static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));
+    grid.cells = labelled.cells;
+  } else {
+    return std::nullopt;
+  }
+  body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
+  return body;
+} catch (const cases::InputError&) { // make_scene() refuses it in its turn
+  return std::nullopt;
+}
+
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
-  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
-  const int halvings = fem.refine + (is_quadratic ? 1 : 0);
+  const int halvings = fem_reference::n_halvings(fem);
   const double unknowns = 3 * refined_nodes(body, halvings);
-  const auto backend = fem_reference::choose_backend(body.outline, unknowns / 3);
+  const auto backend =
+      fem_reference::choose_backend(body.outline, fem_reference::n_element_nodes(fem, body.n_nodes));
   const bool is_on_grid = backend == fem_reference::Backend::grid;
   const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3);
   Estimate estimate;
   if (is_on_grid)
     estimate = linear("finite elements (matrix-free)", unknowns, element_entries(nodes_along(body, halvings)),
-                      is_quadratic ? grid_quadratic_element : grid_linear_element);
+                      fem.element == cases::Element::q2 ? grid_quadratic_element : grid_linear_element);
   else if (is_factorised)
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
@@ -182,7 +171,7 @@ Estimate estimate_springs(const BodySize& body) {
   const bool is_assembled_motion = is_by_snes && definition.dynamics;
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline) && !is_assembled_motion;
   Estimate estimate;
-  if (is_on_grid && body.n_nodes >= msm::multigrid_from)
+  if (is_on_grid && msm::prefers_multigrid(*body.outline.mesh.grid, body.n_nodes))
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
   else if (is_assembled_motion && unknowns > msm::factorised_by_snes)
     estimate = linear("springs (assembled)", unknowns, unknowns, algebraic_multigrid);
@@ -197,12 +186,10 @@ Estimate estimate_springs(const BodySize& body) {
 }
 
 std::vector<Estimate> estimate_vibrations(const BodySize& body) {
-  const cases::Fem& fem = body.outline.definition.fem;
-  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
-  std::vector<Estimate> models{factorised("finite elements (factorised)",
-                                          3 * refined_nodes(body, fem.refine + (is_quadratic ? 1 : 0)),
-                                          finite_elements),
-                               factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
+  const int halvings = fem_reference::n_halvings(body.outline.definition.fem);
+  std::vector<Estimate> models{
+      factorised("finite elements (factorised)", 3 * refined_nodes(body, halvings), finite_elements),
+      factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
   for (Estimate& model : models) model.held_by = HeldBy::first_rank;
   return models;
 }

@@ -114,7 +114,8 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   return {std::move(answer), scene.definition.fem, {}, {}};
 }
 
-Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept) {
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept,
+              AskPeer ask_peer) {
   Answers answers;
   answers.resolved = scene.definition.fem;
   if (request.asks(cases::Side::fem)) {
@@ -126,6 +127,8 @@ Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_
   }
   if (request.asks(cases::Side::msm))
     answers.msm = solve_springs_on_ranks(scene, request.n_threads, answers.design);
+  if (!request.peer.empty() && ask_peer)
+    answers.peer = ask_peer(with_fem(scene, answers.resolved), answers.fem);
   return answers;
 }
 

@@ -74,6 +74,10 @@ struct KeptMeshes {
 /// "auto" in [fem] leaves open and the limit.
 using SolveFem = FemAnswer (*)(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept);
 
+/// How another program answers the finite elements' question: ask_calculix() of compare/peers.
+/// @param fem  our answer to the same scene   Collective.
+using AskPeer = Peer (*)(const cases::Scene& scene, const Answer& fem);
+
 /// With the formulation and refinement of the scene's definition as they are. Collective over MPI_COMM_WORLD.
 FemAnswer solve_fem_as_given(const cases::Scene& scene);
 
@@ -84,11 +88,11 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
 /// The scene with another [fem], such as the one that "auto" was found to mean.
 cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem);
 
-/// Solves both sides of a case, or the one asked for, and the refined meshes if asked for. A solve that fails
-/// is a failed side. Collective over MPI_COMM_WORLD, whose ranks share the solutions; but for solver =
+/// Solves both sides of a case, or the one asked for, the refined meshes and the peer's side if asked for. A
+/// solve that fails is a failed side. Collective over MPI_COMM_WORLD, whose ranks share the solutions; but for solver =
 /// "snes", the mass-spring side is solved on rank 0 alone.
 /// @throws InputError
 Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem,
-              const KeptMeshes& kept = {});
+              const KeptMeshes& kept = {}, AskPeer ask_peer = nullptr);
 
 } // namespace springproof::compare
