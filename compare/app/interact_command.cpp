@@ -2,8 +2,8 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/interact/recording.hpp"
 #include "compare/interact/server.hpp"
+#include "compare/interact/simulation.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -88,9 +88,9 @@ std::string free_path(const std::string& folder, const std::string& name) {
 /// @return where it was written; empty: there is nothing to keep
 std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
                            const Simulation& simulation) {
-  if (options.out.empty() || simulation.recording().empty()) return "";
+  if (options.out.empty() || !simulation.has_recording()) return "";
   const std::string path = free_path(options.out, definition.name);
-  write_file(path, [&](std::ostream& out) { write_recording(out, simulation, definition.dynamics->step); });
+  write_file(path, [&](std::ostream& out) { simulation.write_recording(out); });
   return path;
 }
 

@@ -1,7 +1,6 @@
 #include "compare/interact/drawn_surface.hpp"
 
 #include "cases/mesh/read_surface.hpp"
-#include "compare/interact/page_bytes.hpp"
 
 #include <stdexcept>
 

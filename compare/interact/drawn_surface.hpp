@@ -2,9 +2,23 @@
 
 #include "mechanics/surface/embedded_surface.hpp"
 
+#include <cstring>
 #include <string>
 
 namespace springproof::compare {
+
+/// Adds a number for the page, little endian: its machine and the server's are one.
+template<class To, class From>
+void append(std::string& bytes, From value) {
+  const To number = static_cast<To>(value);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+inline void append(std::string& bytes, const Eigen::Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
+}
 
 /// What the page draws of a body.
 struct DrawnSurface {

@@ -16,9 +16,9 @@ struct PullSettings {
   int n_threads = 1;           ///< of the multigrid path
 };
 
-/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface. The
-/// pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is known
-/// after the step; applied as a load of that step it gives the same solution. A recording of forces can
+/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface.
+/// The pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is
+/// known after the step; applied as a load of that step it gives the same solution. A recording of forces can
 /// therefore be replayed in any model.
 class PulledBody {
  public:

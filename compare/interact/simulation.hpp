@@ -52,10 +52,10 @@ class Simulation {
 
   /// After stop(). A recording is of the motion since its last start.
   SimulationSummary summary() const;
-  const std::vector<RecordedPull>& recording() const { return recording_; }
+  bool has_recording() const { return !recording_.empty(); }
   bool is_recording_full() const { return recording_.size() == most_recorded; }
-  const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
-  double radius() const { return body_.spheres().radius; } ///< mm, of what is pulled about a vertex
+  /// As read_recording() reads it.
+  void write_recording(std::ostream& out) const;
 
   static constexpr std::size_t frame_numbers = 12; ///< float64 at the beginning of a frame
 

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/interact/recording.hpp"
+#include "compare/interact/read_recording.hpp"
 #include "compare/interact/replay.hpp"
 #include "compare/solve/solve.hpp"
 

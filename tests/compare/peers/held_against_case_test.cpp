@@ -1,5 +1,3 @@
-#include "compare/peers/held_against_case.hpp"
-
 #include "cases/case/read_case.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/solve/springs.hpp"
