@@ -1,6 +1,5 @@
 // springproof_kernel_calls CELLS KERNEL... calls each of these kernels of the springs once on a cube of
-// cells, for `springproof sweep --perf` to have their instructions counted: those below
-// springproof_counted_call.
+// cells. `springproof sweep --perf` has the instructions counted that run below springproof_counted_call.
 
 #include "compare/sweep/timed_cube.hpp"
 #include "msm/grid/multigrid.hpp"

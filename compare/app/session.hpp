@@ -7,8 +7,7 @@
 /// A command's process, and its job's other ranks.
 namespace springproof::compare {
 
-/// A closed standard stream's number would be given to the next file that is opened, which would then get
-/// what is printed. Instead, writing to it fails.
+/// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
 void reserve_standard_streams();
 
 /// Under an MPI launcher starts MPI. A process alone has it started with the first solver that needs it
@@ -19,9 +18,8 @@ void start_ranks();
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
 
-/// Colours the verdicts at the beginnings of lines that go to std::cout: met green, missed and failed red,
-/// warnings yellow. On a terminal alone, and not when the environment variable NO_COLOR is set (no-color.org)
-/// or TERM is "dumb". It ends with the object.
+/// Colours verdicts at the beginnings of lines of std::cout until it ends: met green, missed and failed red,
+/// warnings yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
 class Colours {
  public:
   Colours();

@@ -9,9 +9,8 @@ namespace springproof::compare {
 
 /// What a command that can be divided knows of it.
 struct ShardOptions {
-  std::string part; ///< of `--shard`; empty: the whole
-  std::vector<std::string>
-      folders; ///< of the shards whose results are taken in place of solving; for `merge`
+  std::string part;                 ///< of `--shard`; empty: the whole
+  std::vector<std::string> folders; ///< of the shards that `merge` takes results from, in place of solving
   std::vector<std::string> command; ///< its name and the arguments that all shards have in common
 };
 

@@ -53,8 +53,7 @@ std::string file_of(const std::string& name) {
                : ", allowed are " + cases::alternatives(known) + ", or the path of a .toml file"));
 }
 
-/// Every case is read before any is solved. Without names, the heavy ones are left out unless all are asked
-/// for.
+/// Reads every case before any is solved: without names all, the heavy ones only if they are asked for.
 std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
   std::vector<std::string> files;
   for (const std::string& name : options.names) files.push_back(file_of(name));

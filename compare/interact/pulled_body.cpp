@@ -23,8 +23,7 @@ std::unique_ptr<msm::MovingBody> moving_body(const cases::Scene& scene, const ms
   return std::make_unique<msm::MovingBody>(scene, std::move(springs.lattice), std::move(springs.damping));
 }
 
-/// A picture needs fewer digits than a measure, and a step no more than a few halvings to be given up in
-/// time.
+/// Settings for pictures: fewer digits than a measure needs, and few halvings, so that a step ends in time.
 mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;

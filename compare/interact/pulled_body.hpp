@@ -35,7 +35,7 @@ class PulledBody {
   /// Back to the start of the motion, with nothing held.
   void restart();
 
-  /// One step of the case. One that cannot be solved is told in failure(); then the body is back at its
+  /// Takes one step of the case. If it cannot be solved, failure() says why and the body is back at its
   /// start.
   void step();
 

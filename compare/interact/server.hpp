@@ -39,8 +39,8 @@ class PageServer {
   std::string address() const; ///< with the token: "http://127.0.0.1:PORT/?token=..."
   /// Of any thread; returns at once.
   void send_frame(std::shared_ptr<const std::string> frame);
-  /// Serves until SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup), or the page has left, or so
-  /// many seconds have passed (0: no such limit).
+  /// Serves until SIGINT, SIGTERM, a SIGHUP that is not ignored (nohup), the page's end, or so many seconds.
+  /// @param seconds  0: no limit
   void run(double seconds = 0);
   ServerCounts counts() const;
 

@@ -44,8 +44,7 @@ class Simulation {
   void send(const PageMessage& message);
   void stop(); ///< joins the thread
 
-  /// {"name", "masses", "springs", "unknowns", "step_s", "vertices", "triangles", "nodes", "spheres",
-  /// "radius"}
+  /// {"name", "description", "masses", "cells", "unknowns", "step_s", "triangles", "spheres", "radius"}
   const std::string& description() const { return description_; }
   /// What the page draws: see DrawnSurface, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }

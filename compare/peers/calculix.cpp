@@ -72,8 +72,7 @@ void write_forces(std::ostream& out, const cases::Scene& scene) {
       if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
 }
 
-/// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
-/// displacement but a zero.
+/// A number as Fortran prints it. One whose exponent of three digits pushes out the E ("1.234567-101") is 0.
 double fortran_number(const std::string& field) {
   return field.find('E') == std::string::npos ? 0 : std::strtod(field.c_str(), nullptr);
 }

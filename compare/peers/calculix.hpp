@@ -4,9 +4,8 @@
 
 #include <ostream>
 
-/// CalculiX, an independent finite-element program, solves a case too. Its element C3D8 is the
-/// fully integrated trilinear hexahedron: linear in a static step it is our small_strain q1, with NLGEOM our
-/// saint_venant_kirchhoff q1.
+/// CalculiX, an independent finite-element program, solves a case too. Its fully integrated trilinear
+/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1.
 namespace springproof::compare {
 
 /// Why CalculiX cannot solve this case; nothing if it can.

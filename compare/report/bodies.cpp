@@ -68,8 +68,7 @@ Json body_side_to_json(const DeformedBody& body, std::vector<Surface>& bodies) {
   return {{"body", index}, {"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
 }
 
-/// How far the slider reaches: to where the largest displacement is half the body, but twofold at least and a
-/// hundredfold at most.
+/// End of the slider: at which the largest displacement is half the body, but from twofold to a hundredfold.
 double largest_scale(const Overlay& overlay) {
   double largest = 0;
   for (const DeformedBody* body : {&overlay.fem, &overlay.springs})

@@ -19,8 +19,7 @@ struct Answer {
 struct Peer {
   std::string program;
   Answer answer; ///< skipped when the program is absent or cannot express the case
-  /// Largest distance of a node's two displaced positions (finite elements, peer) over the largest
-  /// displacement.
+  /// Largest difference of a node's displacements (finite elements, peer) over the largest displacement.
   std::optional<double> largest_difference;
 };
 
@@ -33,13 +32,11 @@ struct RefinedMeshes {
 
 /// How another program's results on a mesh of its own came to the nodes of the case's mesh.
 struct Interpolated {
-  std::size_t n_points = 0; ///< of the results
-  std::size_t n_outside =
-      0; ///< nodes outside of the results' cells, which take the value of the closest place
+  std::size_t n_points = 0;    ///< of the results
+  std::size_t n_outside = 0;   ///< nodes outside of the results' cells, with the value of the closest place
   double largest_distance = 0; ///< of these, mm
-  /// The finite elements' displacement, interpolated to the results' points and from there to the nodes: what
-  /// it has lost by two interpolations estimates what the results have lost by one. Skipped where they
-  /// failed.
+  /// The finite elements' displacement, interpolated to the results' points and back to the nodes: what two
+  /// interpolations lose estimates what one has lost. Skipped where the finite elements failed.
   Answer fem_and_back;
 };
 

@@ -38,8 +38,7 @@ constexpr Factorised finite_elements{25, 650, 6.5};
 constexpr Factorised springs_lattice{5, 245, 3};
 constexpr double factorised_unknowns = 26460;
 
-/// A nested dissection of a body takes memory as n^(4/3) and time as n^2; of 10,000 to 60,000 unknowns less
-/// was seen.
+/// Exponents seen from 10,000 to 60,000 unknowns. A nested dissection of a body takes n^(4/3) and n^2.
 constexpr double memory_power = 1.25, time_power = 1.7;
 
 /// Of the time of finite strain: one factorisation for four or five, three inexact linear solves for five.
@@ -55,8 +54,7 @@ Estimate factorised(const std::string& model, double unknowns, const Factorised&
           at.seconds * std::pow(ratio, time_power)};
 }
 
-/// Nodes after n uniform refinements: a body has about as many inner nodes as cells, and its surface has the
-/// others.
+/// Nodes after n uniform refinements: about as many inner nodes as cells, and the others on the surface.
 double refined_nodes(const BodySize& body, int n) {
   return body.n_cells * std::pow(8, n) + (body.n_nodes - body.n_cells) * std::pow(4, n);
 }
@@ -90,7 +88,7 @@ Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   return equilibrium;
 }
 
-/// What is kept of a motion: whole bodies now and then, what measures watch after every step. Twice while it
+/// What is kept of a motion: whole bodies now and then, and what measures watch at every step. Twice, as it
 /// goes from the model to the answer.
 double bytes_of_motion(const BodySize& body) {
   const auto& dynamics = body.outline.definition.dynamics;
@@ -274,8 +272,8 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
 }
 
 cases::Scene make_scene_within_memory(const cases::Case& definition) {
-  // Nodes, cells, and what selecting regions takes for a while; of a box, whose nodes are not stored, the
-  // last.
+  // Nodes, cells, and what selecting regions takes for a while: all that a box takes, whose nodes are not
+  // stored.
   const double bytes_a_node = std::holds_alternative<cases::Box>(definition.body) ? 10 : 150;
   if (const auto body = size_of(definition))
     check_memory(

@@ -25,8 +25,8 @@ struct BodySize {
   cases::Scene outline; ///< the definition and the grid, if the body is one; without nodes
 };
 BodySize size_of(const cases::Scene& scene);
-/// Of a box, of voxels (about) or of a labelled volume, before the mesh is made; nothing for a mesh file, or
-/// where the surface or volume cannot be read.
+/// The size of a box, voxels (about) or a labelled volume before the mesh is made; nothing for another body,
+/// or where the surface or volume cannot be read.
 std::optional<BodySize> size_of(const cases::Case& definition);
 
 /// Of the definition's [fem], refined as it says.
@@ -43,8 +43,7 @@ double total_seconds(const std::vector<Estimate>& models);
 /// Of the largest model: one is gone before the next is made.
 double most_megabytes(const std::vector<Estimate>& models);
 
-/// What a user should know before a solve of more than ten seconds: a line with the unknowns, memory and time
-/// of each model; empty for shorter ones.
+/// A line with the unknowns, memory and time of each model; empty for a solve of less than ten seconds.
 std::string long_solve_text(const std::string& name, const std::vector<Estimate>& models);
 
 struct RanksOfMachine {
@@ -57,8 +56,7 @@ double megabytes_within(const MemoryLimit& limit, const Estimate& model,
                         const RanksOfMachine& ranks = ranks_of_machine());
 
 /// @param file  of the case
-/// @throws InputError if a model needs more memory than there is, with unknowns, estimate, limit and what to
-/// change
+/// @throws InputError if a model needs more memory than there is, with what it needs, the limit and a remedy
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit);
 
 /// The scene of a case whose mesh there is memory for.  @throws InputError as check_memory() and make_scene()

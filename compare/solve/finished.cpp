@@ -36,8 +36,7 @@ std::string identity_of_mesh(const Question& question, const cases::Fem& fem) {
 }
 
 /// Collective.
-/// @return nothing if there is no result, or it is of another question; with a line on standard error if it
-/// is damaged
+/// @return nothing if there is no result for the question; with a line on standard error if it is damaged
 template<class Result>
 std::optional<Result> find_kept(const std::string& path, const std::string& identity,
                                 const cases::HexMesh& mesh) {

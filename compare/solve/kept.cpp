@@ -13,8 +13,7 @@ namespace springproof::compare {
 
 namespace {
 
-/// First line of a kept file. To be counted up when the fields of compare/solve/fields.hpp change their
-/// meaning.
+/// First line of a kept file. Counted up when the fields of compare/solve/fields.hpp change their meaning.
 const std::string heading = "springproof answers, format 5\n";
 
 bool are_finite(const std::vector<Eigen::Vector3d>& displacement) {

@@ -17,11 +17,9 @@ std::string kept_text(const std::string& identity, const std::string& result);
 /// @throws std::runtime_error if the text is of another format, or damaged
 std::string result_in(const std::string& text, const std::string& identity);
 
-/// An Answer or Answers to a question on this mesh, from bytes that anybody may have made (cases::to_bytes()
-/// makes them).
-/// @throws std::exception if they hold none: another length, an unknown enumerator, a converged solution
-/// without a finite displacement for every node and a finite volume for every cell, fields that are not those
-/// of the mesh
+/// An Answer or Answers on this mesh, from bytes that anybody may have made (cases::to_bytes() makes them).
+/// @throws std::exception if they hold none: another length, an unknown enumerator, fields that are not of
+/// the mesh, a converged solution without a finite displacement of every node and volume of every cell
 template<class Result>
 Result result_from(const std::string& bytes, const cases::HexMesh& mesh);
 

@@ -15,8 +15,7 @@ struct Workload {
   double seconds = 0; ///< of one worker, estimated
 };
 
-/// What is left to do, in seconds of wall-clock time. Estimates are corrected by what the finished pieces
-/// took.
+/// Wall-clock seconds that are left to do; estimates are corrected by what the finished pieces took.
 struct Remaining {
   Workload expected;        ///< in all
   Workload finished;        ///< as it was estimated

@@ -29,8 +29,7 @@ struct Shards {
 /// another number of shards, or another program than the other shards and this one
 Shards read_shards(const std::vector<std::string>& folders);
 
-/// @throws InputError if the results that the merged command needs are not those that the shards were asked
-/// for
+/// @throws InputError if the merged command needs other results than the shards were asked for
 void check_questions(const Shards& shards, const std::string& digest);
 
 /// What the shards found, failed solves too.

@@ -40,8 +40,7 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
   return answer;
 }
 
-/// Every node of the region belongs to a face of it: what is shared by more and more nodes tends to a
-/// traction.
+/// Whether every node of a region is on a face of it: shared by more and more nodes, a force is a traction.
 bool is_area(const cases::Selection& selection) {
   std::vector<int> on_faces;
   for (const auto& face : selection.faces) on_faces.insert(on_faces.end(), face.begin(), face.end());

@@ -7,14 +7,12 @@
 #include <dlfcn.h>
 #include <mpi.h>
 
-// The one source of the shared object springproof_solvers that callers find; the rest are the libraries of
-// fem_reference, msm/snes and mechanics/petsc.
+// The table of the shared object springproof_solvers, over fem_reference, msm/snes and mechanics/petsc.
 namespace springproof::compare {
 
 namespace {
 
-/// Open MPI loads parts of itself, which look for its functions among those that everybody sees. Python would
-/// hide them.
+/// Lets everybody see Open MPI's functions, which the parts that it loads look for; Python would hide them.
 void show_mpi() {
   Dl_info mpi{};
   if (dladdr(reinterpret_cast<const void*>(&MPI_Init), &mpi) != 0)
