@@ -56,7 +56,7 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
   plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
 }
 
-/// Of the designs whose lattices have closed forms.
+/// Plots the designs whose lattices have closed forms.
 void write_stress_strain(const std::string& folder, const msm::DesignRequest& request,
                          const std::vector<DesignAttempt>& attempts) {
   const double edge = msm::cube_edge(request.cell);

@@ -63,7 +63,7 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
   return cases::LinearElastic{o.youngs_modulus, o.poissons_ratio};
 }
 
-/// Of logarithmic strains; as in case files.
+/// Bound on logarithmic strains, as in case files.
 constexpr double largest_allowed_strain = 2;
 
 /// @throws InputError for an end of the strains that is none, or that nothing here has a use for

@@ -29,9 +29,9 @@ struct GateOptions {
   std::string replay; ///< a recording of interact; empty: none
   std::string junit, out;
   int workers = 0; ///< one per core
-  int meshes = 0;  ///< of the finite elements' limit; 0: as the cases' accuracy asks
+  int meshes = 0;  ///< meshes of the finite elements' limit; 0: as the cases ask
   bool json = false, annotate = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  ShardOptions shards;
 };
 
 /// Every case is read, and its mesh and regions looked up, before any is solved.
@@ -86,10 +86,10 @@ void write(const GateOptions& options, const std::vector<Comparison>& judged) {
 
 /// Answers to all questions, solved now or by the shards that are merged.
 std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vector<Question>& questions) {
-  if (options.shards->folders.empty())
+  if (options.shards.folders.empty())
     return answer_all(questions, FinishedCases(options.out, questions), solve_fem, {options.workers});
   claim_folder(options.out);
-  return answers_of(read_shards(options.shards->folders), questions, FileNames::of_cases);
+  return answers_of(read_shards(options.shards.folders), questions, FileNames::of_cases);
 }
 
 int gate(const GateOptions& options) {
@@ -100,8 +100,8 @@ int gate(const GateOptions& options) {
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
-  if (!options.shards->part.empty())
-    return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});
+  if (!options.shards.part.empty())
+    return solve_shard(options.shards, questions, FileNames::of_cases, options.out, {options.workers});
   std::vector<Answers> answers = solved_or_merged(options, questions);
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {

@@ -57,7 +57,7 @@ void run_multigrid(int cells) {
   springproof_counted_call([&] { multigrid.apply(field, solution); });
 }
 
-/// By the list of springs, as on meshes that are no grid.
+/// Runs over the list of springs, as on meshes that are no grid.
 void run_list(int cells) {
   const msm::Lattice lattice =
       msm::make_lattice(cases::make_box_mesh({cells * 1.0, cells * 1.0, cells * 1.0}, {cells, cells, cells}),

@@ -18,7 +18,6 @@
 #include "compare/write/json.hpp"
 #include "compare/write/write.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 
@@ -32,7 +31,7 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;              ///< of the finite elements' limit; 0: as the case's accuracy asks
+  int meshes = 0;              ///< meshes of the finite elements' limit; 0: as the case asks
   bool converges_time = false; ///< once more with half the step
   std::string peer;            ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
@@ -42,7 +41,7 @@ struct RunOptions {
   bool json = false;
 };
 
-/// For the commands that a text ends with.
+/// What the commands that a text ends with are made of.
 RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
   return {options.program->get_name(), definition.file, options.settings, options.meshes > 0,
           !options.out.empty()};
@@ -107,8 +106,8 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   const auto& [scene, request] = question;
   const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
                                   long_solve_text(scene.definition.name, models));
-  Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question),
-                          ask_calculix);
+  Answers answers =
+      solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question), ask_calculix);
   finished.keep(question, answers);
   return answers;
 }

@@ -14,7 +14,7 @@ void reserve_standard_streams();
 /// (compare/solve/solvers.hpp), which most commands do without.
 void start_ranks();
 
-/// For a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
+/// Ends a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
 

@@ -27,7 +27,7 @@ struct SweepOptions {
   std::vector<std::string> settings; ///< keys of the case
   std::optional<double> budget;      ///< seconds
   bool json = false, quick = false, perf = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  ShardOptions shards;
   Extent extent() const { return quick ? Extent::quick : Extent::full; }
   TimingRules rules() const { return quick ? TimingRules{5, 0.1} : TimingRules{}; }
 };
@@ -64,11 +64,11 @@ Sweep planned(const SweepOptions& options) {
 }
 
 int time_part(const SweepOptions& options) {
-  const Shard shard = shard_from(options.shards->part).value();
+  const Shard shard = shard_from(options.shards.part).value();
   const Sweep whole = planned(options);
   claim_folder(options.out);
   announce(whole, options.out);
-  const TimedPart part = time_shard(whole, shard, options.out, options.shards->command, "/proc/self/exe");
+  const TimedPart part = time_shard(whole, shard, options.out, options.shards.command, "/proc/self/exe");
   if (mpi_rank() == 0)
     print_shard(shard, part.n_variants, whole.plan.variants.size(), part.n_failed, options.out);
   return 0;
@@ -85,17 +85,16 @@ Sweep time_all(const SweepOptions& options) {
 }
 
 Sweep merge_parts(const SweepOptions& options) {
-  Sweep merged = merged_sweep(planned(options), read_shards(options.shards->folders));
+  Sweep merged = merged_sweep(planned(options), read_shards(options.shards.folders));
   claim_folder(options.out);
   write_plan_to(options.out, merged);
   if (!options.out.empty()) write_csv_of(merged, options.out);
   return merged;
 }
 
-/// Of a dynamic case.
+/// Sweeps a dynamic case.
 int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
-  if (n_mpi_ranks() > 1 || options.budget || !options.shards->part.empty() ||
-      !options.shards->folders.empty())
+  if (n_mpi_ranks() > 1 || options.budget || !options.shards.part.empty() || !options.shards.folders.empty())
     throw cases::InputError(definition.file +
                             ": dynamics: a sweep in time has no --budget and no parts, and runs on one rank");
   claim_folder(options.out);
@@ -123,8 +122,8 @@ int sweep_in_time(const SweepOptions& options, const cases::Case& definition) {
 int sweep(const SweepOptions& options) {
   if (const cases::Case definition = cases::read_case(options.file, options.settings); definition.dynamics)
     return sweep_in_time(options, definition);
-  if (!options.shards->part.empty()) return time_part(options);
-  const Sweep result = options.shards->folders.empty() ? time_all(options) : merge_parts(options);
+  if (!options.shards.part.empty()) return time_part(options);
+  const Sweep result = options.shards.folders.empty() ? time_all(options) : merge_parts(options);
   const int status = has_answer(result) ? 0 : 1; // a model that failed is a row with its reason
   if (mpi_rank() != 0) return status;
   if (options.json)

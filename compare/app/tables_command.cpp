@@ -23,37 +23,31 @@ struct TablesOptions {
   std::string out;
   int workers = 0; ///< one per core
   bool json = false, trace = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  ShardOptions shards;
 };
 
-ThesisResults solve_tables(const TablesOptions& options) {
+/// Solves what the tables need, or takes it from the shards that are merged.
+ThesisResults results_of(const TablesOptions& options) {
+  const std::vector<std::string>& shards = options.shards.folders;
   const int n_workers = options.workers > 0 ? options.workers : cores();
   const auto answer = [&](const std::vector<Question>& questions) {
+    if (!shards.empty()) return answers_of(read_shards(shards), questions, FileNames::of_questions);
     std::vector<Answers> answers = answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers});
     for (Answers& one : answers) one = gathered(std::move(one));
     return answers;
   };
-  return regenerate(options.tables, answer, std::to_string(n_workers));
-}
-
-ThesisResults merge_tables(const TablesOptions& options) {
-  const Shards shards = read_shards(options.shards->folders);
-  return regenerate(
-      options.tables,
-      [&](const std::vector<Question>& questions) {
-        return answers_of(shards, questions, FileNames::of_questions);
-      },
-      fmt::format("{} shards", shards.folders.size()));
+  return regenerate(options.tables, answer,
+                    shards.empty() ? std::to_string(n_workers) : fmt::format("{} shards", shards.size()));
 }
 
 int tables(const TablesOptions& options) {
-  if (!options.shards->part.empty())
-    return solve_shard(*options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
+  if (!options.shards.part.empty())
+    return solve_shard(options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
                        options.out, {options.workers});
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   claim_subfolder(options.out, "figures");
-  ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
+  ThesisResults results = results_of(options);
   if (mpi_rank() != 0) return 0;
   Stopwatch stopwatch;
   if (options.json)

@@ -28,7 +28,7 @@ struct DrawnSurface {
   /// their nodes' places in `nodes` (8 each), the triangles (3 each) and the spheres' vertices; the coarse
   /// one has no spheres. Little endian.
   std::string bytes;
-  std::vector<int> nodes; ///< of the body, that carry vertices
+  std::vector<int> nodes; ///< the body's nodes that carry vertices
 };
 
 constexpr std::size_t coarse_triangles = 5000;

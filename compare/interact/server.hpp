@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace springproof::compare {
@@ -37,7 +36,7 @@ class PageServer {
   ~PageServer();
 
   std::string address() const; ///< with the token: "http://127.0.0.1:PORT/?token=..."
-  /// Of any thread; returns at once.
+  /// May be called from any thread; returns at once.
   void send_frame(std::shared_ptr<const std::string> frame);
   /// Serves until SIGINT, SIGTERM, a SIGHUP that is not ignored (nohup), the page's end, or so many seconds.
   /// @param seconds  0: no limit

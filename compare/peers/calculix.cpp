@@ -168,7 +168,7 @@ void write_motion_input(std::ostream& out, const cases::Scene& scene) {
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
 }
 
-/// Of a dynamic case.
+/// Why CalculiX cannot follow a dynamic case.
 std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition) {
   if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
       !definition.region_materials.empty())

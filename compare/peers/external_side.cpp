@@ -74,7 +74,7 @@ Answer answer_of(const cases::HexMesh& mesh, const std::string& message,
   });
 }
 
-/// With the finite elements' displacement there and back, by which the results' loss is estimated.
+/// Takes the finite elements' displacement there and back, by which the results' loss is estimated.
 Interpolated interpolated(const Answer& fem, const cases::HexMesh& mesh, const cases::CellCloud& cells) {
   Interpolated result;
   result.n_points = cells.cloud.points.size();
@@ -91,7 +91,7 @@ Interpolated interpolated(const Answer& fem, const cases::HexMesh& mesh, const c
   return result;
 }
 
-constexpr double told_support = 0.01; ///< of the largest displacement
+constexpr double told_support = 0.01; ///< part of the largest displacement
 constexpr double told_work = 0.5;
 
 double largest(const std::vector<Vector3d>& vectors) {

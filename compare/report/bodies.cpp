@@ -33,7 +33,7 @@ Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
 
 /// The part of a mesh that can be seen.
 struct Surface {
-  std::vector<std::size_t> nodes; ///< of the mesh, in the surface's order
+  std::vector<std::size_t> nodes; ///< numbers in the mesh, in the surface's order
   std::vector<long> faces;
   Lengths rest;
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }

@@ -11,7 +11,7 @@ namespace springproof::compare {
 
 /// One body of a page, to be turned.
 struct BodyView {
-  std::string id;      ///< of the element on the page
+  std::string id;      ///< id of the element on the page
   Overlay overlay;     ///< its title stands below the body
   std::string group{}; ///< heading over the bodies that have the same
   std::string description{}, command{};

@@ -161,6 +161,27 @@ class TurnedPicture {
   }
 }
 
+// Whether this browser has WebGL; if it has none, the section says so.
+function can_draw(section, what) {
+  try {
+    return renderer() !== null;
+  } catch (error) {
+    section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws " + what));
+    return false;
+  }
+}
+
+// Draws anew when the page has another size or other colours.
+function draw_with_page(pictures) {
+  const draw = () => pictures.forEach((picture) => picture.draw());
+  window.addEventListener("resize", draw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+}
+
+// The colours of errors from 0 to the largest.
+const error_legend = (largest, note) => make("div", { class: "error-legend" }, make("span", null, "0"), make("span", {
+  class: "scale-bar", style: `background: linear-gradient(to right, ${viridis.join(", ")})` }), make("span", null, largest), note);
+
 const live_views = new Map(); // id -> View
 // What one control sets for all bodies.
 const seen_from = [0.5, -0.9, 0.4];

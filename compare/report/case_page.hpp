@@ -3,7 +3,6 @@
 #include "compare/ranking/ranking.hpp"
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 namespace springproof::compare {

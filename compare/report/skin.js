@@ -66,19 +66,13 @@ function skin() {
     "aria-label": `The skin, ${title}. The arrow keys turn it.` }), make("figcaption", null, make("b", null, title)), more);
   const shown_figures = [["rest", figure("rest", "before")], sides.fem && ["fem", figure("fem", "after, finite elements")],
     sides.springs && ["springs", figure("springs", "after, springs")],
-    distances && ["distance", figure("distance", "distance of both models", make("div", { class: "error-legend" }, make("span", null, "0"),
-      make("span", { class: "scale-bar", style: `background: linear-gradient(to right, ${viridis.join(", ")})` }),
-      make("span", null, `${general(largest, 2)} mm`)))]].filter((one) => one);
+    distances && ["distance", figure("distance", "distance of both models", error_legend(`${general(largest, 2)} mm`))]]
+    .filter((one) => one);
   const section = make("div", null, make("p", null, "Drag a skin, or use the arrow keys: all turn with it.",
     skin_record.marks.length > 0 && " Balls are the landmarks."),
   make("div", { class: "views" }, shown_figures.map(([, one]) => one)));
   section.draw = () => {
-    try {
-      renderer();
-    } catch (error) {
-      section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the skin to turn."));
-      return;
-    }
+    if (!can_draw(section, "the skin to turn.")) return;
     const rest = skin_record.rest.map((x) => x * skin_record.unit_mm), triangles = skin_record.triangles;
     const sphere = new THREE.Box3().setFromArray(rest).getBoundingSphere(new THREE.Sphere());
     const all = { sphere, pictures: [], eye: skin_eye(sphere.center),
@@ -92,10 +86,8 @@ function skin() {
         ? new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, emissive: 0x111111 }) : plain,
       name === "rest" ? skin_record.marks : [], all));
     }
-    const draw = () => all.pictures.forEach((picture) => picture.draw());
-    draw();
-    window.addEventListener("resize", draw);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+    all.pictures.forEach((picture) => picture.draw());
+    draw_with_page(all.pictures);
   };
   return section;
 }

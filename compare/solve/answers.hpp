@@ -32,9 +32,9 @@ struct RefinedMeshes {
 
 /// How another program's results on a mesh of its own came to the nodes of the case's mesh.
 struct Interpolated {
-  std::size_t n_points = 0;    ///< of the results
+  std::size_t n_points = 0;    ///< points of the results
   std::size_t n_outside = 0;   ///< nodes outside of the results' cells, with the value of the closest place
-  double largest_distance = 0; ///< of these, mm
+  double largest_distance = 0; ///< distance of the farthest of them, mm
   /// The finite elements' displacement, interpolated to the results' points and back to the nodes: what two
   /// interpolations lose estimates what one has lost. Skipped where the finite elements failed.
   Answer fem_and_back;
@@ -48,10 +48,10 @@ struct Answers {
   Answer fem, msm;
   std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
-  std::optional<RefinedMeshes> refined;    ///< of the finite elements' limit, when asked for
+  std::optional<RefinedMeshes> refined;    ///< meshes of the finite elements' limit, if asked for
   std::optional<Peer> peer;                ///< when asked for
-  std::optional<Interpolated> interpolated{}; ///< of msm_source, when it was
-  std::vector<std::string> msm_warnings{};    ///< of msm_source: what no answer to the case does
+  std::optional<Interpolated> interpolated{}; ///< how msm_source came to the nodes, if it was interpolated
+  std::vector<std::string> msm_warnings{};    ///< what msm_source does and no answer to the case would
 
   /// A side that was asked for did not converge.
   bool failed() const {
@@ -76,9 +76,9 @@ inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
 /// What is asked of a case, besides what its file says.
 struct Request {
   std::optional<cases::Side> only; ///< absent: both sides
-  int meshes = 0;                  ///< of the finite elements' limit; 0: as many as [fem] accuracy asks for
+  int meshes = 0;                  ///< meshes of the finite elements' limit; 0: as [fem] accuracy asks
   std::string peer{};              ///< a program that is asked too; empty: none
-  int n_threads = 1;               ///< of the springs' multigrid path; numbers do not depend on it
+  int n_threads = 1;               ///< threads of the springs' multigrid path; numbers do not depend on it
   bool asks(cases::Side side) const { return !only || *only == side; }
 };
 

@@ -41,7 +41,7 @@ constexpr double factorised_unknowns = 26460;
 /// Exponents seen from 10,000 to 60,000 unknowns. A nested dissection of a body takes n^(4/3) and n^2.
 constexpr double memory_power = 1.25, time_power = 1.7;
 
-/// Of the time of finite strain: one factorisation for four or five, three inexact linear solves for five.
+/// Parts of the time of finite strain: one factorisation for four or five, three inexact solves for five.
 constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
 
 Estimate linear(const std::string& model, double unknowns, double n_entries, const Linear& per) {
@@ -65,12 +65,12 @@ Eigen::Array3d nodes_along(const BodySize& body, int n) {
   return std::pow(2, n) * Eigen::Array3d(cells[0], cells[1], cells[2]) + 1;
 }
 
-/// Of a field of the finite elements: rows are filled up to packs of 16, planes have neighbours.
+/// Entries of a finite elements' field: rows are filled up to packs of 16, planes have neighbours.
 double element_entries(const Eigen::Array3d& nodes) {
   return 3 * (16 * std::ceil(nodes.x() / 16) * nodes.y() + 16) * (nodes.z() + 2);
 }
 
-/// Of a field of the springs.
+/// Entries of a springs' field.
 double spring_entries(const Eigen::Array3d& nodes) {
   return 3 * ((nodes.x() + 1) * (nodes.y() + 1) + 56) * (nodes.z() + 2);
 }
@@ -80,8 +80,8 @@ std::string memory_text(double megabytes) {
                          : fmt::format("{:.0f} GB", megabytes / 1e3);
 }
 
-/// Of a dynamic case. A step takes about as many iterations of Newton's method as half an equilibrium, and a
-/// linear body's are not factorised again: an upper bound for these.
+/// Estimate of a dynamic case. A step takes about as many iterations of Newton's method as half an
+/// equilibrium, and a linear body's are not factorised again: an upper bound for these.
 Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   if (!definition.dynamics) return equilibrium;
   equilibrium.seconds *= 0.5 * definition.dynamics->n_steps();

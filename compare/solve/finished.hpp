@@ -59,7 +59,7 @@ class FinishedCases {
 /// @throws InputError if there is nothing for this question, or it is damaged
 Answers kept_answers(const std::string& folder, const Question& question, FileNames names);
 
-/// Of all that the answers to these questions depend on.
+/// Digest of all that the answers to these questions depend on.
 std::string digest_of(const std::vector<Question>& questions);
 
 } // namespace springproof::compare

@@ -31,7 +31,7 @@ bool are_finite(const std::vector<cases::SymmetricTensor>& tensors) {
   });
 }
 
-/// As many finite values as the mesh has nodes and cells, where there are any.
+/// Whether fields, if any, have as many finite values as the mesh has nodes and cells.
 bool fit(const std::optional<cases::Fields>& fields, const cases::HexMesh& mesh) {
   if (!fields) return true;
   const auto& [reaction, total_energy, has_stress, energy, stress, strain] = *fields;

@@ -22,8 +22,9 @@ namespace springproof::compare {
 
 namespace {
 
-/// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
-/// take itself for this process, and may have done so before main(): the system keeps the first state.
+/// The environment that the program was started with, which is what a worker gets. MPI_Init() adds what would
+/// make a worker take itself for this process, and may have done so before main(): the system keeps the first
+/// state.
 const std::vector<std::string>& initial_environment() {
   static const std::vector<std::string> variables = [] {
     std::ifstream kept("/proc/self/environ", std::ios::binary);
@@ -117,30 +118,27 @@ class Worker {
     send_all(socket_, text_of({"job", job}));
   }
 
-  struct News {
-    std::optional<JobAnswer> answer; ///< of the job it had
-    bool has_ended;                  ///< or is not to be used any more
-  };
   /// Waits for the next bytes of the answer.
-  News read() {
+  /// @return the answer to its job, if it is complete; a worker that still has its job then is not to be used
+  std::optional<JobAnswer> read() {
     char block[1 << 16];
     const ssize_t n = ::read(socket_, block, sizeof block);
-    if (n < 0 && errno == EINTR) return {std::nullopt, false};
+    if (n < 0 && errno == EINTR) return std::nullopt;
     if (n <= 0) {
       int status = 0;
       waitpid(process_, &status, 0);
       process_ = 0;
-      return {JobAnswer{std::nullopt, describe_end(status)}, true};
+      return JobAnswer{std::nullopt, describe_end(status)};
     }
     received_.append(block, static_cast<std::size_t>(n));
     try {
       const std::optional<Message> message = take_message(received_);
-      if (!message) return {std::nullopt, false};
+      if (!message) return std::nullopt;
       job_.reset();
-      if (message->kind == "ok") return {JobAnswer{message->content, ""}, false};
-      return {JobAnswer{std::nullopt, message->content}, false};
-    } catch (const std::runtime_error& error) { // its process is ended and replaced
-      return {JobAnswer{std::nullopt, std::string("its answer ") + error.what()}, true};
+      if (message->kind == "ok") return JobAnswer{message->content, ""};
+      return JobAnswer{std::nullopt, message->content};
+    } catch (const std::runtime_error& error) {
+      return JobAnswer{std::nullopt, std::string("its answer ") + error.what()};
     }
   }
 
@@ -177,12 +175,12 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!workers[w] || sockets[w].revents == 0) continue;
       const std::size_t job = *workers[w]->job();
-      Worker::News news = workers[w]->read();
-      if (!news.answer) continue;
-      answers[job] = std::move(*news.answer);
+      std::optional<JobAnswer> answer = workers[w]->read();
+      if (!answer) continue;
+      answers[job] = std::move(*answer);
       ++n_answered;
       on_done(job, answers[job]);
-      if (news.has_ended) workers[w].reset();
+      if (workers[w]->job()) workers[w].reset();
       employ(workers[w]);
     }
   }

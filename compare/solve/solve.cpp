@@ -12,7 +12,7 @@ namespace springproof::compare {
 
 namespace {
 
-/// By PETSc's solver, or the grid's on several ranks.
+/// Solves the springs by PETSc, or by the grid's solver on several ranks.
 cases::Solution solve_by_snes(const cases::Scene& scene, const msm::DesignResult& design) {
   if (scene.definition.dynamics) {
     MovingSprings moving = make_moving_springs(scene, design);

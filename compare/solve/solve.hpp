@@ -77,7 +77,8 @@ using SolveFem = FemAnswer (*)(const cases::Scene& scene, int n_meshes, const Ke
 /// @param fem  our answer to the same scene   Collective.
 using AskPeer = Peer (*)(const cases::Scene& scene, const Answer& fem);
 
-/// With the formulation and refinement of the scene's definition as they are. Collective over MPI_COMM_WORLD.
+/// Solves the finite elements with the [fem] of the scene's definition as it is. Collective over
+/// MPI_COMM_WORLD.
 FemAnswer solve_fem_as_given(const cases::Scene& scene);
 
 /// Why this scene has no continuum limit, such as forces on points, whose displacement grows without bound.

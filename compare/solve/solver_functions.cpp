@@ -24,38 +24,26 @@ std::shared_ptr<void> start() {
   return std::make_shared<fem_reference::Session>();
 }
 
-std::unique_ptr<fem_reference::Model> new_model(const cases::Scene& scene, fem_reference::Backend backend) {
-  return std::make_unique<fem_reference::Model>(scene, MPI_COMM_WORLD, backend);
-}
-
-cases::Solution follow_finite_elements(const cases::Scene& scene) {
-  return fem_reference::follow(scene);
-}
-
-cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
-  return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
-}
-
-cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice) {
-  return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
-}
-
-cases::Solution follow_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice,
-                                       msm::Lattice damping) {
-  return msm::follow_lattice_by_snes(scene, std::move(lattice), std::move(damping), MPI_COMM_WORLD);
-}
-
 } // namespace
 
-const SolverFunctions springproof_solvers{start,
-                                          new_model,
-                                          follow_finite_elements,
-                                          fem_reference::vibrating_body,
-                                          solve_by_snes,
-                                          solve_lattice_by_snes,
-                                          follow_lattice_by_snes,
-                                          mechanics::petsc::full_spectrum,
-                                          mechanics::petsc::lowest_spectrum,
-                                          mechanics::petsc::lowest_vibrations};
+const SolverFunctions springproof_solvers{
+    start,
+    [](const cases::Scene& scene, fem_reference::Backend backend) {
+      return std::make_unique<fem_reference::Model>(scene, MPI_COMM_WORLD, backend);
+    },
+    [](const cases::Scene& scene) { return fem_reference::follow(scene); },
+    fem_reference::vibrating_body,
+    [](const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
+      return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
+    },
+    [](const cases::Scene& scene, msm::Lattice lattice) {
+      return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
+    },
+    [](const cases::Scene& scene, msm::Lattice lattice, msm::Lattice damping) {
+      return msm::follow_lattice_by_snes(scene, std::move(lattice), std::move(damping), MPI_COMM_WORLD);
+    },
+    mechanics::petsc::full_spectrum,
+    mechanics::petsc::lowest_spectrum,
+    mechanics::petsc::lowest_vibrations};
 
 } // namespace springproof::compare
