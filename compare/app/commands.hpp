@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
 #include <memory>
 
 /// The program's commands. Each adds its subcommand and options to the command line and, when it is the one
@@ -48,6 +49,9 @@ Command<Options> add_command(CLI::App& program, Action& chosen, const std::strin
       [options = command.options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
   return command;
 }
+
+/// Files of the cases in a folder of the program's cases, by their names.
+std::map<std::string, std::string> case_files_in(const std::string& folder);
 
 /// --set.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& settings, const std::string& text);

@@ -2,12 +2,21 @@
 #include "cases/case/rows.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/interact/replay.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
-// Options that several commands have.
+// What several commands have.
 namespace springproof::compare {
+
+std::map<std::string, std::string> case_files_in(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(cases_folder() + "/" + folder))
+    if (entry.path().extension() == ".toml") files[entry.path().stem().string()] = entry.path().string();
+  return files;
+}
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& settings, const std::string& text) {
   return command.add_option("--set", settings, text)->allow_extra_args(false);

@@ -13,7 +13,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <map>
 
 namespace springproof::compare {
 
@@ -29,23 +28,13 @@ struct StressOptions {
   bool json = false;
 };
 
-/// Files of the hard cases by their names.
-std::map<std::string, std::string> hard_cases() {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(cases_folder()) / "hard"))
-    if (entry.path().extension() == ".toml") files[entry.path().stem().string()] = entry.path().string();
-  return files;
-}
-
 /// @param name  of a hard case, or a path
 std::string file_of(const std::string& name) {
   if (fs::path(name).extension() == ".toml") return name;
+  const std::map<std::string, std::string> hard = case_files_in("hard");
+  if (const auto found = hard.find(name); found != hard.end()) return found->second;
   std::vector<std::string> known;
-  for (const auto& [known_name, file] : hard_cases())
-    if (known_name == name)
-      return file;
-    else
-      known.push_back(known_name);
+  for (const auto& [known_name, file] : hard) known.push_back(known_name);
   const auto nearest = cases::nearest_name(name, known);
   throw cases::InputError(
       "stress: there is no hard case \"" + name + "\"" +
@@ -58,7 +47,7 @@ std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std:
   std::vector<std::string> files;
   for (const std::string& name : options.names) files.push_back(file_of(name));
   if (files.empty())
-    for (const auto& [name, file] : hard_cases()) files.push_back(file);
+    for (const auto& [name, file] : case_files_in("hard")) files.push_back(file);
   std::vector<cases::Case> hard;
   for (const std::string& file : files) {
     cases::Case next = cases::read_hard_case(file);
