@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t most_loaded = 1'000'000; ///< vertices of the surface and nodes, of all places
 
-/// A component of a hold's force, N: constant in each step, with jumps just after the steps' ends, which some
-/// schemes look at.
+/// A component of a hold's force (N), constant in each step. Jumps come just after the ends of steps, at
+/// which some schemes evaluate forces.
 cases::History history_of(const Hold& hold, int axis, double step) {
   const auto just_after = [&](long n) { return (static_cast<double>(n) + 1e-6) * step; };
   cases::History history;

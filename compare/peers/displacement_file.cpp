@@ -6,7 +6,6 @@
 #include "cases/mesh/vtk_functions.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 #include <utility>

@@ -17,7 +17,7 @@ namespace {
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
   if (scene.definition.msm.solver != cases::Solver::snes)
-    return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
+    return shared_from_rank_0<Answer>(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
   solvers(); // loading them is no part of the time
   const auto designed = [&] {
     design = design_for(scene);
@@ -31,8 +31,7 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
   return answer;
 }
 
-/// Every node of the region belongs to a face of it: what is shared by more and more nodes tends to a
-/// traction.
+/// Whether every node of a region is on a face of it: shared by more and more nodes, a force is a traction.
 bool is_area(const cases::Selection& selection) {
   std::vector<int> on_faces;
   for (const auto& face : selection.faces) on_faces.insert(on_faces.end(), face.begin(), face.end());
@@ -87,7 +86,7 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
       return solve_side([&] { return std::cref(scene); },
                         [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
     };
-    return {shared_from_rank_0(scene.mesh, move), scene.definition.fem, {}, {}};
+    return {shared_from_rank_0<Answer>(scene.mesh, move), scene.definition.fem, {}, {}};
   }
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   decltype(make_finite_elements(scene)) solved;
@@ -104,7 +103,8 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   return {std::move(answer), scene.definition.fem, {}, {}};
 }
 
-Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept) {
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept,
+              AskPeer ask_peer) {
   Answers answers;
   answers.resolved = scene.definition.fem;
   if (request.asks(cases::Side::fem)) {
@@ -116,6 +116,8 @@ Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_
   }
   if (request.asks(cases::Side::msm))
     answers.msm = solve_springs_on_ranks(scene, request.n_threads, answers.design);
+  if (!request.peer.empty() && ask_peer)
+    answers.peer = ask_peer(with_fem(scene, answers.resolved), answers.fem);
   return answers;
 }
 

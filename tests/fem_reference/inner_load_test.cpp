@@ -26,7 +26,7 @@ cases::Region plane_at(double x) {
 }
 
 const cases::loads::Traction pull{{0.0003, 0, 0}};
-const cases::loads::Torque turn{1e-4, Vector3d::UnitX(), {4, 1, 1}};
+const cases::loads::Torque inner_torque{1e-4, Vector3d::UnitX(), {4, 1, 1}};
 
 /// A bar of 8 x 2 x 2 mm, held at x = 0, nu = 0, under a load on its cross section at x = 4.
 cases::Case bar(cases::Element element, int refine, const cases::loads::Kind& kind) {
@@ -67,7 +67,7 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
 TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a body", "[verification]") {
   for (const cases::Element element : scenes::all_elements)
     for (const Backend backend : {Backend::assembled, Backend::automatic}) {
-      const auto scene = cases::make_scene(bar(element, 0, turn));
+      const auto scene = cases::make_scene(bar(element, 0, inner_torque));
       const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
       const double inner = displacement_at(scene, found, {6, 0, 0}).z(),
                    end = displacement_at(scene, found, {8, 0, 0}).z();
