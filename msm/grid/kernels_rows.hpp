@@ -1,6 +1,55 @@
-// Part of kernels_source.hpp, in its namespace: the stiffnesses of a row's springs, a pack of nodes at a
-// time.
+// Part of kernels_source.hpp, in its namespace: vectors of numbers or packs, rows of a field, and the
+// stiffnesses of a row's springs, a pack of nodes at a time.
 #pragma once
+
+template<class Real>
+struct Vec {
+  Real x, y, z;
+  SPRINGPROOF_INLINE Real& operator[](int c) { return c == 0 ? x : c == 1 ? y : z; }
+};
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> operator+(const Vec<Real>& a, const Vec<Real>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> operator-(const Vec<Real>& a, const Vec<Real>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> operator*(Real s, const Vec<Real>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template<class Real>
+SPRINGPROOF_INLINE Real dot(const Vec<Real>& a, const Vec<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template<class Real>
+SPRINGPROOF_INLINE Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+using mechanics::window;
+template<class P>
+SPRINGPROOF_INLINE Vec<P> window(const Vec<P>& a, const Vec<P>& b, int from) {
+  return {window(a.x, b.x, from), window(a.y, b.y, from), window(a.z, b.z, from)};
+}
+
+/// Three arrays of one row.
+template<class Real>
+struct Rows {
+  const Real *x, *y, *z;
+  SPRINGPROOF_INLINE Vec<Real> at(std::ptrdiff_t i) const { return {x[i], y[i], z[i]}; }
+};
+template<class Real>
+SPRINGPROOF_INLINE Rows<Real> rows(const Real* field, std::ptrdiff_t array, std::ptrdiff_t offset) {
+  return {field + offset, field + array + offset, field + 2 * array + offset};
+}
+
+/// First node of plane k of a result's array c: in the field, or in the spill.
+template<class Real>
+SPRINGPROOF_INLINE Real* result_plane(const Layout& layout, const Slab<Real>& slab, Real* field, int k,
+                                      int c) {
+  return k < slab.last ? field + layout.at(0, 0, k, c) : slab.spill + c * layout.plane + layout.at(0, 0, -1);
+}
 
 /// A spring's stiffness along the nodes of plane k: `share` times `scale`.
 template<class Real>
