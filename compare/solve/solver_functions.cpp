@@ -31,7 +31,8 @@ std::unique_ptr<fem_reference::Model> new_model(const cases::Scene& scene, fem_r
 }
 
 cases::Solution follow_finite_elements(const cases::Scene& scene) {
-  return fem_reference::follow(scene);
+  return fem_reference::follow(scene, fem_reference::default_steps(), fem_reference::Backend::automatic,
+                               MPI_COMM_WORLD);
 }
 
 cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {

@@ -79,7 +79,7 @@ void GridEquations::set_step(const mechanics::StepTerms& terms, Inertia& inertia
 /// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
 /// reactions; one in motion that is moved by them, against these if they are the larger.
 double GridEquations::scale() const {
-  if (step_) return supported_.moved.empty() ? step_->scale : std::max(step_->scale, reaction_);
+  if (step_) return supported_.prescribed ? std::max(step_->scale, reaction_) : step_->scale;
   return load_norm_ > 0 ? load_norm_ : reaction_;
 }
 
@@ -217,6 +217,24 @@ double GridEquations::dot(const Vector& left, const Vector& right) const {
 std::size_t GridEquations::n_unknowns() const {
   const Field<double> free = body_.free.cast<double>();
   return static_cast<std::size_t>(grid::dot(space_, free, free)); // ones and zeros: exact
+}
+
+/// The planes of nodes of each component, and the layers of cells; all that vectors have where they are
+/// whole.
+std::vector<GridEquations::Run> GridEquations::runs(Eigen::Index size) const {
+  if (!space_.slab.is_shared()) return NonlinearProblem::runs(size);
+  const Layout &here = body_.layout, whole = make_layout(body_.cells_of_grid());
+  const int first = space_.slab.first_of_grid();
+  std::vector<Run> runs;
+  Eigen::Index end = 0; // of the run before, in whole vectors
+  const auto add = [&](Eigen::Index from, Eigen::Index n, Eigen::Index in_whole) {
+    runs.push_back({from, n, in_whole - end});
+    end = in_whole + n;
+  };
+  for (Eigen::Index c = 0; c < 3; ++c)
+    add(c * here.size + here.lead, here.plane * here.nodes[2], c * whole.size + whole.at(0, 0, first));
+  if (body_.has_modes) add(3 * here.size, here.n_cell_entries(), 3 * whole.size + whole.cell(0, 0, first));
+  return runs;
 }
 
 std::optional<bool> GridEquations::is_stable(const Vector&) {

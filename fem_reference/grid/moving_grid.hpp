@@ -5,7 +5,8 @@
 namespace springproof::fem_reference::grid {
 
 /// The motion of elements on a grid, on the states and with the forces of their static equations. Pressures
-/// have no inertia.
+/// have no inertia. Of a rank, vectors are those of GridEquations, with current ghosts; forces and products
+/// mean something in the planes that it computes.
 class MovingGrid : public mechanics::DynamicProblem {
  public:
   using Vector = mechanics::Vector;
@@ -19,6 +20,7 @@ class MovingGrid : public mechanics::DynamicProblem {
   void external_force(double time, Vector& force) override;
   void supports_at(double time, Vector& displacement) const override;
   void complete(Vector& motion) override;
+  std::vector<Run> runs(Eigen::Index size) const override { return equations_.runs(size); }
   void set_step(const mechanics::StepTerms& terms) override;
 
   using NonlinearProblem::direction;

@@ -7,7 +7,7 @@
 #include "fem_reference/moving_equations.hpp"
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
-#include "tests/support/largest.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,12 +21,6 @@ namespace {
 constexpr double youngs_modulus = 0.1, length = 20, side = 10; // MPa, mm
 constexpr double density = 1e-9, gravity = 9810;               // t/mm³ of water, mm/s²
 
-cases::Region region_of(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
-
 /// A bar of 4 x 2 x 2 cells along z, of water, held at its bottom or nowhere, whose tip is watched.
 cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element element,
                 const cases::MaterialDynamics& dynamics = {1000., 0, 0}, double poissons_ratio = 0.3) {
@@ -36,10 +30,10 @@ cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element ele
   definition.material_dynamics = dynamics;
   definition.fem.formulation = formulation;
   definition.fem.element = element;
-  if (is_held) definition.fixed.push_back({region_of("z-"), {true, true, true}});
+  if (is_held) definition.fixed.push_back({bodies::region("z-"), {true, true, true}});
   cases::Measure tip;
   tip.kind = cases::MeasureKind::displacement;
-  tip.node = region_of("x+ y+ z+");
+  tip.node = bodies::region("x+ y+ z+");
   definition.measures = {tip};
   return definition;
 }
@@ -100,7 +94,7 @@ TEST_CASE("a bar is stretched by its own weight as analysis says", "[verificatio
 TEST_CASE("gravity's forces on the nodes add up to all weights") {
   for (const auto element : {cases::Element::q1, cases::Element::q2}) {
     cases::Case definition = bar(true, cases::Formulation::small_strain, element);
-    definition.masses.push_back({region_of("z+"), 0.004}); // kg
+    definition.masses.push_back({bodies::region("z+"), 0.004}); // kg
     const fem_reference::AssembledBody body(weighed(definition, Vector3d::UnitZ(), std::nullopt),
                                             MPI_COMM_SELF);
     double sum = 0;
@@ -167,7 +161,7 @@ TEST_CASE("a support that moves takes damped finite elements along", "[verificat
       INFO(name_of(formulation) << ", " << name_of(element));
       cases::Case definition = bar(false, formulation, element, {1000., 200, 0.01});
       cases::Moved moved;
-      moved.region = region_of("z-");
+      moved.region = bodies::region("z-");
       moved.displacement = {1, 0, 0.5};
       moved.history.points = {{0., 0.}, {0.1, 1.}};
       definition.moved.push_back(moved);

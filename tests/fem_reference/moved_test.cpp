@@ -1,22 +1,18 @@
 // Bodies whose supports move with the load factor.
 
 #include "fem_reference/model.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace springproof;
 
+using bodies::region;
 using cases::Element;
 using Eigen::Vector3d;
 
 namespace {
-
-cases::Region region(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
 
 cases::Case box(Element element) {
   cases::Case definition;

@@ -1,5 +1,7 @@
 #include "scenes.hpp"
 
+#include "tests/support/bodies.hpp"
+
 #include <cmath>
 
 using namespace springproof;
@@ -8,13 +10,9 @@ namespace scenes {
 
 using Eigen::Vector3d;
 
-namespace {
+using bodies::region;
 
-cases::Region region(const std::string& name) {
-  cases::Region r;
-  r.name = name;
-  return r;
-}
+namespace {
 
 void push(cases::Case& definition, const std::string& where, const Vector3d& force) {
   cases::Load load;
