@@ -4,7 +4,6 @@
 #include "cases/scene/in_time.hpp"
 #include "fem_reference/assembled_body.hpp"
 #include "fem_reference/grid/grid_model.hpp"
-#include "fem_reference/moving_equations.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 
 namespace springproof::fem_reference {
@@ -24,10 +23,9 @@ State start_of(const cases::Scene& scene, const AssembledBody& body) {
 cases::Solution follow_assembled(const cases::Scene& scene, MPI_Comm communicator,
                                  const mechanics::IntegrationSettings& settings) {
   AssembledBody body(scene, communicator);
-  MovingEquations motion(cases::refine(scene, scene.definition.fem.refine), body.discretisation,
-                         body.formulations, body.equations);
+  body.equations.set_in_motion(cases::refine(scene, scene.definition.fem.refine), body.formulations);
   State state = start_of(scene, body);
-  cases::Solution solution = mechanics::follow_motion(scene, motion, body.on_mesh(), state, settings);
+  cases::Solution solution = mechanics::follow_motion(scene, body.equations, body.on_mesh(), state, settings);
   solution.norms = body.norms(state, solution.sharing.get());
   return solution;
 }

@@ -69,11 +69,36 @@ void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
   condensed_ += added;
 }
 
-void GridEquations::set_step(const mechanics::StepTerms& terms, Inertia& inertia, bool is_another) {
+void GridEquations::set_in_motion(const cases::Scene& scene, const Places& places) {
+  inertia_ = std::make_unique<Inertia>(scene, places, space_.n_threads);
+  loads_ = loads_in_time(scene, false, places);
+}
+
+void GridEquations::external_force(double time, Vector& force) {
+  force = rest();
+  for (const mechanics::LoadInTime& load : loads_) load.add(time, force);
+}
+
+void GridEquations::supports_at(double time, Vector& displacement) const {
+  if (!supported_.prescribed_at) return;
+  const std::vector<double> values = supported_.prescribed_at(time);
+  for (std::size_t m = 0; m < values.size(); ++m) displacement[supported_.moved[m]] = values[m];
+}
+
+/// On free degrees of freedom; 0 elsewhere.
+void GridEquations::multiply(const Inertia::Factors& factors, const Vector& motion, Vector& product) {
+  motion_ = motion.head(n_displacements());
+  space_.slab.update_ghosts(space_.layout, motion_.data());
+  product_.setZero(motion_.size());
+  inertia_->add_product(factors, motion_, product_);
+  product.setZero(motion.size());
+  product.head(product_.size()) = product_.cwiseProduct(body_.free.cast<double>());
+}
+
+void GridEquations::set_step(const mechanics::StepTerms& terms) {
   step_.emplace(terms);
-  inertia_ = &inertia;
   if (!std::exchange(begins_step_, true)) carries_tangent_ = std::exchange(is_easy_, true);
-  if (is_another) has_tangent_ = false;
+  if (inertia_->set_step({terms.mass, terms.damping})) has_tangent_ = false;
 }
 
 /// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
@@ -84,7 +109,7 @@ double GridEquations::scale() const {
 }
 
 void GridEquations::linearise(const Vector& at) {
-  multigrid_.linearise(at.data(), at.data() + n_displacements(), inertia_);
+  multigrid_.linearise(at.data(), at.data() + n_displacements(), inertia_.get());
   if (quadratic_) quadratic_->linearise(at.data());
 }
 

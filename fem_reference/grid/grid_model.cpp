@@ -3,7 +3,7 @@
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/in_time.hpp"
 #include "fem_reference/grid/coarse_guess.hpp"
-#include "fem_reference/grid/moving_grid.hpp"
+#include "fem_reference/grid/grid_equations.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/ranks/share_out.hpp"
@@ -274,11 +274,10 @@ Vector GridModel::Implementation::start_of_motion(const mechanics::EquilibriumSe
 
 cases::Solution GridModel::follow(const mechanics::IntegrationSettings& settings) {
   Implementation& m = *implementation_;
-  MovingGrid motion(cases::refine(m.scene, m.scene.definition.fem.refine), m.places, m.supported, m.equations,
-                    m.n_threads);
+  m.equations.set_in_motion(cases::refine(m.scene, m.scene.definition.fem.refine), m.places);
   m.equations.set_volume_tolerance(volume_tolerance_of(settings.newton.tolerance));
   m.last = m.start_of_motion(settings.newton);
-  return mechanics::follow_motion(m.scene, motion, m.on_mesh(), m.last, settings);
+  return mechanics::follow_motion(m.scene, m.equations, m.on_mesh(), m.last, settings);
 }
 
 bool GridModel::linear_solver_failed() const {

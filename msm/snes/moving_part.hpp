@@ -9,7 +9,7 @@ namespace springproof::msm {
 
 /// The static equations of a rank's part of a lattice without loads, whose load factor is a time (s): their
 /// forces and supports, not their solution. Vectors are the entries that the rank owns.
-class PartInTime : public mechanics::petsc::DistributedProblem {
+class PartInTime : public mechanics::petsc::DistributedProblem<> {
  public:
   /// @param part  of a problem of make_moving_problem(); must outlive this
   PartInTime(const LatticePart& part, MPI_Comm communicator)
