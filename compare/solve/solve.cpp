@@ -82,11 +82,9 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   solvers(); // loading them is no part of the time
   if (scene.definition.dynamics) {
-    const auto move = [&] {
-      return solve_side([&] { return std::cref(scene); },
-                        [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
-    };
-    return {shared_from_rank_0<Answer>(scene.mesh, move), scene.definition.fem, {}, {}};
+    Answer answer = solve_side([&] { return std::cref(scene); },
+                               [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
+    return {std::move(answer), scene.definition.fem, {}, {}};
   }
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   decltype(make_finite_elements(scene)) solved;

@@ -31,7 +31,10 @@ const SolverFunctions springproof_solvers{
     [](const cases::Scene& scene, fem_reference::Backend backend) {
       return std::make_unique<fem_reference::Model>(scene, MPI_COMM_WORLD, backend);
     },
-    [](const cases::Scene& scene) { return fem_reference::follow(scene); },
+    [](const cases::Scene& scene) {
+      return fem_reference::follow(scene, fem_reference::default_steps(), fem_reference::Backend::automatic,
+                                   MPI_COMM_WORLD);
+    },
     fem_reference::vibrating_body,
     [](const cases::Scene& scene, const msm::SpringBody& springs) {
       return msm::solve_by_snes(scene, springs, MPI_COMM_WORLD);

@@ -4,10 +4,9 @@
 #include "fem_reference/assembled_body.hpp"
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/model.hpp"
-#include "fem_reference/moving_equations.hpp"
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
-#include "tests/support/largest.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -176,7 +175,8 @@ TEST_CASE("the tangent of the finite elements' step is the derivative of its res
     const cases::Scene scene = weighed(bar(true, cases::Formulation::log_strain, element, {1000., 3, 0.02}),
                                        Vector3d::UnitX(), std::nullopt);
     fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-    fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+    body.equations.set_in_motion(scene, body.formulations);
+    mechanics::DynamicProblem& motion = body.equations;
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> value(-1, 1);
     const auto on_free = [&](double size) {
@@ -212,7 +212,8 @@ TEST_CASE("finite elements' error in time falls at the order of each scheme", "[
       weighed(bar(true, cases::Formulation::log_strain, cases::Element::q1, {1000., 3, 0.001}),
               Vector3d::Zero(), std::nullopt);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto& points = body.discretisation.nodes.point;
   State shape = body.equations.rest();
   for (std::size_t n = 0; n < points.size(); ++n) { // bends and stretches finitely
@@ -228,7 +229,8 @@ TEST_CASE("what turns about itself keeps its angular momentum, by the scheme tha
       weighed(bar(false, cases::Formulation::saint_venant_kirchhoff, cases::Element::q1), Vector3d::Zero(),
               std::nullopt);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto& points = body.discretisation.nodes.point;
   State velocity = body.equations.rest();
   for (std::size_t n = 0; n < points.size(); ++n) // half a turn in 50 ms about a skew axis, and a pull
@@ -263,7 +265,8 @@ TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark
   definition.body = cases::Box{{side, side, length}, {1, 1, 2}};
   const cases::Scene scene = cases::make_scene(definition);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto stiffness = fem_reference::rest_stiffness(body.discretisation, body.formulations);
   State start = body.equations.rest();
   const auto& points = body.discretisation.nodes.point;

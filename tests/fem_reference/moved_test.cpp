@@ -1,12 +1,14 @@
 // Bodies whose supports move with the load factor.
 
 #include "fem_reference/model.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace springproof;
 
+using bodies::region;
 using cases::Element;
 using Eigen::Vector3d;
 

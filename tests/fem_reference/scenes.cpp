@@ -1,5 +1,7 @@
 #include "scenes.hpp"
 
+#include "tests/support/bodies.hpp"
+
 #include <cmath>
 
 using namespace springproof;
@@ -8,7 +10,7 @@ namespace scenes {
 
 using Eigen::Vector3d;
 
-namespace {
+using bodies::region;
 
 void push(cases::Case& definition, const std::string& where, const Vector3d& force) {
   definition.loads.push_back({cases::Region{where}, cases::loads::NodalForce{force}});

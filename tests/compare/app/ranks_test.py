@@ -263,6 +263,15 @@ def test_a_motion(folder):
         assert refused.returncode == 2 and f'solver is "{solver}", must be "newton"' in refused.stderr and len(refused.stderr.splitlines()) == 1, refused
 
 
+def test_a_motion_of_finite_elements(folder):
+    """the motion of a grid's finite elements has the same digits on 1, 2 and 3 ranks"""
+    body = 'shape = "box"\nsize = [30, 10, 10]\ncells = [9, 8, 11]'
+    motions = [solve(folder, MOTION % (body, "hybrid", "newton"), ranks, "--only", "fem")[0] for ranks in (1, 2, 3)]
+    for document in motions:
+        assert document["fem"]["status"] == "converged", document
+        assert document["motion"] == motions[0]["motion"]
+
+
 def test_a_mesh_study(folder):
     """the limit of a mesh study, and the error of a field against it"""
     case = (CASE % (BOX % (4, 4, 4), "log_strain", "newton")).replace('accuracy = "none"\n', "")

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "tests/fem_reference/scenes.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace scenes {
 
-inline cases::Region region(const std::string& name) {
-  return {name};
-}
+using bodies::region;
 
 /// A block of soft rubber on a table, 12 mm high, whose weight sets in at once; its period is about 0.08 s.
 inline cases::Case block(cases::Formulation formulation, cases::Element element) {
