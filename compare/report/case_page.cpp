@@ -36,31 +36,6 @@ void thin(Json& motion) {
   }
 }
 
-/// The lattice's limits of stability, which are known of cubes of four stiffnesses.
-std::optional<msm::StabilityRange> stability_of(const cases::HexMesh& mesh, const msm::DesignResult& design) {
-  const double edge = msm::cube_edge(cases::cell_vertices(mesh, 0));
-  if (!(edge > 0) || !design.is_of_four_stiffnesses()) return std::nullopt;
-  return msm::stability_range(design.stiffness, edge);
-}
-
-/// What a case's own springs are: as attempt_to_json() of compare/cube has a design, with "design", its name,
-/// and "kinds_of_cells", how many cells have springs of their own (0: all are alike). Null without a design
-/// of ours. A network has no moduli: they are null.
-Json springs_of_case(const Comparison& comparison) {
-  const auto& design = comparison.answers.design;
-  if (!design || !comparison.answers.msm_source.empty()) return nullptr;
-  const cases::Msm& options = comparison.scene.definition.msm;
-  const bool is_network = options.design == cases::Design::network;
-  DesignAttempt attempt{cases::name_of(options.design), design};
-  attempt.options = options;
-  if (!is_network) attempt.stability = stability_of(comparison.scene.mesh, *design);
-  Json document = attempt_to_json(attempt);
-  document["design"] = attempt.name;
-  document["kinds_of_cells"] = design->terms ? design->terms->kinds.size() : design->cells.size();
-  if (is_network) document["moduli"] = nullptr;
-  return document;
-}
-
 } // namespace
 
 Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,

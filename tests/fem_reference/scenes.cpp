@@ -12,6 +12,8 @@ using Eigen::Vector3d;
 
 using bodies::region;
 
+namespace {
+
 void push(cases::Case& definition, const std::string& where, const Vector3d& force) {
   definition.loads.push_back({cases::Region{where}, cases::loads::NodalForce{force}});
 }
