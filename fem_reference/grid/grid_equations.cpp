@@ -246,8 +246,8 @@ std::size_t GridEquations::n_unknowns() const {
 
 /// The planes of nodes of each component, and the layers of cells; all that vectors have where they are
 /// whole.
-std::vector<GridEquations::Run> GridEquations::runs(Eigen::Index size) const {
-  if (!space_.slab.is_shared()) return NonlinearProblem::runs(size);
+std::vector<GridEquations::Run> GridEquations::runs() const {
+  if (!space_.slab.is_shared()) return {};
   const Layout &here = body_.layout, whole = make_layout(body_.cells_of_grid());
   const int first = space_.slab.first_of_grid();
   std::vector<Run> runs;

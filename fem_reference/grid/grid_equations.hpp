@@ -43,7 +43,7 @@ class GridEquations : public mechanics::DynamicProblem {
   std::optional<bool> is_stable(const Vector& at) override;
   double dot(const Vector& left, const Vector& right) const override; ///< of the displacements
   bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
-  std::vector<Run> runs(Eigen::Index size) const override;
+  std::vector<Run> runs() const override;
   Work work() const override { return work_; }
   std::size_t n_unknowns() const override; ///< collective
 

@@ -113,12 +113,16 @@ class NonlinearProblem {
   struct Run {
     Eigen::Index first, n, skipped;
   };
-  virtual std::vector<Run> runs(Eigen::Index size) const { return {{0, size, 0}}; }
+  /// The runs of this rank, in order; none where a vector is whole here.
+  virtual std::vector<Run> runs() const { return {}; }
   /// Calls action(entry, number) with a generator's numbers for the entries of a vector: where runs() tells,
   /// the same numbers on any number of ranks.
   template<class Generator, class Action>
   void draw(Generator& generator, Vector& vector, const Action& action) const {
-    for (const Run& run : runs(vector.size())) {
+    const std::vector<Run> parts = runs(); // none allocates nothing: steps in real time draw too
+    if (parts.empty())
+      for (double& entry : vector) action(entry, generator());
+    for (const Run& run : parts) {
       for (Eigen::Index i = 0; i < run.skipped; ++i) generator();
       for (double& entry : vector.segment(run.first, run.n)) action(entry, generator());
     }

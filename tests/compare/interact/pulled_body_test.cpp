@@ -69,7 +69,7 @@ cases::Scene finely_drawn_block() {
   definition.dynamics->step = 0.1;
   definition.dynamics->end = 0.2;
   definition.fem.formulation = cases::Formulation::small_strain;
-  std::get<cases::measures::Displacement>(definition.measures.front().kind).node.name = "near 40 20 40";
+  std::get<cases::measures::Displacement>(definition.measures.front().kind).node.near = Vector3d(40, 20, 40);
   cases::Scene scene = cases::make_scene(definition);
   scene.surface = cases::outer_surface(cases::make_box_mesh({40, 40, 60}, {32, 32, 48}));
   scene.definition.surface.emplace();
