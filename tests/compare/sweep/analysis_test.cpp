@@ -18,9 +18,9 @@ Point elements_at(double seconds, double error) {
   return {"elements", Family::finite_elements, seconds, error};
 }
 
-const std::vector<Point> measured{{"A", Family::springs, 0.0005, 8},
-                                  {"B", Family::finite_elements, 0.005, 9},
-                                  {"C", Family::finite_elements, 0.05, 0.5}};
+const std::vector<Point> three_points{{"A", Family::springs, 0.0005, 8},
+                                      {"B", Family::finite_elements, 0.005, 9},
+                                      {"C", Family::finite_elements, 0.05, 0.5}};
 
 } // namespace
 
@@ -74,36 +74,37 @@ TEST_CASE("a level without an error is not passed over, and without the last the
 }
 
 TEST_CASE("the fastest is named with its factor over the other family") {
-  const std::string sentence = fastest_sentence(measured, 10, 0.1);
+  const std::string sentence = fastest_sentence(three_points, 10, 0.1);
   CHECK_THAT(sentence, Contains("within 10 %: A (0.5 ms, 8 %) is the fastest"));
   CHECK_THAT(sentence, Contains("10 times as fast as the fastest finite elements, B (5 ms, 9 %)"));
 }
 
 TEST_CASE("a family that does not get there is said not to") {
-  CHECK_THAT(fastest_sentence(measured, 1, 0.1),
+  CHECK_THAT(fastest_sentence(three_points, 1, 0.1),
              Contains("C (50 ms, 0.5 %)") && Contains("no springs get there"));
 }
 
 TEST_CASE("an error that no model reaches is said so, with the nearest") {
-  CHECK_THAT(fastest_sentence(measured, 0.2, 0.1), Contains("no model gets there") && Contains("C (50 ms"));
+  CHECK_THAT(fastest_sentence(three_points, 0.2, 0.1),
+             Contains("no model gets there") && Contains("C (50 ms"));
 }
 
 TEST_CASE("no error below the reference's own uncertainty is judged") {
-  CHECK_THAT(fastest_sentence(measured, 1, 1), Contains("not to be told") && !Contains("fastest"));
-  CHECK_THAT(fastest_sentence(measured, 1, std::nan("")), Contains("not to be told"));
+  CHECK_THAT(fastest_sentence(three_points, 1, 1), Contains("not to be told") && !Contains("fastest"));
+  CHECK_THAT(fastest_sentence(three_points, 1, std::nan("")), Contains("not to be told"));
 }
 
 TEST_CASE("the most accurate in a time is named, or the fastest when none answers in time") {
-  CHECK_THAT(most_accurate_sentence(measured, 0.001, 0.1),
+  CHECK_THAT(most_accurate_sentence(three_points, 0.001, 0.1),
              Contains("in 1 ms: A (0.5 ms, 8 %) is the most accurate."));
-  CHECK_THAT(most_accurate_sentence(measured, 0.1, 0.6),
+  CHECK_THAT(most_accurate_sentence(three_points, 0.1, 0.6),
              Contains("C (50 ms") && Contains("as far as") && Contains("0.6 %"));
-  CHECK_THAT(most_accurate_sentence(measured, 0.0001, 0.1),
+  CHECK_THAT(most_accurate_sentence(three_points, 0.0001, 0.1),
              Contains("no model answers in that time") && Contains("A (0.5 ms"));
 }
 
 TEST_CASE("an error that is small by accident is told with what more cells leave of it") {
-  std::vector<Point> some = measured;
+  std::vector<Point> some = three_points;
   some[0].error_percent = 0.9;
   some[0].more_cells_percent = 2.4;
   CHECK_THAT(fastest_sentence(some, 1, 0.1),
