@@ -4,7 +4,7 @@
 
 #include "compare/sweep/timed_cube.hpp"
 #include "msm/grid/multigrid.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 
 #include <functional>
 #include <iostream>

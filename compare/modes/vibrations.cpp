@@ -10,7 +10,7 @@
 #include "compare/write/csv.hpp"
 #include "compare/write/json.hpp"
 #include "compare/write/write_fields.hpp"
-#include "msm/vibrating_lattice.hpp"
+#include "msm/moving_springs.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

@@ -2,7 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 #include "tests/support/largest.hpp"
 
 #include <random>
