@@ -4,6 +4,7 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace springproof::fem_reference::grid {
 

@@ -1,6 +1,6 @@
 #include "msm/grid/moving_grid.hpp"
 
-#include "mechanics/grid/conjugate_gradients.hpp"
+#include "mechanics/grid/krylov.hpp"
 #include "msm/grid/held_factor.hpp"
 #include "msm/grid/real_time_solver.hpp"
 
@@ -154,10 +154,8 @@ class MovingGrid : public MovingSprings {
   int n_with_factor_ = 0;            ///< steps of its length since it was made
   int n_to_pass_ = 0;                ///< steps before the factor is tried again
 
-  std::deque<Body> bodies_;            ///< of the cycle
-  std::optional<Multigrid> multigrid_; ///< of bodies_, and of these:
+  std::optional<SpringLevels> multigrid_; ///< of these:
   Factors of_multigrid_;
-  double scale_ = 1;                        ///< of the cycle
   std::optional<RealTimeSolver> real_time_; ///< of the same
   bool is_set_ = false;                     ///< it knows this step
   double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
@@ -260,12 +258,9 @@ class MovingGrid : public MovingSprings {
   /// Damping by stiffness is of the body at rest, here of the body where it is.
   void make_multigrid() {
     of_multigrid_ = last_;
-    multigrid_.reset(); // it refers to the bodies
-    const Body all = damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_;
-    bodies_ = coarsenings(all);
-    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
-    scale_ = scale_of(all);
-    multigrid_->set_diagonal(scale_ * vectors_.to_field(diagonal(), in_));
+    multigrid_.emplace(damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_, n_threads_,
+                       smoother_in_motion);
+    multigrid_->set_diagonal(multigrid_->scale() * vectors_.to_field(diagonal(), in_));
     is_slow_ = true;
     real_time_.reset();
     is_set_ = false;
@@ -282,7 +277,7 @@ class MovingGrid : public MovingSprings {
       const Field<double>& right_side = vectors_.to_field(v, in_);
       vectors_.from_field([&](Field<double>& field) { multigrid_->apply(right_side, field); }, out_, out);
     };
-    solve(at, residual, forcing, clamp, max_iterations, scale_, cycle, cycle_with_pull_);
+    solve(at, residual, forcing, clamp, max_iterations, multigrid_->scale(), cycle, cycle_with_pull_);
   }
 
   /// As far as the step's iterations go.
@@ -300,7 +295,7 @@ class MovingGrid : public MovingSprings {
 
   void solve_in_real_time(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!real_time_) {
-      real_time_.emplace(body_, vectors_, scale_, damping_body_, n_threads_);
+      real_time_.emplace(body_, vectors_, multigrid_->scale(), damping_body_, n_threads_);
       real_time_->set_pull(pull());
     }
     if (!is_set_) real_time_->set_step(diagonal(), terms().damping);

@@ -1,6 +1,6 @@
-#include "mechanics/grid/conjugate_gradients.hpp"
+#include "mechanics/grid/krylov.hpp"
 
-#include "mechanics/grid/smoother.hpp"
+#include "mechanics/grid/cycle.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
