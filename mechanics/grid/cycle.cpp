@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <cmath>
 
 namespace springproof::mechanics::grid {
 
@@ -88,18 +89,23 @@ void Cycle::linearise() {
   }
 }
 
+void Level::forget() {
+  largest_eigenvalue_ = 0;
+  for (Field<float>* field : {&solution_, &residual_, &correction_, &product_})
+    field->setZero(); // 0 times what is not a number is not 0
+}
+
 void Cycle::forget() {
-  for (const auto& level : levels) {
-    level->largest_eigenvalue_ = 0;
-    for (Field<float>* field : {&level->solution_, &level->residual_, &level->correction_, &level->product_})
-      field->setZero(); // 0 times what is not a number is not 0
-  }
+  for (const auto& level : levels) level->forget();
 }
 
 /// The power method; its vector is kept for the next time.
 void Cycle::estimate_largest_eigenvalue(Level& level) const {
-  const bool is_first = !(level.largest_eigenvalue_ > 0);
-  if (is_first) level.set_rough(level.rough_);
+  const bool is_first = !(level.largest_eigenvalue_ > 0 && std::isfinite(level.largest_eigenvalue_));
+  if (is_first) {
+    level.forget();
+    level.set_rough(level.rough_);
+  }
   for (int step = 0; step < (is_first ? settings_.first_power_steps : 2); ++step) {
     const double length = level.norm(level.rough_);
     if (!(length > 0)) return; // nothing moves

@@ -103,16 +103,19 @@ class Level {
   /// Whether the smoother alone solves here, though there are coarser levels.
   virtual bool needs_no_coarser(const Chebyshev&) const { return false; }
 
-  /// Of the coarsest level.  @return false: it is too large, the smoother must do
+  /// Factorises the coarsest level.  @return false: it is too large, the smoother must do
   virtual bool factorise() = 0;
   virtual void solve_exactly() = 0;
 
-  /// Of the finest level: what every rank has of the answer is made the same.
+  /// Makes the finest level's answer the same on every rank that has it.
   virtual void complete(Field<float>&) const {}
   /// residual = restriction of the finer level's
   virtual void restrict_from(Field<float>& finer_residual) = 0;
   /// finer_correction = interpolation of the solution, 0 on entries that are not free
   virtual void prolong_to(Field<float>& finer_correction) = 0;
+
+  /// Drops the largest eigenvalue, and what is no number.
+  void forget();
 
  protected:
   friend class Cycle;
