@@ -4,7 +4,6 @@
 #include "compare/solve/shard.hpp"
 
 #include <algorithm>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -57,15 +56,14 @@ int merge(const MergeOptions& options) {
 } // namespace
 
 void add_merge_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = program.add_subcommand(
-      "merge", "one report and one exit status of the shards of gate or tables");
+  const auto [command, options] = add_command<MergeOptions>(
+      program, chosen, "merge", "one report and one exit status of the shards of gate or tables",
+      merge);
   command->add_option("folder", options->folders, "of each shard's --out")->required();
   command->add_option("--out", options->out, "folder for the files of the whole command's --out");
   command->add_option("--junit", options->junit, "of gate: file for the verdicts as JUnit's XML");
   command->add_flag("--annotate", options->annotate, "of gate: GitHub's annotations too");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return merge(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

@@ -25,20 +25,20 @@ std::vector<std::string> command_line(const CLI::App& command,
 
 } // namespace
 
-CLI::Option* add_shard_options(CLI::App& command, const std::shared_ptr<ShardOptions>& options,
-                               CLI::Option* out, const std::vector<CLI::Option*>& not_divided) {
+CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
+                               const std::vector<CLI::Option*>& not_divided) {
   CLI::Option* part =
       command
-          .add_option("--shard", options->part,
+          .add_option("--shard", options.part,
                       "I/N: solve part I of N alone, into --out; `springproof merge` puts the parts together")
           ->needs(out)
           ->check([](const std::string& text) {
             return shard_from(text) ? "" : "must be I/N with I from 1 to N, such as 2/4, but is " + text;
           });
-  CLI::Option* merged = command.add_option("--merged", options->folders)->group("")->excludes(part);
+  CLI::Option* merged = command.add_option("--merged", options.folders)->group("")->excludes(part);
   for (CLI::Option* option : not_divided) part->excludes(option);
-  command.parse_complete_callback([&command, options, part, merged, out] {
-    options->command = command_line(command, {part, merged, out, command.get_option_no_throw("--workers")});
+  command.parse_complete_callback([&command, &options, part, merged, out] {
+    options.command = command_line(command, {part, merged, out, command.get_option_no_throw("--workers")});
   });
   return merged;
 }

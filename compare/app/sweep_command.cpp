@@ -1,6 +1,5 @@
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/number_option.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -12,7 +11,6 @@
 #include "compare/table/table.hpp"
 
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <unistd.h>
 
@@ -107,14 +105,12 @@ int run(const SweepOptions& options) {
 } // namespace
 
 void add_sweep_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<SweepOptions>();
-  CLI::App* command =
-      program.add_subcommand("sweep", "speed against error, of both models at many resolutions");
+  const auto [command, options] = add_command<SweepOptions>(
+      program, chosen, "sweep", "speed against error, of both models at many resolutions", run);
   command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
-  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
   command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  add_json_option(*command, options->json);
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
   command
       ->add_option("--budget", options->budget,
@@ -122,7 +118,6 @@ void add_sweep_command(CLI::App& program, Action& chosen) {
       ->check(number_between(1e-3, 1e9));
   command->add_flag("--perf", options->perf,
                     "count the instructions of the springs' kernels with valgrind instead; needs no case");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 } // namespace springproof::compare

@@ -3,7 +3,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/solve/kept.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "compare/sweep/analysis.hpp"
 
 #include "compare/measure/box_plot.hpp"
+#include "compare/study/worst_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,10 +153,10 @@ std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<
 }
 
 std::optional<double> worst_measure_error(const SweepRow& row) {
-  std::optional<double> worst;
+  WorstError errors;
   for (const auto& error : row.measure_error_percent)
-    if (error) worst = std::max(worst.value_or(0), std::abs(*error));
-  return worst;
+    if (error) errors.add(*error);
+  return errors.worst;
 }
 
 std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock) {

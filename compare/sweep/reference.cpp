@@ -43,10 +43,7 @@ cases::Solution as_solution(const cases::Scene& scene, const Field& displacement
 }
 
 cases::Measure field_measure() {
-  cases::Measure measure{};
-  measure.name = "displacement field";
-  measure.kind = cases::MeasureKind::displacement_field_l2;
-  return measure;
+  return {"displacement field", cases::measures::DisplacementFieldL2{}, {}};
 }
 
 /// L2 norm of other - truth over that of truth, percent.

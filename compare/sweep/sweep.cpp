@@ -40,10 +40,7 @@ bool solve_timed(cases::Solution& solution, Times& times, const std::function<ca
 }
 
 cases::Scene with_load(cases::Scene scene, double factor) {
-  for (auto& applied : scene.loads) {
-    applied.load.value *= factor;
-    applied.load.moment *= factor;
-  }
+  for (auto& applied : scene.loads) applied.load.scale(factor);
   for (auto& moved : scene.moved) {
     moved.motion.displacement *= factor;
     moved.motion.angle *= factor;
@@ -52,7 +49,7 @@ cases::Scene with_load(cases::Scene scene, double factor) {
 }
 
 msm::Model make_springs(const cases::Scene& scene) {
-  return make_model(scene, design_for(scene));
+  return msm::Model(scene, design_for(scene).springs);
 }
 
 /// A round: the model made and solved twice, from rest and after the change of the load.

@@ -1,6 +1,5 @@
 #include "compare/sweep/write_sweep.hpp"
 
-#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
 

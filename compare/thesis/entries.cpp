@@ -37,7 +37,7 @@ PublishedFigure small_beta_2(PublishedFigure figure) {
 void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& figure,
                               const FemChoice& reference, const Solutions& solutions) {
   const JobPair jobs = thesis_jobs(figure, reference);
-  const MeasuredPair beta = measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), figure.measure);
+  const MeasuredPair beta = measured_pair(solutions, jobs, figure.measure);
   if (!beta.fem) return;
   const auto with_error = [&](const std::optional<double>& error) { // (45 + b (1 + r))/(45 + b) - 1
     return error ? std::optional(*beta.fem * *error / (45 + *beta.fem)) : std::nullopt;
@@ -49,7 +49,7 @@ void add_readings_from_beta_2(ComputedFigure& computed, const PublishedFigure& f
 ComputedFigure compute(const PublishedFigure& figure, const FemChoice& reference,
                        const Solutions& solutions) {
   const JobPair jobs = thesis_jobs(figure, reference);
-  const MeasuredPair pair = measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), figure.measure);
+  const MeasuredPair pair = measured_pair(solutions, jobs, figure.measure);
   ComputedFigure computed{reference.name, figure.unit == "mm3" ? pair.msm : pair.error(), pair.fem, pair.msm};
   if (!computed.value) computed.reason = pair.reason;
   if (figure.measure == "beta_1")
@@ -140,7 +140,7 @@ constexpr double cell_edge = 2;    // mm; thesis section 4.2.2
 constexpr double cell_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
 
 Spectrum springs_spectrum(const msm::CellStiffness& stiffness) {
-  return full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
+  return solvers().full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
 }
 
 CellAnalysis analyse_cell(double poissons_ratio) {
@@ -149,9 +149,9 @@ CellAnalysis analyse_cell(double poissons_ratio) {
   options.design = cases::Design::linear_method;
   const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), options);
   const msm::CellStiffness stiffness = msm::design(request).stiffness;
-  return {
-      poissons_ratio, stiffness,
-      analyse_eigenspaces(full_spectrum(request.element_stiffness(material)), springs_spectrum(stiffness))};
+  return {poissons_ratio, stiffness,
+          analyse_eigenspaces(solvers().full_spectrum(request.element_stiffness(material)),
+                              springs_spectrum(stiffness))};
 }
 
 /// "fem_eigenvalue_2" -> model "fem", what "eigenvalue", index 1.

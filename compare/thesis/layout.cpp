@@ -1,6 +1,6 @@
 #include "compare/thesis/layout.hpp"
 
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -180,6 +180,25 @@ Trace trace_of(const JobPair& jobs) {
   return trace;
 }
 
+Comparison join(const Solutions& solutions, const JobPair& jobs) {
+  const Comparison& msm = solutions.at(jobs.msm);
+  return compare_sides(msm.scene, solutions.at(jobs.fem).answers, msm.answers);
+}
+
+std::optional<double> MeasuredPair::error() const {
+  return fem && msm ? error_percent(*fem, *msm, 0) : std::nullopt;
+}
+
+MeasuredPair measured_pair(const Solutions& solutions, const JobPair& jobs, const std::string& measure) {
+  const Comparison &fem = solutions.at(jobs.fem), &msm = solutions.at(jobs.msm);
+  const MeasuredValue *of_fem = find_named(fem.measures, measure),
+                      *of_msm = find_named(msm.measures, measure);
+  const std::string reason = why_without_errors(fem.answers, msm.answers);
+  if (!fem.answers.fem.converged()) return {{}, {}, reason};
+  if (!of_fem) return {{}, {}, "the case has no measure " + measure};
+  return {of_fem->fem, of_msm && reason.empty() ? of_msm->msm : std::nullopt, reason};
+}
+
 std::string shell_command(const std::vector<std::string>& words) {
   return "build/springproof " + shell_line(words);
 }

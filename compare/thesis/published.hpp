@@ -99,4 +99,15 @@ std::string shell_command(const std::vector<std::string>& words);
 /// The jobs solved, each once, however many figures share it.
 using Solutions = std::map<SolveJob, Comparison>;
 
+/// The springs' case with the finite elements' answer.
+Comparison join(const Solutions& solutions, const JobPair& jobs);
+
+/// A measure on the two sides of a case.
+struct MeasuredPair {
+  std::optional<double> fem, msm;
+  std::string reason;                  ///< why one is missing; empty when both are there
+  std::optional<double> error() const; ///< error_percent() of both
+};
+MeasuredPair measured_pair(const Solutions& solutions, const JobPair& jobs, const std::string& measure);
+
 } // namespace springproof::compare

@@ -45,15 +45,6 @@ std::vector<SolveJob> jobs_for(const std::vector<PublishedFigure>& figures, bool
   return {jobs.begin(), jobs.end()};
 }
 
-/// The springs' case with the finite elements' answer put in.
-Comparison join(const Solutions& solutions, const JobPair& jobs) {
-  const Comparison &fem = solutions.at(jobs.fem), &msm = solutions.at(jobs.msm);
-  Answers both = msm.answers;
-  both.fem = fem.answers.fem;
-  both.resolved = fem.answers.resolved;
-  return comparison_of(msm.scene, both);
-}
-
 /// The jobs of every case that is behind figures of a kind, once: the first set of springs that the thesis
 /// has for it stands for the case.
 template<class IsWanted>

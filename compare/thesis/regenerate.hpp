@@ -14,7 +14,7 @@ namespace springproof::compare {
 struct DesignRow {
   std::string table;
   std::string design;                 ///< "DESIGN, in print", "DESIGN, the thesis's set", or a method's name
-  ErrorSum errors{};                  ///< percent, of the figures that have a value
+  WorstError errors{};                  ///< percent, of the figures that have a value
   int n_missing = 0;                  ///< refused or failed
   std::string worst_at{};             ///< "large shear alpha_1 nu = 0.49"
   std::vector<std::string> reasons{}; ///< why figures are missing, each once

@@ -1,6 +1,6 @@
 #include "compare/write/write.hpp"
 
-#include "cases/scene/histories.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
@@ -21,7 +21,7 @@ struct Body {
 };
 
 Body measured_body(const cases::HexMesh& mesh) {
-  Body body{cases::bounding_box(mesh).sizes()};
+  Body body{cases::bounding_box(mesh.nodes).sizes()};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     body.volume += cases::cell_volume(cases::cell_vertices(mesh, c));
   return body;
@@ -41,7 +41,7 @@ void remove_rounding(Eigen::Vector3d& vector, double scale) {
 
 std::optional<Resultant> resultant_of(const cases::Scene& scene) {
   if (scene.loads.empty() || cases::has_load_histories(scene)) return std::nullopt;
-  Resultant all{cases::bounding_box(scene.mesh).center()};
+  Resultant all{cases::bounding_box(scene.mesh.nodes).center()};
   double size = 0, turning = 0;
   for (const auto& [node, force] : cases::applied_forces(scene)) {
     const Eigen::Vector3d arm = scene.mesh.nodes[cases::index(node)] - all.centre;
@@ -150,15 +150,16 @@ Json loads_to_json(const cases::Scene& scene) {
 }
 
 std::string springs_text(const msm::DesignResult& design) {
-  if (design.terms && design.terms->kinds.empty()) return "of the case's file";
-  if (design.terms && design.terms->boundary == msm::Boundary::whole)
+  if (design.springs.network()) return "of the case's file";
+  const msm::BodyTerms* terms = design.springs.terms();
+  if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
   const msm::CellStiffness& k = design.stiffness;
   const std::string exponents = k.exponents
                                     ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
                                                   k.exponents->face_diagonal, k.exponents->internal_diagonal)
                                     : "";
-  if (design.terms) return cell_text(design.terms->kinds.front()) + exponents;
+  if (terms) return cell_text(terms->kinds.front()) + exponents;
   std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
                                  1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
   if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
@@ -168,13 +169,13 @@ std::string springs_text(const msm::DesignResult& design) {
 Json springs_to_json(const msm::DesignResult& design) {
   const msm::CellStiffness& k = design.stiffness;
   Json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
-  if (!design.terms)
+  if (design.springs.cells())
     springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
   if (k.exponents)
     springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
-  if (design.terms && !design.terms->kinds.empty()) {
-    springs["volume_stiffness_MPa"] = design.terms->kinds.front().volume;
-    springs["cell"] = cell_to_json(*design.terms);
+  if (const msm::BodyTerms* terms = design.springs.terms()) {
+    springs["volume_stiffness_MPa"] = terms->kinds.front().volume;
+    springs["cell"] = cell_to_json(*terms);
   }
   return springs;
 }

@@ -2,8 +2,8 @@
 
 #include "cases/case/rows.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "cases/mesh/vtk.hpp"
-#include "cases/scene/histories.hpp"
+#include "cases/mesh/vtk_functions.hpp"
+#include "cases/scene/in_time.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/tensor.hpp"
@@ -68,7 +68,7 @@ void add_errors(cases::GridFields& all, const cases::HexMesh& mesh, const cases:
   all.point_vectors.push_back({"difference", difference, "mm"});
   all.point_numbers.push_back({"error", error, "mm"});
   const double largest =
-      field_norm(cases::MeasureKind::displacement_field_max, mesh, fem.displacement, fem.sharing.get());
+      field_norm(cases::measures::DisplacementFieldMax{}, mesh, fem.displacement, fem.sharing.get());
   if (largest > 0) {
     for (double& value : error) value /= largest;
     all.point_numbers.push_back({"relative_error", error, "1"});
@@ -323,7 +323,9 @@ bool has_drawn_springs(const Comparison& comparison) {
 
 void write_springs_vtu(std::ostream& out, const Comparison& comparison,
                        const std::vector<Vector3d>& displacement) {
-  const msm::Lattice lattice = solved_lattice(comparison.scene, *comparison.answers.design);
+  const cases::Scene& scene = comparison.scene;
+  const msm::Lattice lattice =
+      msm::make_lattice(scene.mesh, springs_as_solved(scene, *comparison.answers.design));
   const Lines lines = lines_of(lattice, displacement);
   cases::GridFields all;
   all.point_vectors.push_back({"msm_displacement", displacement, "mm"});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cases/mesh/vtk.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/gates/comparison.hpp"
 #include "msm/spring.hpp"

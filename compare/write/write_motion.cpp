@@ -1,7 +1,7 @@
 #include "compare/write/write.hpp"
 
 #include "compare/measure/measure.hpp"
-#include "compare/measure/numerical_damping.hpp"
+#include "compare/measure/over_time.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/quote.hpp"
@@ -103,7 +103,7 @@ std::optional<std::string> note_on_slowest(const char* side, const cases::Scene&
   return fmt::format(
       "{}: slowest vibration of {:.4g} Hz: omega h = {:.3g}, damping ratio {:.3g} of its own and {:.3g} "
       "of {}'s steps, period {:+.3g} %{}",
-      side, slowest->vibration.omega / (2 * std::acos(-1.0)), slowest->omega_h(),
+      side, slowest->vibration.omega / (2 * M_PI), slowest->omega_h(),
       slowest->vibration.damping_ratio, slowest->swings.damping_ratio, cases::name_of(scheme),
       100 * (slowest->swings.period - 1), warning);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mechanics/grid/instruction_set.hpp"
+
 #include <cstddef>
 
 /// Internal forces, tangents and products of trilinear elements on a grid of equal cuboids, several cells at
@@ -125,8 +127,6 @@ struct Kernels {
   void (*mass)(const Layout&, const Masses&, const double* field, double* product, int layer);
 };
 
-/// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
-/// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
-const Kernels& kernels();
+SPRINGPROOF_KERNEL_SETS(Kernels, kernels)
 
 } // namespace springproof::fem_reference::grid

@@ -1,4 +1,4 @@
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include "cases/case/read_case.hpp"
 #include "compare/gates/comparison.hpp"

@@ -1,4 +1,4 @@
-#include "compare/measure/surface_motion.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include "compare/write/write.hpp"
 

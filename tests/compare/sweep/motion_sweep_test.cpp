@@ -264,7 +264,7 @@ TEST_CASE("a sweep in time says what it cannot sweep") {
   odd.dynamics->end = 0.065;
   CHECK_THROWS_AS(quickly(odd), cases::InputError);
   cases::Case at_rest = block();
-  at_rest.loads[0].value.setZero();
+  at_rest.loads[0].scale(0);
   CHECK_THROWS_WITH(quickly(at_rest), Contains("do not move"));
 }
 

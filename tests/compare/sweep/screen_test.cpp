@@ -1,6 +1,6 @@
 // What a sweep prints: its answers, on one screen.
 
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "tests/support/screen.hpp"

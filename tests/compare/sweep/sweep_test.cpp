@@ -107,7 +107,7 @@ TEST_CASE("a body that is no box, or a material without small strain, is refused
 
 TEST_CASE("forces on points have no limit to be measured against, and are refused") {
   cases::Case definition = tiny();
-  definition.loads[0].kind = cases::LoadKind::nodal_force;
+  definition.loads[0].kind = cases::loads::NodalForce{{0, 0, 1e-3}};
   CHECK_THROWS_WITH(make_sweep(definition, Extent::quick, {}), Contains("no continuum limit"));
 }
 

@@ -37,10 +37,7 @@ compare::Comparison one_cell_comparison() {
 
 /// Adds a traction on the upper face, MPa.
 cases::Load& add_traction(compare::Comparison& comparison, const Eigen::Vector3d& value) {
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
+  const cases::Load load{{"z+"}, cases::loads::Traction{value}};
   auto& loads = comparison.scene.loads;
   loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
   return loads.back().load;
@@ -149,9 +146,7 @@ TEST_CASE("the place that a moment is about is printed to six digits, as the mom
 
 TEST_CASE("the error of a field is marked as a norm, which has no sign") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Measure field;
-  field.name = "everywhere";
-  field.kind = cases::MeasureKind::displacement_field_l2;
+  cases::Measure field{"everywhere", cases::measures::DisplacementFieldL2{}};
   comparison.scene.definition.measures = {field};
   comparison.measures = {{"everywhere", "mm", 2.0, 2.0, 12.5}};
   const std::string text = text_of(comparison);
@@ -185,7 +180,7 @@ TEST_CASE("springs are lines with their stretch and tension, where they are ours
   compare::Comparison comparison = one_cell_comparison();
   CHECK_FALSE(compare::has_drawn_springs(comparison)); // nobody has designed them
   msm::DesignResult design;
-  design.stiffness = {0.5, 0, 0, 0}; // edges alone
+  design.springs = {{0.5, 0, 0, 0}}; // edges alone
   comparison.answers.design = design;
   auto& displacement = comparison.answers.msm.solution.displacement;
   displacement.assign(8, {0, 0, 0});
@@ -209,7 +204,7 @@ TEST_CASE("springs are lines with their stretch and tension, where they are ours
   msm::CellTerms cell; // a link and a tetrahedron, of which an edge is pressed
   cell.springs = {{{0, 1}, 0.5}};
   cell.tetrahedra = {{{0, 1, 2, 4}, 0.2, 0.1}};
-  comparison.answers.design->terms = msm::BodyTerms{{cell}};
+  comparison.answers.design->springs = msm::BodyTerms{{cell}};
   std::ostringstream of_terms;
   compare::write_springs_vtu(of_terms, comparison, displacement);
   const auto pressed = read_array<double>(of_terms.str(), "stretch");
