@@ -2,8 +2,7 @@
 
 #include "cases/mesh/cells_at.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/measure/of_regions.hpp"
-#include "compare/measure/tensor.hpp"
+#include "compare/measure/of_cells.hpp"
 #include "compare/measure/turns.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"

@@ -1,9 +1,9 @@
-#include "compare/measure/of_regions.hpp"
+#include "compare/measure/of_cells.hpp"
 
 #include "cases/mesh/sharing.hpp"
-#include "compare/measure/tensor.hpp"
 #include "mechanics/larger.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,13 @@ namespace springproof::compare {
 using Eigen::Vector3d;
 
 namespace {
+
+Eigen::Matrix3d matrix_of(const cases::SymmetricTensor& t) {
+  const auto& [xx, yy, zz, xy, yz, xz] = t;
+  Eigen::Matrix3d matrix;
+  matrix << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return matrix;
+}
 
 /// Whether a cell has a face in the measure's region; all of them where it has none.
 class CellsOfRegion {
@@ -45,6 +52,24 @@ double curvature(const Vector3d& before, const Vector3d& here, const Vector3d& a
 }
 
 } // namespace
+
+double tensor_norm(const cases::SymmetricTensor& tensor) {
+  return matrix_of(tensor).norm();
+}
+
+double von_mises(const cases::SymmetricTensor& tensor) {
+  const Eigen::Matrix3d matrix = matrix_of(tensor);
+  return std::sqrt(1.5) * (matrix - matrix.trace() / 3 * Eigen::Matrix3d::Identity()).norm();
+}
+
+double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent component) {
+  using cases::TensorComponent;
+  if (component == TensorComponent::von_mises) return von_mises(tensor);
+  if (component < TensorComponent::von_mises) return tensor[static_cast<std::size_t>(component)];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(tensor), Eigen::EigenvaluesOnly);
+  const int from_largest = static_cast<int>(component) - static_cast<int>(TensorComponent::principal_1);
+  return axes.eigenvalues()[2 - from_largest]; // Eigen's ascend
+}
 
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
                  const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells) {

@@ -1,10 +1,21 @@
 #pragma once
 
+#include "cases/case/case.hpp"
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
 
-/// Measures of a solution over a region, of several cells or nodes. Collective over the ranks that share it.
+/// Measures of tensors in cells, and of a solution over a region, of several cells or nodes. What takes a
+/// solution is collective over the ranks that share it.
 namespace springproof::compare {
+
+/// A component of a symmetric tensor, its von Mises equivalent or a principal value, in the tensor's unit.
+double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent component);
+
+/// sqrt(3/2 dev(sigma) : dev(sigma))
+double von_mises(const cases::SymmetricTensor& tensor);
+
+/// sqrt(sigma : sigma)
+double tensor_norm(const cases::SymmetricTensor& tensor);
 
 /// A statistic of a component of the cells' tensors, over the cells that have a face in the measure's region,
 /// or over all; means are weighted by the cells' volume at rest.
