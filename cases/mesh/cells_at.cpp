@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double on_boundary = 1e-6; ///< of the unit cube, and of a cell's largest edge
+constexpr double on_boundary = 1e-6; ///< part of the unit cube, and of a cell's largest edge
 constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
 
 double largest_edge(const Eigen::AlignedBox3d& box) {

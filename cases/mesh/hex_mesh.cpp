@@ -326,7 +326,7 @@ std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
 
 namespace {
 
-/// Of a grid: no memory but for the faces.
+/// The faces of a grid, without memory for others.
 std::vector<std::array<int, 4>> boundary_faces_of_grid(const HexMesh& mesh) {
   std::vector<std::array<int, 4>> faces;
   std::size_t cell = 0;

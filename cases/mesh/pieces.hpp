@@ -6,7 +6,7 @@ namespace springproof::cases {
 
 /// The present cells of a grid, in pieces that hang together by faces.
 struct Pieces {
-  std::vector<int> piece_of_cell; ///< of every place of the grid, -1 where no cell is
+  std::vector<int> piece_of_cell; ///< for every place of the grid, -1 where no cell is
   std::vector<std::size_t> sizes; ///< cells of each piece
 };
 

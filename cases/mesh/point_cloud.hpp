@@ -31,7 +31,7 @@ struct Interpolation {
   std::vector<std::size_t> first; ///< one more than there are positions
   std::vector<int> points;
   std::vector<double> weights;
-  std::vector<double> outside; ///< of every position, how far outside of all cells it lies, mm; it takes the
+  std::vector<double> outside; ///< for every position, how far outside of all cells it lies, mm; it takes the
                                ///< value of the closest place
   std::vector<Eigen::Vector3d> of(const std::vector<Eigen::Vector3d>& values) const {
     std::vector<Eigen::Vector3d> result(outside.size(), Eigen::Vector3d::Zero());

@@ -63,7 +63,7 @@ struct VtkFunctions {
   Surface (*read_polygons)(const std::string& content);
   /// cases::contour(), of as many values as points.
   Surface (*contour)(const Picture&, const ContourSettings&);
-  /// Of each position.  @param mesh  with at least one cell
+  /// The place nearest to each position.  @param mesh  with at least one cell
   std::vector<PlaceInCell> (*nearest_in_cells)(const HexMesh& mesh,
                                                const std::vector<Eigen::Vector3d>& positions);
   /// cases::decimated()
