@@ -1,6 +1,6 @@
 #include "cases/mesh/check_mesh.hpp"
 
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 
 #include <fmt/format.h>
 #include <limits>

@@ -66,6 +66,15 @@ constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 /// The same cells without the empty layers around them: fields on a grid have numbers for what is empty too.
 Grid cropped(const Grid& grid);
 
+/// The present cells of a grid, in pieces that hang together by faces.
+struct Pieces {
+  std::vector<int> piece_of_cell; ///< for every place of the grid, -1 where no cell is
+  std::vector<std::size_t> sizes; ///< cells of each piece
+};
+
+/// @param grid  with `present`
+Pieces pieces_of(const Grid& grid);
+
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
 /// Where every cell is present, neither nodes nor cells are stored.
 HexMesh make_grid_mesh(const Grid& grid);

@@ -1,6 +1,6 @@
 #include "compare/measure/measure.hpp"
 
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "compare/measure/of_cells.hpp"
 #include "compare/measure/turns.hpp"

@@ -1,4 +1,4 @@
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 
 #include <catch2/catch.hpp>
 
