@@ -2,6 +2,7 @@
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
 #include "mechanics/dynamics/load_in_time.hpp"
+#include "mechanics/vibrating_body.hpp"
 #include "msm/problem.hpp"
 #include "msm/pull.hpp"
 #include "msm/spring_body.hpp"
@@ -30,6 +31,9 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 /// Springs whose tangent at rest is beta times that of a body's, cell by cell: it is linear in their
 /// stiffness. Without stiffness_damping, none. A network is in a scene of one material.
 SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs);
+
+/// The vibrations of a scene's springs about rest: the lattice's tangent there, point masses.
+mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice& lattice);
 
 /// The motion of a lattice with the forces of its static equations, on their vectors unless forces, energy,
 /// supports and inverted cells are overridden. Masses are on the diagonal.

@@ -1,8 +1,8 @@
 #include "msm/design/by_axis.hpp"
 
+#include "msm/design/cell_at_rest.hpp"
 #include "msm/design/design.hpp"
-#include "msm/design/examine.hpp"
-#include "msm/design/moduli_method.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

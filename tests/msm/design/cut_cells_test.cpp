@@ -1,8 +1,7 @@
-#include "msm/design/cut_cells.hpp"
+#include "msm/design/published.hpp"
 
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/design/design.hpp"
-#include "msm/design/published.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/linear_tetrahedron.hpp"

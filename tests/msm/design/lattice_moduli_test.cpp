@@ -1,4 +1,4 @@
-#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/cell_at_rest.hpp"
 
 #include "msm/tangent.hpp"
 #include "tests/support/largest.hpp"

@@ -1,4 +1,4 @@
-#include "msm/design/linear_method.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include "msm/tangent.hpp"
 #include "tests/support/bodies.hpp"

@@ -1,4 +1,4 @@
-#include "msm/design/matched.hpp"
+#include "msm/design/multi_load.hpp"
 
 #include "cases/case/error.hpp"
 #include "mechanics/laws/log_strain.hpp"

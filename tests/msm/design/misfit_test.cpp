@@ -1,4 +1,4 @@
-#include "msm/design/misfit.hpp"
+#include "msm/design/cell_at_rest.hpp"
 
 #include "msm/design/design.hpp"
 

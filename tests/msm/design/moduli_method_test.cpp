@@ -1,4 +1,4 @@
-#include "msm/design/moduli_method.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include "cases/case/error.hpp"
 #include "msm/design/design.hpp"

@@ -1,10 +1,9 @@
 #include "msm/design/multi_load.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/cell_at_rest.hpp"
 #include "msm/design/design.hpp"
-#include "msm/design/exponents.hpp"
 #include "msm/design/homogeneous.hpp"
-#include "msm/design/lattice_moduli.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <Eigen/LU>

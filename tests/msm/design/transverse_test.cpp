@@ -1,7 +1,7 @@
-#include "msm/design/transverse.hpp"
+#include "msm/design/by_axis.hpp"
 
 #include "msm/design/design.hpp"
-#include "msm/design/moduli_method.hpp"
+#include "msm/design/small_strain.hpp"
 #include "tests/support/largest.hpp"
 
 #include <Eigen/Eigenvalues>

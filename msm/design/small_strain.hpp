@@ -1,8 +1,32 @@
 #pragma once
 
-#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/cell_at_rest.hpp"
 
+/// Designs from a material at small strains: the linear method, the moduli method and the hybrid method.
 namespace springproof::msm {
+
+/// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
+/// a bulk modulus.
+cases::LinearElastic small_strain_material(const cases::Material& material);
+
+/// The elasticity of a material at rest; nothing for a fibre that lies along no axis, and where E is not
+/// above 0.
+std::optional<Elasticity> elasticity_at_rest(const cases::Material& material);
+
+struct LinearFit {
+  CellStiffness stiffness; ///< without a volume term
+  double residual;         ///< || K_FEM - K_MSM ||_F, N/mm
+};
+
+/// The linear method: the k_e, k_f, k_d >= 0 that minimise the distance of K_MSM from a reference matrix in
+/// the Frobenius norm.
+/// @param reference  symmetric 24x24 stiffness matrix of the same cell, N/mm    @param vertices  any
+/// hexahedron, mm Source: thesis eq. 4.15, the same minimiser as eq. 4.19.
+LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertices);
+
+/// k' of thesis eq. 4.21, k = (L0/2) k' E: dimensionless, depends on Poisson's ratio alone.
+/// @param youngs_modulus  MPa    @param edge  L0, mm
+CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_modulus, double edge);
 
 /// The k_e and the shear stiffness m >= 0, divided by the split into k_f = (1 - t) m/2 and k_d = 3 t m/4,
 /// whose elasticity matrix is nearest (Frobenius norm) to the cubic one with the given Young's modulus along
