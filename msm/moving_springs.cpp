@@ -57,6 +57,22 @@ mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice
   return body;
 }
 
+MovingSprings::Entries MovingSprings::entries_of(const Problem& problem, const Inertia& inertia,
+                                                 const std::function<Vector(const Points&)>& on_free) {
+  const auto of_points = [&](const std::vector<double>& values) {
+    Points points;
+    for (const double value : values) points.push_back(Eigen::Vector3d::Constant(value));
+    return on_free(points);
+  };
+  Entries entries{of_points(inertia.mass),
+                  of_points(inertia.mass_damping),
+                  {},
+                  of_points(std::vector<double>(inertia.mass.size(), 1))};
+  for (const auto& [history, force] : inertia.loads)
+    entries.loads.emplace_back(history, on_free(problem.on_all_points(force)));
+  return entries;
+}
+
 void MovingSprings::external_force(double time, Vector& force) {
   force.setZero(entries_.mass.size());
   for (const mechanics::LoadInTime& load : entries_.loads) load.add(time, force);

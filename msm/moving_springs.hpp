@@ -45,6 +45,9 @@ class MovingSprings : public mechanics::DynamicProblem {
     std::vector<mechanics::LoadInTime> loads;
     Vector free; ///< 1 on free degrees of freedom
   };
+  /// @param on_free  values of points as a vector, 0 on constrained degrees of freedom
+  static Entries entries_of(const Problem& problem, const Inertia& inertia,
+                            const std::function<Vector(const Points&)>& on_free);
   /// @param springs  static equations of a problem of make_moving_problem(); must outlive this
   MovingSprings(mechanics::NonlinearProblem& springs, Entries entries)
       : springs_(springs), entries_(std::move(entries)) {}

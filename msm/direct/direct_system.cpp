@@ -247,27 +247,11 @@ namespace {
 
 using Matrix = Tangent::Matrix;
 
-/// One value per point as a vector of the direct system, 0 on constrained degrees of freedom.
-Vector on_free(const Problem& problem, const std::vector<double>& of_point) {
-  Points points;
-  for (const double value : of_point) points.push_back(Eigen::Vector3d::Constant(value));
+/// Values of points as a vector of the direct system, 0 on constrained degrees of freedom.
+Vector on_free(const Problem& problem, const Points& points) {
   Vector all = to_vector(problem, points);
   all.tail(all.size() - static_cast<Eigen::Index>(n_unknowns(problem))).setZero();
   return all;
-}
-
-MovingSprings::Entries entries_of(const Problem& problem, const Inertia& inertia) {
-  const auto n_free = static_cast<Eigen::Index>(n_unknowns(problem));
-  MovingSprings::Entries entries{on_free(problem, inertia.mass),
-                                 on_free(problem, inertia.mass_damping),
-                                 {},
-                                 on_free(problem, std::vector<double>(inertia.mass.size(), 1))};
-  for (const auto& [history, force] : inertia.loads) {
-    Vector all = to_vector(problem, problem.on_all_points(force));
-    all.tail(all.size() - n_free).setZero();
-    entries.loads.emplace_back(history, all);
-  }
-  return entries;
 }
 
 /// The tangent of a lattice at rest, in the order of the direct system: rows of free degrees of freedom,
@@ -308,8 +292,9 @@ Matrix diagonal_matrix(const Vector& diagonal) {
 class MovingLattice : public MovingSprings {
  public:
   MovingLattice(const Problem& problem, SpringSystem& springs, const Inertia& inertia)
-      : MovingSprings(springs, entries_of(problem, inertia)), problem_(problem), springs_(springs),
-        tangent_(problem.lattice, problem.is_constrained),
+      : MovingSprings(springs, entries_of(problem, inertia,
+                                          [&](const Points& points) { return on_free(problem, points); })),
+        problem_(problem), springs_(springs), tangent_(problem.lattice, problem.is_constrained),
         damping_(tangent_at_rest(problem, inertia.damping)) {
     const auto n = tangent_.n_free();
     free_mass_ = diagonal_matrix(entries().mass.head(n));

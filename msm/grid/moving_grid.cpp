@@ -13,27 +13,6 @@ namespace springproof::msm::grid {
 
 namespace {
 
-MovingSprings::Entries entries_of(const Problem& problem, const Body& body, const NodeVectors& vectors,
-                                  const Inertia& inertia) {
-  const auto on_free_entries = [&](const Points& points) {
-    Field<double> field = to_field(problem, body, points);
-    clear_constrained(body, field);
-    return vectors.from_field(field);
-  };
-  const auto of_points = [&](const std::vector<double>& values) {
-    Points points;
-    for (const double value : values) points.push_back(Eigen::Vector3d::Constant(value));
-    return on_free_entries(points);
-  };
-  MovingSprings::Entries entries{of_points(inertia.mass),
-                                 of_points(inertia.mass_damping),
-                                 {},
-                                 of_points(std::vector<double>(inertia.mass.size(), 1))};
-  for (const auto& [history, force] : inertia.loads)
-    entries.loads.emplace_back(history, on_free_entries(problem.on_all_points(force)));
-  return entries;
-}
-
 CellSprings sum(CellSprings a, double factor, const CellSprings& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     a.edge[axis] += factor * b.edge[axis];
@@ -74,9 +53,14 @@ class MovingGrid : public MovingSprings {
  public:
   MovingGrid(const Problem& problem, const GridProblem& grid, const NodeVectors& vectors, GridSystem& statics,
              const Inertia& inertia, std::optional<Body> damping, int n_threads)
-      : MovingSprings(statics, entries_of(problem, grid.body, vectors, inertia)), grid_(grid),
-        body_(grid.body), vectors_(vectors), statics_(statics), damping_body_(std::move(damping)),
-        n_threads_(n_threads) {
+      : MovingSprings(statics, entries_of(problem, inertia,
+                                          [&](const Points& points) {
+                                            Field<double> field = to_field(problem, grid.body, points);
+                                            clear_constrained(grid.body, field);
+                                            return vectors.from_field(field);
+                                          })),
+        grid_(grid), body_(grid.body), vectors_(vectors), statics_(statics),
+        damping_body_(std::move(damping)), n_threads_(n_threads) {
     if (damping_body_) {
       damping_.emplace(*damping_body_, n_threads);
       rest_.setZero(3 * body_.layout.size);
