@@ -107,8 +107,8 @@ void Cycle::estimate_largest_eigenvalue(Level& level) const {
     level.set_rough(level.rough_);
   }
   for (int step = 0; step < (is_first ? settings_.first_power_steps : 2); ++step) {
-    const double length = level.norm(level.rough_);
-    if (!(length > 0)) return; // nothing moves
+    const double length = level.largest_eigenvalue_ = level.norm(level.rough_);
+    if (!(length > 0)) return; // nothing moves, or what moved was no number
     level.multiply(level.rough_, level.product_);
     level.precondition(level.product_, level.rough_, 0, static_cast<float>(1 / length));
     level.largest_eigenvalue_ = level.norm(level.rough_);
@@ -135,7 +135,7 @@ void Cycle::run(std::size_t l) const {
   Level& level = *levels[l];
   level.solution_.setZero();
   if (l == last_ && ends_exactly_) return level.solve_exactly();
-  if (!(level.largest_eigenvalue_ > 0)) return; // nothing moves
+  if (level.largest_eigenvalue_ == 0) return; // nothing moves
   if (l == last_) return smooth(level, false);
   smooth(level, true);
   Level& coarser = *levels[l + 1];
