@@ -13,7 +13,7 @@ install(TARGETS springproof_solvers springproof_gmsh springproof_vtk springproof
 foreach(folder cases mechanics msm fem_reference compare/error_bars compare/gates compare/measure compare/provenance compare/solve)
   cmake_path(GET folder PARENT_PATH parent)
   install(DIRECTORY ${folder} DESTINATION include/springproof/${parent} FILES_MATCHING PATTERN *.hpp
-    PATTERN petsc EXCLUDE PATTERN snes EXCLUDE PATTERN ranks* EXCLUDE PATTERN solvers.hpp EXCLUDE PATTERN kernels_* EXCLUDE)
+    PATTERN petsc EXCLUDE PATTERN snes EXCLUDE PATTERN ranks* EXCLUDE PATTERN solvers.hpp EXCLUDE PATTERN kernels_* EXCLUDE PATTERN packs.hpp EXCLUDE)
 endforeach()
 set(package lib/cmake/springproof)
 install(EXPORT springproof NAMESPACE springproof:: DESTINATION ${package} FILE springproofTargets.cmake)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/scene/network.hpp"
 #include "msm/spring.hpp"
 #include "msm/tetrahedron.hpp"
 
@@ -103,21 +102,6 @@ TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const
 
 /// Positions of the cell's vertices, mm.
 CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
-
-/// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis
-/// section 4.3.1: an interior edge of a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and
-/// volume terms of stiffness 0 are left out.
-/// @param stiffness  one for every cell, or a single one for all
-Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness);
-
-/// A lattice of a network's springs, each a link of its own. Where a spring's rest length is not the distance
-/// of its nodes, the lattice is under tension at rest.
-/// @param springs  between nodes of the mesh
-Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::NetworkSpring>& springs);
-
-/// Makes one of the links of one law between the same two points, with the sum of their stiffnesses; sorts
-/// them, and gives them the rest lengths that the rest positions have.
-void finish_links(Lattice& lattice);
 
 /// Sum of all energies of springs, tetrahedra and volume terms at these positions, N mm.
 double energy(const Lattice& lattice, const Points& positions);

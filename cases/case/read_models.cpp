@@ -1,7 +1,4 @@
-#include "cases/case/read_models.hpp"
-
-#include "cases/case/read_dynamics.hpp"
-#include "cases/case/read_materials.hpp"
+#include "cases/case/readers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -304,9 +301,7 @@ Msm read_msm(Table& table, const Case& definition) {
   read_stiffness(table, msm);
   table.know({"file"});
   if (msm.design == Design::network) {
-    const Entry file = table.entry("file");
-    msm.network =
-        NetworkFile{read_file_name(file, {".csv"}, "a file of springs, .csv", definition.file), file.where};
+    msm.network = read_file_name(table.entry("file"), {".csv"}, "a file of springs, .csv", definition.file);
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
@@ -316,8 +311,6 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
-  table.refuse_unless(msm.solver != Solver::snes, {"iterations_per_step"},
-                      "left out beside solver = \"snes\", which solves every step to its tolerance");
   msm.iterations_per_step =
       table.optional("iterations_per_step", WholeNumber{"a whole number from 1 to 1000", 1, 1000});
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});

@@ -2,11 +2,10 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -16,15 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::unique_ptr<msm::MovingBody> moving_body(const cases::Scene& scene, const msm::DesignResult& design,
-                                             const msm::ModelOptions& options) {
-  if (!design.terms) return std::make_unique<msm::MovingBody>(scene, stiffness_of_cells(design), options);
-  MovingSprings springs = make_moving_springs(scene, design);
-  return std::make_unique<msm::MovingBody>(scene, std::move(springs.lattice), std::move(springs.damping));
-}
-
-/// A picture needs fewer digits than a measure, and a step no more than a few halvings to be given up in
-/// time.
+/// Settings for pictures: fewer digits than a measure needs, and few halvings, so that a step ends in time.
 mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;
@@ -48,7 +39,7 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
                                         scene.definition.file, cases::name_of(scheme)));
   const msm::DesignResult design = design_for(scene);
   const msm::ModelOptions options{msm::Path::automatic, settings.n_threads, {}, {}};
-  body_ = moving_body(scene, design, options);
+  body_ = std::make_unique<msm::MovingBody>(scene, design.springs, options);
   surface_ = embedded_surface(scene);
   // Were every vertex a centre, the spheres would have no radius and cover nothing between the vertices.
   const std::size_t most_spheres = std::max<std::size_t>(1, surface_.rest.vertices.size() / 2);
@@ -58,7 +49,8 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
   size_ = box.sizes().norm();
   displacement_.assign(scene.mesh.nodes.size(), Vector3d::Zero());
   if (scene.definition.dynamics->start == cases::MotionStart::equilibrium)
-    displacement_ = make_model(cases::scene_before_start(scene), design, options).solve().displacement;
+    displacement_ =
+        msm::Model(cases::scene_before_start(scene), design.springs, options).solve().displacement;
   start_ = body_->to_vector(displacement_);
   restart();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
 
 #include <cstddef>
@@ -112,8 +113,6 @@ struct Kernels {
   void (*mass)(const Layout&, const Masses&, const double* field, double* product, int layer);
 };
 
-/// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
-/// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
-const Kernels& kernels();
+SPRINGPROOF_KERNEL_SETS(Kernels, kernels)
 
 } // namespace springproof::fem_reference::grid

@@ -13,7 +13,7 @@ SPRINGPROOF_INLINE void load_parameter(const double* from, PackD& to) {
   to = load(from);
 }
 SPRINGPROOF_INLINE void load_parameter(const double* from, PackF& to) {
-  to = narrow(load(from), load(from + lanes<PackD>));
+  to = narrow(load(from), load(from + pack_size<double>));
 }
 
 template<class P>
@@ -35,8 +35,7 @@ SPRINGPROOF_INLINE void displacement_gradient(const Cells& cells, int q, const C
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       P sum{};
-      for (int a = 0; a < 8; ++a)
-        sum += u[a][i] * static_cast<typename RealOf<P>::type>(cells.gradients[q][a][j]);
+      for (int a = 0; a < 8; ++a) sum += u[a][i] * static_cast<RealOf<P>>(cells.gradients[q][a][j]);
       h[3 * i + j] = sum;
     }
 }
@@ -72,7 +71,7 @@ SPRINGPROOF_INLINE void add_divergence(const Cells& cells, int q, const P (&stre
   for (int a = 0; a < 8; ++a)
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        force[a][i] += stress[3 * i + j] * static_cast<typename RealOf<P>::type>(cells.gradients[q][a][j]);
+        force[a][i] += stress[3 * i + j] * static_cast<RealOf<P>>(cells.gradients[q][a][j]);
 }
 
 /// Displacement of the cells' corners; 0 where there is no cell.
@@ -90,7 +89,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
   const Layout& layout = cells.layout;
   PackD mismatch{};
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < layout.nodes[0] - 1; i += lanes<PackD>) {
+    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
       const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
       const PackD weight = load_wide(cells.weight + cell);
       if (!all_greater(weight, constant<PackD>(-1)) || all_greater(constant<PackD>(1e-30), weight)) continue;
@@ -146,7 +145,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
             add(fields.condensed + at, scale * (force[a][c] + change * volume_gradient[a][c]));
         }
     }
-  for (int l = 0; l < lanes<PackD>; ++l)
+  for (int l = 0; l < pack_size<double>; ++l)
     if (mismatch[l] > checks.volume_mismatch) checks.volume_mismatch = mismatch[l];
 }
 
@@ -155,7 +154,7 @@ void pressure_change_layer(const Cells& cells, const ForceFields& fields, const 
                            int k) {
   const Layout& layout = cells.layout;
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < layout.nodes[0] - 1; i += lanes<PackD>) {
+    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
       const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
       const PackD weight = load_wide(cells.weight + cell);
       Corners<PackD> u, du;
@@ -251,7 +250,7 @@ SPRINGPROOF_INLINE void constrain(const Layout& layout, const float* free, std::
 
 template<class K>
 SPRINGPROOF_INLINE void add_masses(const Masses& masses, std::ptrdiff_t cell, K& matrix) {
-  const PackF mass = narrow(load(masses.of_cell + cell), load(masses.of_cell + cell + lanes<PackD>));
+  const PackF mass = narrow(load(masses.of_cell + cell), load(masses.of_cell + cell + pack_size<double>));
   for (int a = 0; a < 8; ++a)
     for (int b = K::is_symmetric ? a : 0; b < 8; ++b)
       for (int i = 0; i < 3; ++i)
@@ -264,21 +263,21 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
   using K = CellMatrix<M>;
   const Layout& layout = cells.layout;
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < layout.nodes[0] - 1; i += lanes<PackF>) {
+    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<float>) {
       const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
       const PackF weight = load(cells.weight + cell);
       if (all_greater(constant<PackF>(1e-30), weight)) continue;
       Corners<PackD> low, high;
       Corners<PackF> u, volume_gradient{};
       load_corners(layout, fields.displacement, node, load_wide(cells.weight + cell), low);
-      load_corners(layout, fields.displacement, node + lanes<PackD>,
-                   load_wide(cells.weight + cell + lanes<PackD>), high);
+      load_corners(layout, fields.displacement, node + pack_size<double>,
+                   load_wide(cells.weight + cell + pack_size<double>), high);
       for (int a = 7; a >= 0; --a) // differences are what single precision can hold
         for (int c = 0; c < 3; ++c) u[a][c] = narrow(low[a][c] - low[0][c], high[a][c] - high[0][c]);
       const Parameters<PackF> m = parameters_of<PackF>(cells, cell);
       PackF p{};
       if constexpr (modes) {
-        p = narrow(load(fields.pressure + cell), load(fields.pressure + cell + lanes<PackD>));
+        p = narrow(load(fields.pressure + cell), load(fields.pressure + cell + pack_size<double>));
         p = weight > PackF{} ? p : PackF{};
       }
       K matrix;

@@ -4,7 +4,7 @@
 /// product += mass * field, cell by cell.
 void mass_layer(const Layout& layout, const Masses& masses, const double* field, double* product, int k) {
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < layout.nodes[0] - 1; i += lanes<PackD>) {
+    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
       const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
       const PackD mass = load(masses.of_cell + cell);
       for (int c = 0; c < 3; ++c) {

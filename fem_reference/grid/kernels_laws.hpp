@@ -168,7 +168,7 @@ struct SaintVenantKirchhoff {
 /// Jacobi's rotations; the vectors are orthonormal to rounding error even where eigenvalues coincide.
 template<class P>
 SPRINGPROOF_INLINE void rotate(P& app, P& aqq, P& apq, P& apr, P& aqr, P (&v)[9], int p, int q) {
-  constexpr double tiny = sizeof(typename RealOf<P>::type) == 8 ? 1e-300 : 1e-36;
+  constexpr double tiny = sizeof(RealOf<P>) == 8 ? 1e-300 : 1e-36;
   const P d = aqq - app, twice = apq + apq, length = root(d * d + twice * twice) + constant<P>(tiny);
   const P t = twice / (d < P{} ? d - length : d + length);
   const P c = 1 / root(1 + t * t), s = t * c;
@@ -187,8 +187,8 @@ SPRINGPROOF_INLINE void rotate(P& app, P& aqq, P& apq, P& apr, P& aqr, P (&v)[9]
 template<class P>
 SPRINGPROOF_INLINE void eigensystem(P (&a)[6], P (&v)[9]) {
   for (int i = 0; i < 9; ++i) v[i] = constant<P>(i % 4 == 0 ? 1 : 0);
-  constexpr double relative = sizeof(typename RealOf<P>::type) == 8 ? 1e-32 : 1e-14; // squared
-  constexpr double least = sizeof(typename RealOf<P>::type) == 8 ? 1e-300 : 1e-36;   // of the zero matrix
+  constexpr double relative = sizeof(RealOf<P>) == 8 ? 1e-32 : 1e-14; // squared
+  constexpr double least = sizeof(RealOf<P>) == 8 ? 1e-300 : 1e-36;   // of the zero matrix
   const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + 2 * (a[3] * a[3] + a[4] * a[4] + a[5] * a[5]);
   const P small = constant<P>(relative) * squared + constant<P>(least);
   for (int sweep = 0; sweep < 8; ++sweep) {

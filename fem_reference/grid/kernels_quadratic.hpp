@@ -12,7 +12,7 @@ SPRINGPROOF_INLINE std::ptrdiff_t quadratic_node(const Layout& layout, int a) {
 /// Every second number.
 SPRINGPROOF_INLINE PackD load_second(const double* from) {
   PackD result;
-  for (int l = 0; l < lanes<PackD>; ++l) result[l] = from[2 * l];
+  for (int l = 0; l < pack_size<double>; ++l) result[l] = from[2 * l];
   return result;
 }
 
@@ -31,14 +31,14 @@ SPRINGPROOF_INLINE void load_differences(const Quadratic& elements, const double
   Nodes<PackD> low, high;
   const float* weight = elements.cells.weight + cell;
   load_nodes(layout, field, first, load_wide(weight), low);
-  load_nodes(layout, field, first + 2 * lanes<PackD>, load_wide(weight + lanes<PackD>), high);
+  load_nodes(layout, field, first + 2 * pack_size<double>, load_wide(weight + pack_size<double>), high);
   for (int a = 0; a < 27; ++a)
     for (int c = 0; c < 3; ++c) u[a][c] = narrow(low[a][c] - low[0][c], high[a][c] - high[0][c]);
 }
 
 template<class P>
 SPRINGPROOF_INLINE void quadratic_gradient(const Quadratic& elements, int q, const Nodes<P>& u, P (&h)[9]) {
-  using Real = typename RealOf<P>::type;
+  using Real = RealOf<P>;
   for (int e = 0; e < 9; ++e) h[e] = P{};
 #pragma GCC unroll 3
   for (int a = 0; a < 27; ++a)
@@ -51,7 +51,7 @@ SPRINGPROOF_INLINE void quadratic_gradient(const Quadratic& elements, int q, con
 template<class P>
 SPRINGPROOF_INLINE void add_quadratic_divergence(const Quadratic& elements, int q, const P (&stress)[9],
                                                  Nodes<P>& force) {
-  using Real = typename RealOf<P>::type;
+  using Real = RealOf<P>;
 #pragma GCC unroll 3
   for (int a = 0; a < 27; ++a) {
     const Real x = static_cast<Real>(elements.gradients[q][a][0]),
@@ -78,7 +78,7 @@ void quadratic_force_layer(const Quadratic& elements, const ForceFields& fields,
   const Layout &nodes = elements.nodes, &cells = elements.cells.layout;
   const int n = cells.nodes[0] - 1;
   for (int j = 0; j < cells.nodes[1] - 1; ++j)
-    for (int i = 0; i < n; i += lanes<PackD>) {
+    for (int i = 0; i < n; i += pack_size<double>) {
       const std::ptrdiff_t cell = cells.cell(i, j, k), first = nodes.at(2 * i, 2 * j, 2 * k);
       const PackD weight = load_wide(elements.cells.weight + cell);
       Nodes<PackD> u, force{};
@@ -110,7 +110,7 @@ void quadratic_force_layer(const Quadratic& elements, const ForceFields& fields,
       }
       if (fields.volume) store(fields.volume + cell, volume);
       if (fields.force)
-        scatter(nodes, force, first, n - i < lanes<PackD> ? n - i : lanes<PackD>, fields.force);
+        scatter(nodes, force, first, n - i < pack_size<double> ? n - i : pack_size<double>, fields.force);
     }
 }
 
@@ -125,7 +125,7 @@ void quadratic_moduli_layer(const Quadratic& elements, const double* displacemen
   using M = typename L::Moduli;
   const Layout &nodes = elements.nodes, &cells = elements.cells.layout;
   for (int j = 0; j < cells.nodes[1] - 1; ++j)
-    for (int i = 0; i < cells.nodes[0] - 1; i += lanes<PackF>) {
+    for (int i = 0; i < cells.nodes[0] - 1; i += pack_size<float>) {
       const std::ptrdiff_t cell = cells.cell(i, j, k);
       Nodes<PackF> u;
       load_differences(elements, displacement, cell, nodes.at(2 * i, 2 * j, 2 * k), u);
@@ -149,7 +149,7 @@ void quadratic_product_layer(const Quadratic& elements, const float* all, const 
   const Layout &nodes = elements.nodes, &cells = elements.cells.layout;
   const int n = cells.nodes[0] - 1;
   for (int j = 0; j < cells.nodes[1] - 1; ++j)
-    for (int i = 0; i < n; i += lanes<PackF>) {
+    for (int i = 0; i < n; i += pack_size<float>) {
       const std::ptrdiff_t first = nodes.at(2 * i, 2 * j, 2 * k);
       Nodes<PackF> u, force{};
       load_differences(elements, field, cells.cell(i, j, k), first, u);
@@ -165,7 +165,7 @@ void quadratic_product_layer(const Quadratic& elements, const float* all, const 
         }
         add_quadratic_divergence(elements, q, stress, force);
       }
-      scatter(nodes, force, first, n - i < lanes<PackF> ? n - i : lanes<PackF>, product);
+      scatter(nodes, force, first, n - i < pack_size<float> ? n - i : pack_size<float>, product);
     }
 }
 

@@ -2,16 +2,19 @@
 // It must include nothing that defines functions others share: the linker might keep the copy compiled for
 // instructions that the machine lacks.
 #include "fem_reference/grid/kernels.hpp"
+#include "mechanics/grid/packs.hpp"
 
-#include <immintrin.h> // intrinsics are always inlined: no shared functions
+namespace springproof::fem_reference::grid {
 
-#define SPRINGPROOF_INLINE inline __attribute__((always_inline))
-
-namespace springproof::fem_reference::grid::SPRINGPROOF_ISA {
+using namespace mechanics;
 
 namespace {
 
-#include "fem_reference/grid/kernels_packs.hpp"
+/// A number that is a type.
+template<int n>
+struct Count {
+  static constexpr int value = n;
+};
 
 #include "fem_reference/grid/kernels_laws.hpp"
 
@@ -25,10 +28,9 @@ namespace {
 
 } // namespace
 
-extern const Kernels the_kernels;
-const Kernels the_kernels{force,           pressure_change,       tangent,
-                          deposit_layer,   product_plane<double>, product_plane<float>,
-                          quadratic_force, quadratic_moduli,      quadratic_product,
-                          mass_layer};
+const Kernels SPRINGPROOF_ISA::kernels{force,           pressure_change,       tangent,
+                                       deposit_layer,   product_plane<double>, product_plane<float>,
+                                       quadratic_force, quadratic_moduli,      quadratic_product,
+                                       mass_layer};
 
-} // namespace springproof::fem_reference::grid::SPRINGPROOF_ISA
+} // namespace springproof::fem_reference::grid

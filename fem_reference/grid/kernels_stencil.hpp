@@ -57,7 +57,7 @@ SPRINGPROOF_INLINE Weights weights_of(bool upper_child) {
 /// Of neighbouring cells, the first of which is a lower child.
 SPRINGPROOF_INLINE Weights weights_of_row() {
   Weights w{};
-  for (int l = 0; l < lanes<PackF>; ++l) {
+  for (int l = 0; l < pack_size<float>; ++l) {
     w.of_lower[l] = l % 2 == 0 ? 1 : 0.5f;
     w.of_upper[l] = l % 2 == 0 ? 0.5f : 0;
   }
@@ -83,7 +83,7 @@ SPRINGPROOF_INLINE void add_to_coarse(const PackF (&cell)[n_upper], float* coars
       float* const entry = to + upper(r, s) * c.layout.row;
       const PackF value = matrix[r][s];
       if (c.axes[0])
-        for (int l = 0; l < lanes<PackF> / 2; ++l) entry[l] += value[2 * l] + value[2 * l + 1];
+        for (int l = 0; l < pack_size<float> / 2; ++l) entry[l] += value[2 * l] + value[2 * l + 1];
       else
         add(entry, value);
     }
@@ -93,7 +93,7 @@ void deposit_layer(const Layout& layout, const float* cells, float* stencil, flo
                    const Coarsening& coarsening, int k) {
   const int n = layout.nodes[0] - 1;
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < n; i += lanes<PackF>) {
+    for (int i = 0; i < n; i += pack_size<float>) {
       const float* from = cells + n_upper * layout.cell(0, j, k) + i;
       PackF cell[n_upper];
       for (int e = 0; e < n_upper; ++e) cell[e] = load(from + e * layout.row);
@@ -135,16 +135,17 @@ SPRINGPROOF_INLINE void product_of_packs(const Layout& layout, const float* row,
         const Real* const at = field + dz * layout.plane + dy * layout.row + dx;
         P x[3][n];
         for (int d = 0; d < 3; ++d)
-          for (int p = 0; p < n; ++p) x[d][p] = load(at + d * layout.size + p * lanes<P>);
+          for (int p = 0; p < n; ++p) x[d][p] = load(at + d * layout.size + p * pack_size<RealOf<P>>);
         for (int c = 0; c < 3; ++c)
           for (int d = 0; d < 3; ++d) {
-            for (int p = 0; p < n; ++p) sum[c][p] += load_as(row + p * lanes<P>, Real()) * x[d][p];
+            for (int p = 0; p < n; ++p)
+              sum[c][p] += load_as(row + p * pack_size<RealOf<P>>, Real()) * x[d][p];
             row += layout.row;
           }
       }
   for (int c = 0; c < 3; ++c)
     for (int p = 0; p < n; ++p) {
-      const std::ptrdiff_t at = c * layout.size + p * lanes<P>;
+      const std::ptrdiff_t at = c * layout.size + p * pack_size<RealOf<P>>;
       store(product + at, free ? sum[c][p] * load_as(free + at, Real()) : sum[c][p]);
     }
 }
@@ -153,12 +154,12 @@ template<class Real>
 void product_plane(const Layout& layout, const float* stencil, const Real* field, const float* free,
                    Real* product, int k) {
   using P = typename PackFor<Real>::type;
-  const std::ptrdiff_t n_packs = (layout.nodes[0] + lanes<P> - 1) / lanes<P>;
+  const std::ptrdiff_t n_packs = (layout.nodes[0] + pack_size<RealOf<P>> - 1) / pack_size<RealOf<P>>;
   for (int j = 0; j < layout.nodes[1]; ++j) {
     const float* row = stencil + stencil_row(layout) * layout.node_row(j, k);
     const std::ptrdiff_t first = layout.at(0, j, k);
     for (std::ptrdiff_t p = 0; p < n_packs;) {
-      const std::ptrdiff_t at = p * lanes<P>, left = n_packs - p;
+      const std::ptrdiff_t at = p * pack_size<RealOf<P>>, left = n_packs - p;
       const auto run = [&](auto n) {
         product_of_packs<decltype(n)::value>(layout, row + at, field + first + at,
                                              free ? free + first + at : nullptr, product + first + at);

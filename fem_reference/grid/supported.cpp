@@ -3,9 +3,7 @@
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace springproof::fem_reference::grid {
 
@@ -56,37 +54,9 @@ void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& pla
     add_force(places.of(mesh.nodes[index(node)]), mass * gravity);
 }
 
-/// Forces (N) on the nodes of a rectangle, (a, b) in [a + 3 b].
-using NineForces = std::array<Eigen::Vector3d, 9>;
-
-/// Integrals of a traction times the nine shape functions of a rectangle. Vertices anticlockwise, mm; node
-/// (a, b) is a halves of the first edge and b of the last one from the first vertex.
-/// @param moment  polar moment of the load's region, as surface_traction() wants it
-NineForces traction_on(const cases::Scene::AppliedLoad& applied,
-                       const std::array<Eigen::Vector3d, 4>& vertices, double moment) {
-  // Gauss's four points on the unit interval: exact for a quadratic shape times a linear traction
-  const double inner = std::sqrt(3. / 7 - 2. / 7 * std::sqrt(1.2)),
-               outer = std::sqrt(3. / 7 + 2. / 7 * std::sqrt(1.2));
-  const double at[4] = {(1 - outer) / 2, (1 - inner) / 2, (1 + inner) / 2, (1 + outer) / 2};
-  const double light = (18 - std::sqrt(30.)) / 72, heavy = (18 + std::sqrt(30.)) / 72;
-  const double weight[4] = {light, heavy, heavy, light};
-  const auto shape = [](double x) {
-    return Eigen::Vector3d((1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1));
-  };
-  const Eigen::Vector3d u = vertices[1] - vertices[0], v = vertices[3] - vertices[0];
-  const double area = u.cross(v).norm();
-  NineForces forces;
-  forces.fill(Eigen::Vector3d::Zero());
-  for (int p = 0; p < 4; ++p)
-    for (int q = 0; q < 4; ++q) {
-      const Eigen::Vector3d traction =
-          cases::surface_traction(applied, vertices[0] + at[p] * u + at[q] * v, moment);
-      for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-          forces[index(a + 3 * b)] +=
-              area * weight[p] * weight[q] * shape(at[p])[a] * shape(at[q])[b] * traction;
-    }
-  return forces;
+/// Of the nodes at 0, 1/2 and 1 on the unit interval.
+Eigen::Vector3d quadratic_shapes(double x) {
+  return {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)};
 }
 
 Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Places& places) {
@@ -103,9 +73,8 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
   add_weights(scene, is_quadratic, places, add_force);
   if (!is_quadratic) return load;
   for (const auto& applied : scene.loads) {
-    const bool is_torque = applied.load.kind == cases::LoadKind::torque;
-    if (!is_torque && applied.load.kind != cases::LoadKind::traction) continue;
-    const double moment = is_torque ? cases::polar_moment(scene.mesh, applied) : 1;
+    const auto traction_at = cases::surface_traction(scene.mesh, applied);
+    if (!traction_at) continue;
     for (const auto& face : applied.selection.faces) {
       std::array<Eigen::Vector3d, 4> vertices;
       std::array<Place, 4> corners;
@@ -113,11 +82,14 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
         vertices[v] = scene.mesh.nodes[index(face[v])];
         corners[v] = places.of(vertices[v]);
       }
-      const NineForces nine = traction_on(applied, vertices, moment);
-      for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-          add_force(corners[0] + (a * (corners[1] - corners[0]) + b * (corners[3] - corners[0])) / 2,
-                    nine[index(a + 3 * b)]);
+      for (const auto& [s, t, point, area] : cases::gauss_points(vertices, 4)) {
+        const Eigen::Vector3d force = area * traction_at(point), along_s = quadratic_shapes(s),
+                              along_t = quadratic_shapes(t);
+        for (int b = 0; b < 3; ++b)
+          for (int a = 0; a < 3; ++a)
+            add_force(corners[0] + (a * (corners[1] - corners[0]) + b * (corners[3] - corners[0])) / 2,
+                      along_s[a] * along_t[b] * force);
+      }
     }
   }
   return load;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
 
 #include <cstddef>
@@ -144,8 +145,8 @@ struct BlockFactor {
   int n_blocks;
 };
 
-struct InstructionSet {
-  const char* name;
+/// The kernels compiled for one instruction set.
+struct KernelSet {
   Kernels<double> in_double;
   Kernels<float> in_float;
   /// x = (L L^T)^-1 x.
@@ -153,17 +154,14 @@ struct InstructionSet {
   /// @param scratch  the most n_scratch() of any block
   void (*substitute)(const BlockFactor&, float* x, float* scratch);
 };
-extern const InstructionSet baseline, avx2, avx512;
+SPRINGPROOF_KERNEL_SETS(KernelSet, kernel_set)
 
-/// The kernels for the widest instruction set that this machine has, or a narrower one that the environment
-/// variable SPRINGPROOF_INSTRUCTION_SET names ("baseline", "avx2").
-const InstructionSet& instruction_set();
 template<class Real>
 const Kernels<Real>& kernels() {
   if constexpr (sizeof(Real) == sizeof(double))
-    return instruction_set().in_double;
+    return kernel_set().in_double;
   else
-    return instruction_set().in_float;
+    return kernel_set().in_float;
 }
 
 } // namespace springproof::msm::grid

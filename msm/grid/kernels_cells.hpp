@@ -113,7 +113,7 @@ SPRINGPROOF_INLINE void sweep_cells(const Springs<Real>& s, const Slab<Real>& sl
 }
 
 template<class Real>
-SPRINGPROOF_INLINE void store(Real* b, std::ptrdiff_t i, const Vec<Real> (&f)[8]) {
+SPRINGPROOF_INLINE void store_vertices(Real* b, std::ptrdiff_t i, const Vec<Real> (&f)[8]) {
 #pragma GCC unroll 8
   for (int v = 0; v < 8; ++v) {
     b[(3 * v) * block + i] = f[v].x;
@@ -135,7 +135,7 @@ void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Law& law
       const Real pressure = law.pressure(volume(x, g), cells.stiffness[i]);
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
-      store(b, i, g);
+      store_vertices(b, i, g);
     }
   };
   sweep_cells(s, slab, action, force);
@@ -166,7 +166,7 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Law& l
         else
           f[a] = change * g[a];
       }
-      store(b, i, f);
+      store_vertices(b, i, f);
     }
   };
   sweep_cells(s, slab, action, product);

@@ -1,23 +1,18 @@
-// The kernels' one source, compiled once per instruction set.
+// The kernels' one source, compiled once per instruction set with SPRINGPROOF_ISA as the name of the set.
 // It must include nothing that defines functions others share: the linker might keep the copy compiled for
 // instructions that the machine lacks.
+#include "mechanics/grid/packs.hpp"
 #include "msm/grid/kernels.hpp"
-
-#include <immintrin.h> // intrinsics are always inlined: no shared functions
-
-#define SPRINGPROOF_INLINE inline __attribute__((always_inline))
 
 namespace springproof::msm::grid {
 
+using namespace mechanics;
+
 namespace {
 
-#include "msm/grid/kernels_packs.hpp"
-
-#include "msm/grid/kernels_logarithm.hpp"
+#include "msm/grid/kernels_rows.hpp"
 
 #include "msm/grid/kernels_laws.hpp"
-
-#include "msm/grid/kernels_stiffness.hpp"
 
 #include "msm/grid/kernels_springs.hpp"
 
@@ -195,8 +190,10 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
 
 template<class Real>
 constexpr Kernels<Real> all{force<Real>,  product<Real>,        diagonal<Real>,
-                            energy<Real>, pack_stiffness<Real>, static_cast<int>(pack_size<Real>)};
+                            energy<Real>, pack_stiffness<Real>, pack_size<Real>};
 
 } // namespace
+
+const KernelSet SPRINGPROOF_ISA::kernels{all<double>, all<float>, substitute};
 
 } // namespace springproof::msm::grid

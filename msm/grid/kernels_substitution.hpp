@@ -1,20 +1,5 @@
-// Part of kernels_source.hpp, which is compiled once per instruction set.
-
-// ---- substitutions in a factor
-// ------------------------------------------------------------------------------
-
-/// A pack of 16-bit numbers.
-SPRINGPROOF_INLINE PackF load(const std::int16_t* from) {
-#if defined(__AVX512F__)
-  return _mm512_cvtepi32_ps(
-      _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
-#elif defined(__AVX2__)
-  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
-#else // into the upper halves, and down with their signs
-  const __m128i bits = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
-  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(bits, bits), 16));
-#endif
-}
+// Part of kernels_source.hpp, in its namespace: substitutions in a factor.
+#pragma once
 
 /// to = a panel times from, one number per column.
 template<int rows>

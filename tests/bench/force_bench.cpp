@@ -39,7 +39,7 @@ void grid_force(benchmark::State& state) {
       benchmark::Counter(flops_per_spring * msm::grid::n_springs * n_nodes(body) /
                              (peak_flops<Real>() * static_cast<double>(state.range(1))),
                          benchmark::Counter::kIsIterationInvariantRate);
-  state.SetLabel(msm::grid::instruction_set().name);
+  state.SetLabel(mechanics::grid::name_of(mechanics::grid::instruction_set()));
 }
 BENCHMARK_TEMPLATE(grid_force, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_force, float)->Args({40, 1})->Args({40, 2})->UseRealTime();

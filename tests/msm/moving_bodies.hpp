@@ -21,16 +21,11 @@ using mechanics::Vector;
 const msm::CellStiffness hybrid_springs{0.2, 0.1, 0.3, 0.05}; // N/mm, MPa
 
 inline cases::Region region_of(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
+  return {name};
 }
 
 inline cases::Load gravity() {
-  cases::Load load;
-  load.kind = cases::LoadKind::gravity;
-  load.value = {0, 2, -9.81};
-  return load;
+  return {{}, cases::loads::Gravity{{0, 2, -9.81}}};
 }
 
 inline cases::Dynamics steps(cases::Scheme scheme, double step, double end) {
@@ -101,7 +96,7 @@ struct Moving {
       : problem(msm::make_moving_problem(scene)), grid(msm::grid::make_grid_problem(problem, cells)),
         vectors(grid.body), statics(msm::grid::make_grid_system(grid, n_threads)),
         motion(msm::grid::make_moving_grid(problem, grid, vectors, *statics, msm::make_inertia(scene, {}),
-                                           msm::damping_stiffness(scene, cells), n_threads)) {}
+                                           *msm::damping_springs(scene, cells).cells(), n_threads)) {}
   Moving(const cases::Scene& scene, const msm::CellStiffness& cell) : Moving(scene, std::vector{cell}) {}
   Moving(const Moving&) = delete; // the others refer to its problem
 

@@ -17,11 +17,7 @@ namespace {
 constexpr double modulus = 0.3, ratio = 0.35, strain = 1e-7; // of which finite rotations are another 1e-7
 
 cases::Load traction(const std::string& where, const Vector3d& value) {
-  cases::Load load;
-  load.region = bodies::region(where);
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
-  return load;
+  return {bodies::region(where), cases::loads::Traction{value}};
 }
 
 cases::Case body(const Vector3d& cell, cases::Design design) {
@@ -40,7 +36,7 @@ struct Solved {
 
 /// Of the lattice, 1/MPa.
 msm::Elasticity springs_compliance(const cases::Scene& scene, const msm::DesignResult& design) {
-  return msm::cell_elasticity(design.terms->kinds, cases::cell_vertices(scene.mesh, 0)).inverse();
+  return msm::cell_elasticity(design.springs.terms()->kinds, cases::cell_vertices(scene.mesh, 0)).inverse();
 }
 
 Solved solved(const cases::Case& definition) {
@@ -48,7 +44,7 @@ Solved solved(const cases::Case& definition) {
   std::optional<msm::DesignResult> design;
   const compare::Answer answer = compare::solve_springs(scene, 1, design);
   REQUIRE(answer.converged());
-  REQUIRE(design->terms);
+  REQUIRE(design->springs.terms());
   return {springs_compliance(scene, *design), design->misfit->largest,
           std::get<cases::Box>(definition.body).size, answer.solution.displacement.back()};
 }
@@ -92,8 +88,8 @@ TEST_CASE("an affine shear of boxes leaves the nodes inside in equilibrium, and 
         CAPTURE(cell.transpose(), cases::name_of(design), along, across);
         const cases::Scene scene = cases::make_scene(body(cell, design));
         const msm::DesignResult springs = compare::design_for(scene);
-        REQUIRE(springs.terms);
-        const msm::Lattice lattice = msm::make_lattice(scene.mesh, *springs.terms);
+        REQUIRE(springs.springs.terms());
+        const msm::Lattice lattice = msm::make_lattice(scene.mesh, springs.springs);
         const Vector3d size = std::get<cases::Box>(scene.definition.body).size;
         msm::Points shear;
         for (const Vector3d& x : lattice.rest) shear.push_back(strain * x[across] * Vector3d::Unit(along));
@@ -119,12 +115,8 @@ TEST_CASE("flat cells answer as finite elements do", "[verification]") {
   definition.body = cases::Box{{6, 6, 6}, {6, 6, 10}}; // 1 x 1 x 0.6 mm
   definition.loads = {traction("z+", {0.002, 0, 0})};
   definition.fem.has_auto_accuracy = false;
-  cases::Measure shift;
-  shift.name = "shift";
-  shift.kind = cases::MeasureKind::displacement;
-  shift.node = bodies::region("z+ x+ y+");
-  shift.component = cases::Component::x;
-  definition.measures = {shift};
+  definition.measures = {
+      {"shift", cases::measures::Displacement{bodies::region("z+ x+ y+"), cases::Component::x}}};
   const compare::Comparison comparison = compare::compare_case(definition);
   // What springs of cubes of that size err by under such a shear is 2 %; one stiffness a kind missed by 40 %
   // here.

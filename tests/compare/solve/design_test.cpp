@@ -1,6 +1,6 @@
 #include "compare/solve/springs.hpp"
 
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
@@ -123,12 +123,13 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
   for (Eigen::Vector3d& x : scene.mesh.nodes.stored())
     x += 0.03 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
   const msm::DesignResult design = compare::design_for(scene);
-  REQUIRE(compare::stiffness_of_cells(design).size() == 8);
+  REQUIRE(design.springs.cells());
+  REQUIRE(design.springs.cells()->size() == 8);
   if (definition.msm.design == cases::Design::hybrid)
     CHECK(design.warnings.empty());
   else // whatever the mesh: springs alone have no nu = 0.35
     CHECK_THAT(design.warnings.at(0), Catch::StartsWith("8 of 8 cells, the worst: the lattice's moduli"));
-  for (const msm::CellStiffness& k : design.cells) {
+  for (const msm::CellStiffness& k : *design.springs.cells()) {
     CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
     CHECK(k.edge != cube.edge);
   }
@@ -142,11 +143,7 @@ TEST_CASE("a quarter of a body between planes of symmetry answers as the whole, 
           "[verification]") {
   const auto solved = [](const std::array<int, 3>& cells, const std::vector<std::string>& planes) {
     cases::Case box = bodies::clamped_box(cells, {});
-    cases::Load load;
-    load.region = bodies::region("z+");
-    load.kind = cases::LoadKind::traction;
-    load.value = {0, 0, 0.004};
-    box.loads = {load};
+    box.loads = {{bodies::region("z+"), cases::loads::Traction{{0, 0, 0.004}}}};
     box.msm.design = cases::Design::uniform;
     for (const std::string& plane : planes)
       box.symmetry.push_back({bodies::region(plane), {plane[0] == 'x', plane[0] == 'y', false}});

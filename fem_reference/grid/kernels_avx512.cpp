@@ -1,2 +1,0 @@
-#define SPRINGPROOF_ISA avx512
-#include "fem_reference/grid/kernels_source.hpp"
