@@ -4,7 +4,6 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace springproof::fem_reference::grid {
 
