@@ -1,8 +1,7 @@
-#include "compare/report/write_report.hpp"
+#include "compare/report/pages.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/report/bodies.hpp"
-#include "compare/report/page.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "compare/thesis/layout.hpp"
@@ -69,8 +68,7 @@ std::string title_of(const cases::Case& definition) {
   return title;
 }
 
-/// A view for each case, and those of figure 4.15. All bars' springs stand against the finest finite
-/// elements.
+/// Views of the cases and of figure 4.15. All bars' springs stand against the finest finite elements.
 std::vector<BodyView> body_views(const ThesisResults& results, const std::vector<Figure>& figures) {
   std::vector<BodyView> views;
   const auto add = [&](const Comparison& comparison, const std::string& id, const std::string& group,

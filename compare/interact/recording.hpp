@@ -1,14 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "cases/scene/scene.hpp"
+
 #include <string>
 #include <vector>
 
 namespace springproof::compare {
 
-/// Columns of a recording of pulls, a row per step in which something was pulled: the step, counted from 1,
-/// the time of its end (s), centre and radius (mm) of the sphere whose surface is pulled, at rest, and the
-/// force (N).
+/// Columns of a recording, a row per step with a pull: the step (from 1), the time of its end (s), centre and
+/// radius of the sphere whose part of the surface is pulled, at rest (mm), the force (N).
 inline const std::string recording_header = "step,time,x,y,z,radius,fx,fy,fz";
 constexpr std::size_t most_recorded = 200'000; ///< steps with a pull
 
@@ -24,5 +24,11 @@ struct Hold {
 /// @return at least one, in the order of their steps
 /// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
 std::vector<Hold> read_recording(const std::string& text, const std::string& path, double step, double end);
+
+/// A dynamic case with a recording of `interact` as loads of both models: the force of a step acts from just
+/// after its beginning (a millionth of the step) to its end, on the part of the surface that was pulled.
+/// @param text  CSV as read_recording() reads it     @param path  for messages
+/// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
+cases::Scene with_recording(cases::Scene scene, const std::string& text, const std::string& path);
 
 } // namespace springproof::compare
