@@ -1,6 +1,6 @@
 #include "fem_reference/grid/on_grid.hpp"
 
-#include "mechanics/laws/ogden.hpp"
+#include "mechanics/laws/principal_stress.hpp"
 
 #include <algorithm>
 
@@ -12,6 +12,7 @@ constexpr std::size_t most_terms = 8; ///< of Ogden's law
 
 } // namespace
 
+#pragma GCC diagnostic error "-Wswitch" // a formulation without its law must not compile
 Law law_of(cases::Formulation formulation) {
   switch (formulation) {
   case cases::Formulation::small_strain:
@@ -27,18 +28,9 @@ Law law_of(cases::Formulation formulation) {
 }
 
 std::vector<double> parameters_of(const cases::Material& material) {
-  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material)) {
-    const auto moduli = mechanics::elastic_moduli(*elastic);
-    return {moduli.mu, moduli.kappa};
-  }
-  const auto& ogden = std::get<cases::Ogden>(material);
-  std::vector<double> values{
-      ogden.bulk_modulus.value_or(mechanics::nearly_incompressible_ratio * mechanics::shear_modulus(ogden))};
-  for (std::size_t t = 0; t < ogden.mu.size(); ++t) {
-    values.push_back(ogden.mu[t]);
-    values.push_back(ogden.alpha[t]);
-  }
-  return values;
+  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
+    return mechanics::parameters_of(*elastic).value;
+  return mechanics::parameters_of(std::get<cases::Ogden>(material)).value;
 }
 
 mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {

@@ -1,21 +1,19 @@
 #pragma once
 
 #include "fem_reference/laws/point.hpp"
+#include "mechanics/laws/in_principal_stretches.hpp"
+#include "mechanics/laws/log_strain.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace springproof::fem_reference {
 
-/// Divided differences of f(x) = ln(x)/2, exact also where the arguments coincide or nearly do.
-/// @param x, y, z  > 0
-inline double divided_difference(double x, double y) {
-  const double t = (x - y) / y;
-  return (std::abs(t) > 1e-300 ? std::log1p(t) / t : 1) / (2 * y);
-}
+using mechanics::divided_difference;
 
+/// The second divided difference of f(x) = ln(x)/2, exact also where the arguments coincide or nearly do.
+/// @param x, y, z  > 0
 inline double divided_difference(double x, double y, double z) {
   std::array<double, 3> at{x, y, z};
   std::sort(at.begin(), at.end());
@@ -42,10 +40,11 @@ inline double divided_difference(double x, double y, double z) {
 struct LogStretch {
   /// @param h  displacement gradient
   explicit LogStretch(const Matrix3& h) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3> right(twice_green_strain(h));
-    axes = right.eigenvectors();
-    squares = right.eigenvalues().array() + 1;
-    strains = right.eigenvalues().unaryExpr([](double e) { return 0.5 * std::log1p(e); });
+    const Vector9 flat = flatten(h);
+    Vector9 columns;
+    mechanics::principal_axes(array_of<9>(flat), array_of<3>(squares), array_of<9>(columns),
+                              array_of<3>(strains));
+    axes = columns.reshaped<Eigen::RowMajor>(3, 3);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) first(i, j) = divided_difference(squares[i], squares[j]);
   }

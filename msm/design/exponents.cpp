@@ -1,6 +1,6 @@
 #include "msm/design/exponents.hpp"
 
-#include "mechanics/laws/ogden.hpp"
+#include "mechanics/elastic_moduli.hpp"
 
 #include <cmath>
 #include <numeric>
