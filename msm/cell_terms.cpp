@@ -41,11 +41,11 @@ std::map<std::pair<int, int>, int> count_cells(const cases::HexMesh& mesh, const
 
 CellTerms terms_of(const CellStiffness& stiffness) {
   CellTerms terms;
-  for_each_spring(stiffness, [&](int v, int w, double k, const std::optional<double>& exponent) {
-    terms.springs.push_back({{v, w}, k, exponent});
+  for_each_spring(stiffness, [&](int v, int w, double k, const SpringLaw& law) {
+    terms.springs.push_back({{v, w}, k, law});
   });
   terms.volume = stiffness.volume;
-  terms.is_logarithmic = stiffness.exponents.has_value();
+  terms.is_logarithmic = has_logarithmic_volume(kind_of(stiffness.exponents));
   return terms;
 }
 
@@ -74,9 +74,8 @@ int n_axes(const CellSpring& spring) {
 }
 
 void set_exponents(CellTerms& terms, const Exponents& exponents) {
-  const std::array<double, 3> by_kind{exponents.edge, exponents.face_diagonal, exponents.internal_diagonal};
-  for (CellSpring& spring : terms.springs) spring.exponent = by_kind[index(n_axes(spring) - 1)];
-  terms.is_logarithmic = true;
+  for (CellSpring& spring : terms.springs) spring.law = law_of(exponents, n_axes(spring));
+  terms.is_logarithmic = has_logarithmic_volume(exponents.law);
 }
 
 void for_each_cell(const cases::HexMesh& mesh, const BodyTerms& terms, const cases::Range& cells,
@@ -105,7 +104,7 @@ Lattice make_lattice(const cases::HexMesh& mesh, const BodyTerms& terms) {
     for (const CellSpring& spring : of_cell.springs) {
       const auto nodes = nodes_of(cell, spring);
       if (spring.stiffness != 0)
-        lattice.links.push_back({nodes.first, nodes.second, {spring.stiffness, 0, spring.exponent}});
+        lattice.links.push_back({nodes.first, nodes.second, {spring.stiffness, 0, spring.law}});
     }
     for (const CellTetrahedron& tetrahedron : of_cell.tetrahedra)
       lattice.tetrahedra.push_back(make_tetrahedron(cases::pick(cell, tetrahedron.vertices), lattice.rest,

@@ -34,11 +34,10 @@ void make_cell_lattice(const CellTerms& terms, const SeenCell& cell, double rest
   lattice.links.clear();
   lattice.tetrahedra.clear();
   lattice.volume_cells.clear();
-  for (const auto& [vertices, stiffness, exponent] : terms.springs) {
+  for (const auto& [vertices, stiffness, law] : terms.springs) {
     if (stiffness == 0) continue;
     const auto [i, j] = std::minmax({vertices[0], vertices[1]});
-    lattice.links.push_back(
-        {i, j, {stiffness, (cell.rest[index(j)] - cell.rest[index(i)]).norm(), exponent}});
+    lattice.links.push_back({i, j, {stiffness, (cell.rest[index(j)] - cell.rest[index(i)]).norm(), law}});
   }
   for (const auto& [vertices, lambda, mu] : terms.tetrahedra)
     lattice.tetrahedra.push_back(make_tetrahedron(vertices, lattice.rest, lambda, mu));

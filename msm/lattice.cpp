@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 /// Links between the same two points become one with the sum of their stiffnesses.
 std::vector<Link> merge(std::vector<Link> links) {
-  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.exponent); };
+  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.law); };
   std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return kind(a) < kind(b); });
   std::vector<Link> merged;
   for (const Link& link : links) {
@@ -89,13 +89,13 @@ Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
     const std::array<int, 8> cell = mesh.cells[c]; // std::minmax refers to its arguments
-    for_each_spring(k, [&](int v, int w, double of_spring, const std::optional<double>& exponent) {
+    for_each_spring(k, [&](int v, int w, double of_spring, const SpringLaw& law) {
       const auto [i, j] = std::minmax(cell[index(v)], cell[index(w)]);
-      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0, exponent}});
+      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0, law}});
     });
     if (k.volume != 0)
-      lattice.volume_cells.push_back(
-          {cell, k.volume, cases::cell_volume(cases::cell_vertices(mesh, c)), k.exponents.has_value()});
+      lattice.volume_cells.push_back({cell, k.volume, cases::cell_volume(cases::cell_vertices(mesh, c)),
+                                      has_logarithmic_volume(kind_of(k.exponents))});
   }
   finish_links(lattice);
   return lattice;
@@ -107,8 +107,8 @@ Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::Net
   for (const cases::NetworkSpring& spring : springs) {
     const auto [i, j] = std::minmax(spring.a, spring.b);
     const double distance = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
-    lattice.links.push_back(
-        {i, j, {spring.stiffness, spring.rest_length.value_or(distance), spring.exponent}});
+    const SpringLaw law = spring.exponent ? SpringLaw{LawKind::power_log, *spring.exponent} : SpringLaw{};
+    lattice.links.push_back({i, j, {spring.stiffness, spring.rest_length.value_or(distance), law}});
   }
   std::sort(lattice.links.begin(), lattice.links.end(),
             [](const Link& a, const Link& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });

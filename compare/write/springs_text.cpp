@@ -28,7 +28,7 @@ nlohmann::ordered_json cell_to_json(const msm::BodyTerms& terms) {
   nlohmann::ordered_json springs = nlohmann::ordered_json::array(), tetrahedra = springs;
   for (const msm::CellSpring& spring : cell.springs) {
     springs.push_back({{"vertices", spring.vertices}, {"stiffness_N_per_m", 1e3 * spring.stiffness}});
-    if (spring.exponent) springs.back()["exponent"] = *spring.exponent;
+    if (const char* name = msm::parameter_name(spring.law.kind)) springs.back()[name] = spring.law.parameter;
   }
   for (const msm::CellTetrahedron& tetrahedron : cell.tetrahedra)
     tetrahedra.push_back(

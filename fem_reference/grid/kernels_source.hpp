@@ -21,8 +21,6 @@ struct Count {
 
 #include "fem_reference/grid/kernels_cells.hpp"
 
-#include "fem_reference/grid/kernels_inertia.hpp"
-
 #include "fem_reference/grid/kernels_quadratic.hpp"
 
 } // namespace

@@ -14,7 +14,6 @@ enum class Law { small_strain, saint_venant_kirchhoff, log_strain, ogden };
 /// action(law) of the law as a type.
 template<class Action>
 SPRINGPROOF_INLINE auto with_law(Law law, const Action& action) {
-#pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch" // a law that is forgotten here must not compile
   switch (law) {
   case Law::small_strain:
@@ -26,7 +25,6 @@ SPRINGPROOF_INLINE auto with_law(Law law, const Action& action) {
   case Law::ogden:
     break;
   }
-#pragma GCC diagnostic pop
   return action(mechanics::InPrincipalStretches<mechanics::Ogden>{});
 }
 

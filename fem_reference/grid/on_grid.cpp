@@ -36,8 +36,8 @@ std::vector<double> parameters_of(const cases::Material& material) {
 mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
   if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
     return mechanics::elastic_moduli(*elastic);
-  const double mu = mechanics::shear_modulus(std::get<cases::Ogden>(material)),
-               kappa = parameters_of(material)[0];
+  const auto& ogden = std::get<cases::Ogden>(material);
+  const double mu = mechanics::shear_modulus(ogden), kappa = mechanics::bulk_modulus(ogden);
   return {kappa - 2 * mu / 3, mu, kappa};
 }
 
@@ -63,9 +63,8 @@ bool is_on_grid(const cases::Scene& scene) {
 double bulk_over_shear(const cases::Scene& scene) {
   double largest = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
-    const std::vector<double> values = parameters_of(material);
-    const auto* ogden = std::get_if<cases::Ogden>(&material);
-    largest = std::max(largest, ogden ? values[0] / mechanics::shear_modulus(*ogden) : values[1] / values[0]);
+    const mechanics::ElasticModuli moduli = moduli_at_rest(material);
+    largest = std::max(largest, moduli.kappa / moduli.mu);
   }
   return largest;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "mechanics/laws/point.hpp"
-#include "mechanics/ramp_integral.hpp"
 
 namespace springproof::mechanics {
 

@@ -18,7 +18,7 @@ void add_volume_term(CellMatrix& matrix, const CellVertices& vertices, double st
 
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness) {
   CellMatrix matrix = CellMatrix::Zero();
-  for_each_spring(stiffness, [&](int i, int j, double of_spring, const std::optional<double>&) {
+  for_each_spring(stiffness, [&](int i, int j, double of_spring, const SpringLaw&) {
     const Eigen::Vector3d d = vertices[static_cast<std::size_t>(j)] - vertices[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d block = of_spring / d.squaredNorm() * d * d.transpose();
     matrix.block<3, 3>(3 * i, 3 * i) += block;

@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
 #include "mechanics/larger.hpp"
-#include "mechanics/transverse_moduli.hpp"
 #include "msm/design/design.hpp"
 
 #include <Eigen/Eigenvalues>

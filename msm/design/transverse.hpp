@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/transverse_moduli.hpp"
+#include "mechanics/elastic_moduli.hpp"
 
 #include <array>
 

@@ -53,7 +53,7 @@ TEST_CASE("four stiffnesses as terms make the same lattice") {
     CHECK(found.links[l].spring.stiffness ==
           Approx(expected.links[l].spring.stiffness).epsilon(1e-14)); // sums
     CHECK(found.links[l].spring.rest_length == expected.links[l].spring.rest_length);
-    CHECK(found.links[l].spring.exponent == expected.links[l].spring.exponent);
+    CHECK(found.links[l].spring.law == expected.links[l].spring.law);
   }
   REQUIRE(found.volume_cells.size() == expected.volume_cells.size());
   CHECK(found.volume_cells.front().is_logarithmic == expected.volume_cells.front().is_logarithmic);
