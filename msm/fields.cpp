@@ -3,7 +3,6 @@
 #include "mechanics/field_sums.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace springproof::msm {
 
@@ -28,25 +27,7 @@ struct SeenCell {
   }
 };
 
-/// The cell alone as a lattice, whose points are its vertices.
-void make_cell_lattice(const CellTerms& terms, const SeenCell& cell, double rest_volume, Lattice& lattice) {
-  lattice.rest.assign(cell.rest.begin(), cell.rest.end());
-  lattice.links.clear();
-  lattice.tetrahedra.clear();
-  lattice.volume_cells.clear();
-  for (const auto& [vertices, stiffness, law] : terms.springs) {
-    if (stiffness == 0) continue;
-    const auto [i, j] = std::minmax({vertices[0], vertices[1]});
-    lattice.links.push_back({i, j, {stiffness, (cell.rest[index(j)] - cell.rest[index(i)]).norm(), law}});
-  }
-  for (const auto& [vertices, lambda, mu] : terms.tetrahedra)
-    lattice.tetrahedra.push_back(make_tetrahedron(vertices, lattice.rest, lambda, mu));
-  if (terms.volume != 0)
-    lattice.volume_cells.push_back(
-        {{0, 1, 2, 3, 4, 5, 6, 7}, terms.volume, rest_volume, terms.is_logarithmic});
-}
-
-/// What there is to say of a cell without its springs.
+/// Adds what a cell is without its springs.
 void add_shape(mechanics::CellSums& sum, const SeenCell& cell) {
   sum.rest_volume() = trilinear_volume(cell.rest);
   sum.volume() = trilinear_volume(cell.now);
@@ -61,19 +42,16 @@ mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& sol
               : mechanics::Balance::not_asked};
 }
 
-/// @param for_each  for_each(range, action) calls action(number, terms) for cells
-template<class ForEachCell>
-cases::Fields fields_of_cells(const cases::Scene& scene, const cases::Solution& solution, double load_factor,
-                              const ForEachCell& for_each) {
+cases::Fields fields_of_cells(const cases::Scene& scene, const SpringBody& springs,
+                              const cases::Solution& solution, double load_factor) {
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   mechanics::FieldSums sums(here.nodes, here.cells);
-  Lattice lattice;
-  for_each(here.cells, [&](std::size_t c, const CellTerms& terms) {
+  for_each_cell(scene.mesh, springs, here.cells, [&](std::size_t c, const CellTerms& terms) {
     const SeenCell cell(scene.mesh, c, solution.displacement, here.nodes.begin);
     mechanics::CellSums& sum = sums.cell(c);
     add_shape(sum, cell);
-    make_cell_lattice(terms, cell, sum.rest_volume(), lattice);
+    const Lattice lattice = cell_lattice(terms, cell.rest);
     const Points motion(cell.motion.begin(), cell.motion.end()), force = internal_force_at(lattice, motion);
     sum.energy() += energy_at(lattice, motion);
     const std::array<int, 8> nodes = scene.mesh.cells[c];
@@ -85,29 +63,8 @@ cases::Fields fields_of_cells(const cases::Scene& scene, const cases::Solution& 
   return mechanics::fields_of(scene, std::move(sums), sharing, how_of(scene, solution, load_factor));
 }
 
-} // namespace
-
-cases::Fields fields(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                     const cases::Solution& solution, double load_factor) {
-  assert(stiffness.size() == 1 || stiffness.size() == scene.mesh.cells.size());
-  return fields_of_cells(scene, solution, load_factor, [&](const cases::Range& cells, const auto& action) {
-    CellTerms terms = terms_of(stiffness.front());
-    for (std::size_t c = cells.begin; c < cells.end; ++c) {
-      if (stiffness.size() > 1) terms = terms_of(stiffness[c]);
-      action(c, terms);
-    }
-  });
-}
-
-cases::Fields fields(const cases::Scene& scene, const BodyTerms& terms, const cases::Solution& solution,
-                     double load_factor) {
-  return fields_of_cells(scene, solution, load_factor, [&](const cases::Range& cells, const auto& action) {
-    for_each_cell(scene.mesh, terms, cells, action);
-  });
-}
-
-cases::Fields network_fields(const cases::Scene& scene, const Lattice& network,
-                             const cases::Solution& solution, double load_factor) {
+cases::Fields fields_of_network(const cases::Scene& scene, const Lattice& network,
+                                const cases::Solution& solution, double load_factor) {
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   mechanics::FieldSums sums(here.nodes, here.cells);
@@ -125,6 +82,15 @@ cases::Fields network_fields(const cases::Scene& scene, const Lattice& network,
   fields.strain_energy.clear();
   fields.stress.clear();
   return fields;
+}
+
+} // namespace
+
+cases::Fields fields(const cases::Scene& scene, const SpringBody& springs, const cases::Solution& solution,
+                     double load_factor) {
+  return springs.network()
+             ? fields_of_network(scene, make_lattice(scene.mesh, springs), solution, load_factor)
+             : fields_of_cells(scene, springs, solution, load_factor);
 }
 
 } // namespace springproof::msm

@@ -4,8 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cassert>
-#include <limits>
 #include <tuple>
 
 namespace springproof::msm {
@@ -14,20 +12,6 @@ namespace {
 
 using cases::index;
 using Eigen::Vector3d;
-
-/// Links between the same two points become one with the sum of their stiffnesses.
-std::vector<Link> merge(std::vector<Link> links) {
-  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.law); };
-  std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return kind(a) < kind(b); });
-  std::vector<Link> merged;
-  for (const Link& link : links) {
-    if (!merged.empty() && kind(merged.back()) == kind(link))
-      merged.back().spring.stiffness += link.spring.stiffness;
-    else
-      merged.push_back(link);
-  }
-  return merged;
-}
 
 /// Calls action(a, b, c, d) for every vertex a of every face; b, c, d follow it around the face.
 template<class Action>
@@ -80,45 +64,6 @@ CellPositions cell_positions(const VolumeCell& cell, const Points& positions) {
 
 VolumeLaw VolumeCell::law(const CellPositions& x) const {
   return volume_law(trilinear_volume(x) / rest_volume, is_logarithmic);
-}
-
-Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness) {
-  assert(stiffness.size() == 1 || stiffness.size() == mesh.cells.size());
-  Lattice lattice;
-  lattice.rest = mesh.nodes.to_vector();
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const CellStiffness& k = stiffness[stiffness.size() == 1 ? 0 : c];
-    const std::array<int, 8> cell = mesh.cells[c]; // std::minmax refers to its arguments
-    for_each_spring(k, [&](int v, int w, double of_spring, const SpringLaw& law) {
-      const auto [i, j] = std::minmax(cell[index(v)], cell[index(w)]);
-      if (of_spring != 0) lattice.links.push_back({i, j, {of_spring, 0, law}});
-    });
-    if (k.volume != 0)
-      lattice.volume_cells.push_back({cell, k.volume, cases::cell_volume(cases::cell_vertices(mesh, c)),
-                                      has_logarithmic_volume(kind_of(k.exponents))});
-  }
-  finish_links(lattice);
-  return lattice;
-}
-
-Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::NetworkSpring>& springs) {
-  Lattice lattice;
-  lattice.rest = mesh.nodes.to_vector();
-  for (const cases::NetworkSpring& spring : springs) {
-    const auto [i, j] = std::minmax(spring.a, spring.b);
-    const double distance = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
-    const SpringLaw law = spring.exponent ? SpringLaw{LawKind::power_log, *spring.exponent} : SpringLaw{};
-    lattice.links.push_back({i, j, {spring.stiffness, spring.rest_length.value_or(distance), law}});
-  }
-  std::sort(lattice.links.begin(), lattice.links.end(),
-            [](const Link& a, const Link& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
-  return lattice;
-}
-
-void finish_links(Lattice& lattice) {
-  lattice.links = merge(std::move(lattice.links));
-  for (Link& link : lattice.links)
-    link.spring.rest_length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
 }
 
 Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu) {

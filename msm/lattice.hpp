@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/scene/network.hpp"
 #include "msm/spring.hpp"
 #include "msm/tetrahedron.hpp"
 
@@ -48,17 +47,6 @@ struct CellStiffness {
 inline CellStiffness scaled(CellStiffness k, double factor) {
   for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= factor;
   return k;
-}
-
-/// Calls action(vertex, vertex, stiffness, law) for the springs of a cell.
-template<class Action>
-void for_each_spring(const CellStiffness& stiffness, const Action& action) {
-  const auto of_kind = [&](const auto& pairs, double k, int n_axes) {
-    for (const auto& [v, w] : pairs) action(v, w, k, law_of(stiffness.exponents, n_axes));
-  };
-  of_kind(cases::cell_edges, stiffness.edge, 1);
-  of_kind(cases::cell_face_diagonals, stiffness.face_diagonal, 2);
-  of_kind(cases::cell_internal_diagonals, stiffness.internal_diagonal, 3);
 }
 
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
@@ -116,21 +104,6 @@ TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const
 
 /// Positions of the cell's vertices, mm.
 CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
-
-/// The cells of a mesh as springs: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis
-/// section 4.3.1: an interior edge of a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and
-/// volume terms of stiffness 0 are left out.
-/// @param stiffness  one for every cell, or a single one for all
-Lattice make_lattice(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness);
-
-/// A lattice of a network's springs, each a link of its own. Where a spring's rest length is not the distance
-/// of its nodes, the lattice is under tension at rest.
-/// @param springs  between nodes of the mesh
-Lattice network_lattice(const cases::HexMesh& mesh, const std::vector<cases::NetworkSpring>& springs);
-
-/// Makes one of the links of one law between the same two points, with the sum of their stiffnesses; sorts
-/// them, and gives them the rest lengths that the rest positions have.
-void finish_links(Lattice& lattice);
 
 /// Sum of all energies of springs, tetrahedra and volume terms at these positions, N mm.
 double energy(const Lattice& lattice, const Points& positions);

@@ -19,12 +19,13 @@ namespace {
 
 } // namespace
 
-bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness, Path wanted) {
+bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path wanted) {
+  const std::vector<CellStiffness>* cells = springs.cells();
   const auto is_another = [&](const CellStiffness& k) {
-    return !(k.exponents == stiffness.front().exponents) || k.edge < 0 || k.face_diagonal < 0 ||
+    return !(k.exponents == cells->front().exponents) || k.edge < 0 || k.face_diagonal < 0 ||
            k.internal_diagonal < 0 || k.volume < 0;
   };
-  const bool can = scene.mesh.grid && std::none_of(stiffness.begin(), stiffness.end(), is_another);
+  const bool can = scene.mesh.grid && cells && std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can) refuse_multigrid();
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   const std::size_t n_nodes = scene.mesh.nodes.size();
@@ -32,44 +33,33 @@ bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>
   return can && n_nodes >= multigrid_from;
 }
 
-Model::Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-             const ModelOptions& options)
+Model::Model(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)
     : solver_(scene.definition.msm.solver), relaxation_(scene.definition.msm.relaxation),
       largest_turn_(cases::largest_turn(scene.definition)),
       least_steps_(cases::least_load_steps(scene.definition)), n_threads_(options.n_threads),
       sharing_(options.sharing), problem_(make_problem(scene)) {
-  if (takes_multigrid(scene, stiffness, options.path)) {
-    grid_ = grid::make_grid_problem(problem_, stiffness, options.deal_out);
+  if (takes_multigrid(scene, springs, options.path)) {
+    grid_ = grid::make_grid_problem(problem_, *springs.cells(), options.deal_out);
     system_ = grid::make_grid_system(*grid_, n_threads_);
     if (options.path == Path::automatic && !options.deal_out && scene.mesh.nodes.size() <= most_factorised)
-      stiffness_ = stiffness;
+      fallback_ = springs;
     else
       problem_.force.clear(); // the grid has its own
   } else {
-    problem_.lattice = make_lattice(scene.mesh, stiffness);
+    problem_.lattice = make_lattice(scene.mesh, springs);
     system_ = make_direct_system(problem_);
   }
-}
-
-Model::Model(const cases::Scene& scene, Lattice lattice, const ModelOptions& options)
-    : solver_(scene.definition.msm.solver), relaxation_(scene.definition.msm.relaxation),
-      largest_turn_(cases::largest_turn(scene.definition)),
-      least_steps_(cases::least_load_steps(scene.definition)), n_threads_(options.n_threads),
-      problem_(make_problem(scene)) {
-  if (options.path == Path::multigrid) refuse_multigrid();
-  problem_.lattice = std::move(lattice);
-  system_ = make_direct_system(problem_);
 }
 
 cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings, const Points& start) {
   try {
     return solve_on_path(settings, start);
   } catch (const cases::SolveError& error) {
-    const bool may_be_multigrid = !stiffness_.empty() && error.outcome() == cases::Outcome::unknown;
+    const bool may_be_multigrid = fallback_ && error.outcome() == cases::Outcome::unknown;
     if (!may_be_multigrid || system_->rest_state() != mechanics::RestState::unknown) throw;
   }
-  problem_.lattice = make_lattice(problem_.mesh, stiffness_);
-  stiffness_.clear();
+  problem_.lattice = make_lattice(problem_.mesh, *fallback_);
+  fallback_.reset();
   system_ = make_direct_system(problem_);
   grid_.reset();
   return solve_on_path(settings, start);

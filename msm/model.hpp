@@ -2,6 +2,7 @@
 
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/grid/grid_system.hpp"
+#include "msm/spring_body.hpp"
 
 namespace springproof::msm {
 
@@ -25,19 +26,13 @@ struct ModelOptions {
 
 /// Whether the multigrid path is taken.
 /// @throws cases::InputError when it is wanted and cannot be taken
-bool takes_multigrid(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                     Path wanted = Path::automatic);
+bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path wanted = Path::automatic);
 
 /// A mass-spring model of a scene: its lattice, loads and supports, ready to be solved.
 class Model {
  public:
-  /// @param stiffness  one for every cell of the scene's mesh, or a single one for all
   /// @throws cases::InputError when the multigrid path is asked for and cannot be taken
-  Model(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-        const ModelOptions& options = {});
-  /// A lattice of any links, tetrahedra and volume terms on the scene's nodes, on the direct path.
-  /// @throws cases::InputError when the multigrid path is asked for
-  Model(const cases::Scene& scene, Lattice lattice, const ModelOptions& options = {});
+  Model(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -56,8 +51,7 @@ class Model {
   int least_steps_;                                   ///< of the load
   int n_threads_;
   std::shared_ptr<const cases::Sharing> sharing_;
-  std::vector<CellStiffness>
-      stiffness_; ///< of the direct path, should multigrid fail; empty: it is not taken
+  std::optional<SpringBody> fallback_; ///< for the direct path, should multigrid fail
   Problem problem_;
   std::optional<grid::GridProblem> grid_; ///< on the multigrid path
   std::unique_ptr<SpringSystem> system_;

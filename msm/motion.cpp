@@ -11,9 +11,7 @@ namespace springproof::msm {
 namespace {
 
 /// Displacement when the motion begins, mm, one per point.
-/// @param springs  as a Model takes them
-template<class Springs>
-Points start_of(const cases::Scene& scene, const Springs& springs, const ModelOptions& options,
+Points start_of(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options,
                 const mechanics::IntegrationSettings& steps) {
   if (scene.definition.dynamics->start == cases::MotionStart::rest)
     return Points(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
@@ -37,25 +35,20 @@ cases::Solution follow(const cases::Scene& scene, MovingBody& body, const Points
 
 } // namespace
 
-cases::Solution follow(const cases::Scene& scene, Lattice lattice, Lattice damping,
+cases::Solution follow(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options,
                        const mechanics::IntegrationSettings& settings) {
-  MovingBody body(scene, std::move(lattice), std::move(damping));
-  return follow(scene, body, start_of(scene, body.problem().lattice, {}, settings), settings);
-}
-
-cases::Solution follow(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                       const ModelOptions& options, const mechanics::IntegrationSettings& settings) {
-  MovingBody body(scene, stiffness, options);
-  if (!body.is_on_grid())
-    return follow(scene, body, start_of(scene, body.problem().lattice, {}, settings), settings);
+  ModelOptions directly = options;
+  directly.path = Path::direct;
+  MovingBody body(scene, springs, options);
   try {
-    return follow(scene, body, start_of(scene, stiffness, options, settings), settings);
+    return follow(scene, body, start_of(scene, springs, body.is_on_grid() ? options : directly, settings),
+                  settings);
   } catch (const cases::SolveError&) {
     const bool may_be_factorised =
-        options.path == Path::automatic && scene.mesh.nodes.size() <= most_factorised;
+        body.is_on_grid() && options.path == Path::automatic && scene.mesh.nodes.size() <= most_factorised;
     if (!may_be_factorised || !body.motion().has_failed()) throw;
   }
-  return follow(scene, make_lattice(scene.mesh, stiffness), damping_lattice(scene, stiffness), settings);
+  return follow(scene, springs, directly, settings);
 }
 
 } // namespace springproof::msm

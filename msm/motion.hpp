@@ -5,17 +5,12 @@
 
 namespace springproof::msm {
 
-/// The motion of a scene's springs through the time of its [dynamics], on the direct path.
-/// @param lattice  of the springs   @param damping  damping_lattice() of the same
+/// The motion of a scene's springs through the time of its [dynamics], on the path that a Model of them would
+/// take; of the options, on which threads.
 /// @return the end of the motion, with its trajectory
 /// @throws cases::SolveError with the time reached when the motion cannot be followed, or with the load
 /// reached when it cannot start in equilibrium
-cases::Solution follow(const cases::Scene& scene, Lattice lattice, Lattice damping,
+cases::Solution follow(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options = {},
                        const mechanics::IntegrationSettings& settings = {});
-
-/// The same of cells, on the path that a Model of them would take; of the options, on which threads.
-/// @param stiffness  one for every cell of the mesh, or a single one for all
-cases::Solution follow(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                       const ModelOptions& options = {}, const mechanics::IntegrationSettings& settings = {});
 
 } // namespace springproof::msm

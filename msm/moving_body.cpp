@@ -9,31 +9,22 @@
 
 namespace springproof::msm {
 
-MovingBody::MovingBody(const cases::Scene& scene, Lattice lattice, Lattice damping)
+MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)
     : problem_(make_moving_problem(scene)) {
-  factorise(scene, std::move(lattice), std::move(damping));
-}
-
-MovingBody::MovingBody(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                       const ModelOptions& options)
-    : problem_(make_moving_problem(scene)) {
-  if (!takes_multigrid(scene, stiffness, options.path)) {
-    factorise(scene, make_lattice(scene.mesh, stiffness), damping_lattice(scene, stiffness));
-    return;
+  const SpringBody damping = damping_springs(scene, springs);
+  if (takes_multigrid(scene, springs, options.path)) {
+    grid_ = grid::make_grid_problem(problem_, *springs.cells());
+    vectors_.emplace(grid_->body);
+    auto statics = grid::make_grid_system(*grid_, options.n_threads);
+    motion_ = grid::make_moving_grid(problem_, *grid_, *vectors_, *statics, make_inertia(scene, {}),
+                                     *damping.cells(), options.n_threads);
+    statics_ = std::move(statics);
+  } else {
+    problem_.lattice = make_lattice(scene.mesh, springs);
+    statics_ = make_direct_system(problem_);
+    motion_ =
+        make_moving_lattice(problem_, *statics_, make_inertia(scene, make_lattice(scene.mesh, damping)));
   }
-  grid_ = grid::make_grid_problem(problem_, stiffness);
-  vectors_.emplace(grid_->body);
-  auto statics = grid::make_grid_system(*grid_, options.n_threads);
-  motion_ = grid::make_moving_grid(problem_, *grid_, *vectors_, *statics, make_inertia(scene, {}),
-                                   damping_stiffness(scene, stiffness), options.n_threads);
-  statics_ = std::move(statics);
-  find_entries();
-}
-
-void MovingBody::factorise(const cases::Scene& scene, Lattice lattice, Lattice damping) {
-  problem_.lattice = std::move(lattice);
-  statics_ = make_direct_system(problem_);
-  motion_ = make_moving_lattice(problem_, *statics_, make_inertia(scene, std::move(damping)));
   find_entries();
 }
 

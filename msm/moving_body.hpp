@@ -12,13 +12,8 @@ namespace springproof::msm {
 /// mechanics::TimeIntegrator of motion().
 class MovingBody {
  public:
-  /// On the direct path.
-  /// @param lattice  of the springs   @param damping  damping_lattice() of the same
-  MovingBody(const cases::Scene& scene, Lattice lattice, Lattice damping);
-  /// Of cells, on the path that a Model of them would take; of the options, on which threads.
-  /// @param stiffness  one for every cell of the mesh, or a single one for all
-  MovingBody(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-             const ModelOptions& options = {});
+  /// On the path that a Model of the springs would take; of the options, on which threads.
+  MovingBody(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options = {});
   MovingBody(const MovingBody&) = delete; // its parts refer to each other
   MovingBody& operator=(const MovingBody&) = delete;
 
@@ -45,7 +40,6 @@ class MovingBody {
 
   Eigen::Index size() const { return vectors_ ? vectors_->size() : statics_->load().size(); }
   void find_entries();
-  void factorise(const cases::Scene& scene, Lattice lattice, Lattice damping);
 };
 
 } // namespace springproof::msm

@@ -3,27 +3,16 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace springproof::msm {
 
 namespace {
-
-double damping_of(const cases::Scene& scene, std::size_t cell) {
-  return cases::dynamics_of(scene, cell).stiffness_damping;
-}
 
 bool is_damped(const cases::Scene& scene) {
   const auto& regions = scene.definition.region_materials;
   return scene.definition.material_dynamics.stiffness_damping > 0 ||
          std::any_of(regions.begin(), regions.end(),
                      [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
-}
-
-Lattice without_springs(const cases::Scene& scene) {
-  Lattice none;
-  none.rest = scene.mesh.nodes.to_vector();
-  return none;
 }
 
 } // namespace
@@ -43,44 +32,10 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
   return inertia;
 }
 
-std::vector<CellStiffness> damping_stiffness(const cases::Scene& scene,
-                                             const std::vector<CellStiffness>& stiffness) {
+SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs) {
   if (!is_damped(scene)) return {};
-  if (stiffness.size() == 1 && scene.material_of_cell.empty())
-    return {scaled(stiffness.front(), scene.definition.material_dynamics.stiffness_damping)};
-  std::vector<CellStiffness> damped;
-  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-    damped.push_back(scaled(stiffness[stiffness.size() == 1 ? 0 : c], damping_of(scene, c)));
-  return damped;
-}
-
-Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness) {
-  if (!is_damped(scene)) return without_springs(scene);
-  return make_lattice(scene.mesh, damping_stiffness(scene, stiffness));
-}
-
-Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms) {
-  if (!is_damped(scene)) return without_springs(scene);
-  BodyTerms damped;
-  damped.boundary = terms.boundary;
-  std::map<std::pair<int, double>, int> kinds; // of a kind of cells and its damping
-  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
-    const int kind = terms.kind_of_cell.empty() ? 0 : terms.kind_of_cell[c];
-    const double beta = damping_of(scene, c);
-    const auto [known, is_new] = kinds.try_emplace({kind, beta}, static_cast<int>(kinds.size()));
-    if (is_new) damped.kinds.push_back(scaled(terms.kinds[cases::index(kind)], beta));
-    damped.kind_of_cell.push_back(known->second);
-  }
-  return make_lattice(scene.mesh, damped);
-}
-
-Lattice damping_lattice(const cases::Scene& scene, Lattice springs) {
-  if (!is_damped(scene)) return without_springs(scene);
-  const double beta = scene.definition.material_dynamics.stiffness_damping;
-  for (Link& link : springs.links) link.spring.stiffness *= beta;
-  for (VolumeCell& cell : springs.volume_cells) cell.stiffness *= beta;
-  for (Tetrahedron& tetrahedron : springs.tetrahedra) tetrahedron.stiffness *= beta;
-  return springs;
+  return scaled(springs, scene.mesh.cells.size(),
+                [&](std::size_t cell) { return cases::dynamics_of(scene, cell).stiffness_damping; });
 }
 
 void MovingSprings::external_force(double time, Vector& force) {

@@ -2,9 +2,9 @@
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
 #include "mechanics/dynamics/load_in_time.hpp"
-#include "msm/cell_terms.hpp"
 #include "msm/problem.hpp"
 #include "msm/pull.hpp"
+#include "msm/spring_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,21 +24,12 @@ struct Inertia {
   std::vector<LoadInTime> loads; ///< gravity among them
 };
 
-/// @param damping  damping_lattice() of the scene's springs
+/// @param damping  the lattice of damping_springs()
 Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 
-/// Cells whose tangent at rest is beta times that of a scene's: one for every cell, or a single one for all;
-/// none without stiffness_damping.
-std::vector<CellStiffness> damping_stiffness(const cases::Scene& scene,
-                                             const std::vector<CellStiffness>& stiffness);
-
 /// Springs whose tangent at rest is beta times that of a body's, cell by cell: it is linear in their
-/// stiffness. Without stiffness_damping, none.
-/// @param stiffness  one for every cell of the scene's mesh, or a single one for all
-Lattice damping_lattice(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness);
-Lattice damping_lattice(const cases::Scene& scene, const BodyTerms& terms);
-/// @param springs  that belong to no cells, in a scene of one material
-Lattice damping_lattice(const cases::Scene& scene, Lattice springs);
+/// stiffness. Without stiffness_damping, none. A network is in a scene of one material.
+SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs);
 
 /// The motion of a lattice with the forces of its static equations, on their vectors unless forces, energy,
 /// supports and inverted cells are overridden. Masses are on the diagonal.

@@ -193,12 +193,11 @@ void check_dynamics(Table& root, const Case& definition) {
   if (definition.fem.has_auto_formulation)
     throw InputError(definition.fem.where, "formulation must not be \"auto\" beside [dynamics]: whether the "
                                            "strains are small is known at the end alone");
-  const Solver solver = definition.msm.solver;
-  if (solver != Solver::newton && solver != Solver::snes)
+  if (definition.msm.solver != Solver::newton)
     throw InputError(definition.msm.where,
-                     fmt::format("solver is \"{}\", must be \"newton\" or \"snes\" beside [dynamics]: the "
-                                 "others find equilibria alone",
-                                 name_of(solver)));
+                     fmt::format("solver is \"{}\", must be \"newton\" beside [dynamics]: "
+                                 "the others find equilibria alone",
+                                 name_of(definition.msm.solver)));
 }
 
 } // namespace springproof::cases

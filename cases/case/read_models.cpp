@@ -328,8 +328,6 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
-  table.refuse_unless(msm.solver != Solver::snes, {"iterations_per_step"},
-                      "left out beside solver = \"snes\", which solves every step to its tolerance");
   msm.iterations_per_step =
       table.optional("iterations_per_step", WholeNumber{"a whole number from 1 to 1000", 1, 1000});
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});

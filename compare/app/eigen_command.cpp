@@ -87,7 +87,7 @@ int run(EigenOptions options) {
         "eigenspaces: K_FEM is infinite at nu = 0.5; give a material with nu < 0.5, or --poisson");
   const msm::CellMatrix fem = request.element_stiffness(material);
   const msm::DesignResult design = msm::design(request);
-  if (design.terms)
+  if (design.springs.terms())
     throw cases::InputError(
         fmt::format("eigenspaces: design = \"{}\" has no single cell that the body repeats; "
                     "take one of four stiffnesses",

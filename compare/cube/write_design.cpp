@@ -159,15 +159,15 @@ void write_compared(std::ostream& out, const DesignAttempt& a) {
     fmt::print(out, "{}\n", a.name);
     write_fibre_lattice(out, *a.design->by_fibre);
   } else {
-    const std::string springs =
-        a.design->terms ? ""
-                        : fmt::format("{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}", edge, face, internal, k.volume);
+    const std::string springs = a.design->springs.terms() ? ""
+                                                          : fmt::format("{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}",
+                                                                        edge, face, internal, k.volume);
     fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>7.3f}{:>8}{:>8}\n", a.name, springs,
                m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, stretch, compression);
   }
   if (k.exponents)
     fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(exponents_of(*k.exponents), ", "));
-  if (a.design->terms) write_paragraph(out, springs_text(*a.design), indent, indent);
+  if (a.design->springs.terms()) write_paragraph(out, springs_text(*a.design), indent, indent);
   write_warnings(out, *a.design);
 }
 
@@ -179,7 +179,7 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   const msm::LatticeModuli& m = design.moduli;
   const cases::DesignFacts& facts = cases::facts_of(attempt.options.design);
   write_paragraph(out, fmt::format("{}: {} ({})", attempt.name, facts.what, facts.published_in), "", "  ");
-  if (design.terms)
+  if (design.springs.terms())
     write_paragraph(out, springs_text(design), "  springs          ", std::string(19, ' '));
   else
     fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(newton_per_metre(k), ", "));

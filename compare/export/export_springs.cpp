@@ -174,7 +174,7 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
 
 msm::Problem exported_problem(const cases::Scene& scene) {
   msm::Problem problem = msm::make_problem(scene);
-  problem.lattice = solved_lattice(scene, design_for(scene));
+  problem.lattice = msm::make_lattice(scene.mesh, springs_as_solved(scene, design_for(scene)));
   return problem;
 }
 
@@ -191,7 +191,7 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
       motion.has_one_stiffness_damping = false;
   if (motion.dynamics.start == cases::MotionStart::equilibrium) {
     const cases::Scene before = cases::scene_before_start(scene);
-    motion.start = make_model(before, design_for(before)).solve().displacement;
+    motion.start = msm::Model(before, design_for(before).springs).solve().displacement;
   }
   return motion;
 }

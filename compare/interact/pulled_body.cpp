@@ -16,13 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::unique_ptr<msm::MovingBody> moving_body(const cases::Scene& scene, const msm::DesignResult& design,
-                                             const msm::ModelOptions& options) {
-  if (!design.terms) return std::make_unique<msm::MovingBody>(scene, stiffness_of_cells(design), options);
-  MovingSprings springs = make_moving_springs(scene, design);
-  return std::make_unique<msm::MovingBody>(scene, std::move(springs.lattice), std::move(springs.damping));
-}
-
 /// A picture needs fewer digits than a measure, and a step no more than a few halvings to be given up in
 /// time.
 mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
@@ -48,7 +41,7 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
                                         scene.definition.file, cases::name_of(scheme)));
   const msm::DesignResult design = design_for(scene);
   const msm::ModelOptions options{msm::Path::automatic, settings.n_threads, {}, {}};
-  body_ = moving_body(scene, design, options);
+  body_ = std::make_unique<msm::MovingBody>(scene, design.springs, options);
   surface_ = embedded_surface(scene);
   // Were every vertex a centre, the spheres would have no radius and cover nothing between the vertices.
   const std::size_t most_spheres = std::max<std::size_t>(1, surface_.rest.vertices.size() / 2);
@@ -58,7 +51,8 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
   size_ = box.sizes().norm();
   displacement_.assign(scene.mesh.nodes.size(), Vector3d::Zero());
   if (scene.definition.dynamics->start == cases::MotionStart::equilibrium)
-    displacement_ = make_model(cases::scene_before_start(scene), design, options).solve().displacement;
+    displacement_ =
+        msm::Model(cases::scene_before_start(scene), design.springs, options).solve().displacement;
   start_ = body_->to_vector(displacement_);
   restart();
 }

@@ -92,7 +92,7 @@ DesignVibrations of_design(const cases::Scene& scene, const Vibrations& fem, con
                            int n_modes) {
   DesignVibrations found{cases::name_of(scene.definition.msm.design), {}, {}, {}};
   try {
-    const msm::Lattice lattice = make_moving_springs(scene, design_for(scene)).lattice;
+    const msm::Lattice lattice = msm::make_lattice(scene.mesh, design_for(scene).springs);
     found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, 2 * n_modes + n_more);
     found.modes = match_modes(fem, found.msm, masses, n_modes);
   } catch (const cases::InputError& error) {

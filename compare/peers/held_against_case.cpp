@@ -57,8 +57,8 @@ std::string moved_supports(const cases::HexMesh& mesh, const msm::Problem& probl
 void hold_against_springs(const cases::Scene& scene, const msm::Problem& problem,
                           const std::vector<Vector3d>& displacement, HeldAgainstCase& found) {
   check_memory(scene.definition.file, estimate(size_of(scene), {cases::Side::msm}), memory_limit());
-  const msm::Points force =
-      msm::internal_force_at(solved_lattice(scene, design_for(scene)), displacement); // minus the gradient
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, springs_as_solved(scene, design_for(scene)));
+  const msm::Points force = msm::internal_force_at(lattice, displacement); // minus the gradient
   const msm::Points load = problem.on_all_points(problem.force);
   double residual = 0, applied = 0, held = 0, work = 0, work_of_loads = 0, work_of_springs = 0;
   for (std::size_t n = 0; n < displacement.size(); ++n)

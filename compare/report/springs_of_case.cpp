@@ -15,6 +15,12 @@ std::optional<msm::StabilityRange> stability_of(const cases::HexMesh& mesh, cons
   return msm::stability_range(design.stiffness, edge);
 }
 
+/// Kinds of cells that differ; 0 where all are alike, and of a network.
+std::size_t n_kinds(const msm::SpringBody& springs) {
+  if (springs.terms()) return springs.terms()->kinds.size();
+  return springs.cells() && springs.cells()->size() > 1 ? springs.cells()->size() : 0;
+}
+
 } // namespace
 
 nlohmann::ordered_json springs_of_case(const Comparison& comparison) {
@@ -27,7 +33,7 @@ nlohmann::ordered_json springs_of_case(const Comparison& comparison) {
   if (!is_network) attempt.stability = stability_of(comparison.scene.mesh, *design);
   nlohmann::ordered_json document = attempt_to_json(attempt);
   document["design"] = attempt.name;
-  document["kinds_of_cells"] = design->terms ? design->terms->kinds.size() : design->cells.size();
+  document["kinds_of_cells"] = n_kinds(design->springs);
   if (is_network) document["moduli"] = nullptr;
   return document;
 }

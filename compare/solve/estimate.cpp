@@ -178,21 +178,14 @@ Estimate estimate_fem(const BodySize& body) {
 Estimate estimate_springs(const BodySize& body) {
   const double unknowns = 3 * body.n_nodes;
   const cases::Case& definition = body.outline.definition;
-  const bool is_by_snes = definition.msm.solver == cases::Solver::snes;
-  const bool is_assembled_motion = is_by_snes && definition.dynamics;
-  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline) && !is_assembled_motion;
+  const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline);
   Estimate estimate;
   if (is_on_grid && body.n_nodes >= msm::multigrid_from)
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
-  else if (is_assembled_motion && unknowns > msm::factorised_by_snes)
-    estimate = linear("springs (assembled)", unknowns, unknowns, algebraic_multigrid);
   else
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
+  const bool is_by_snes = definition.msm.solver == cases::Solver::snes;
   estimate.held_by = is_by_snes ? HeldBy::all_ranks_together : HeldBy::first_rank;
-  if (is_assembled_motion) { // by their types, 13 links and a volume term a node: springs, and dampers
-    estimate.megabytes_of_each = 1e-6 * 1200 * body.n_nodes;
-    estimate.megabytes += estimate.megabytes_of_each;
-  }
   return in_time(estimate, definition);
 }
 

@@ -3,6 +3,7 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
+#include "msm/fields.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,17 +12,6 @@
 namespace springproof::compare {
 
 namespace {
-
-/// By PETSc's solver, or the grid's on several ranks.
-cases::Solution solve_by_snes(const cases::Scene& scene, const msm::DesignResult& design) {
-  if (scene.definition.dynamics) {
-    MovingSprings moving = make_moving_springs(scene, design);
-    return solvers().follow_lattice_by_snes(scene, std::move(moving.lattice), std::move(moving.damping));
-  }
-  return with_fields(scene, design,
-                     design.terms ? solvers().solve_lattice_by_snes(scene, assembled_lattice(scene, design))
-                                  : solvers().solve_by_snes(scene, stiffness_of_cells(design)));
-}
 
 /// PETSc's solver takes all ranks, the others rank 0 alone.
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
@@ -33,10 +23,11 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
     design = design_for(scene);
     return *design;
   };
-  Answer answer =
-      solve_side(designed, [&](const msm::DesignResult& found) { return solve_by_snes(scene, found); });
+  Answer answer = solve_side(designed, [&](const msm::DesignResult& found) {
+    return with_fields(scene, found.springs, solvers().solve_by_snes(scene, found.springs));
+  });
   hold_against_loads(scene, answer,
-                     [&](const cases::Solution& solution) { fields_of_springs(scene, *design, solution); });
+                     [&](const cases::Solution& solution) { msm::fields(scene, design->springs, solution); });
   return answer;
 }
 

@@ -2,7 +2,7 @@
 #include "fem_reference/motion.hpp"
 #include "fem_reference/session.hpp"
 #include "fem_reference/vibrating_elements.hpp"
-#include "msm/snes/motion.hpp"
+#include "msm/snes/snes.hpp"
 
 #include <dlfcn.h>
 #include <mpi.h>
@@ -34,17 +34,8 @@ cases::Solution follow_finite_elements(const cases::Scene& scene) {
   return fem_reference::follow(scene);
 }
 
-cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<msm::CellStiffness>& stiffness) {
-  return msm::solve_by_snes(scene, stiffness, MPI_COMM_WORLD);
-}
-
-cases::Solution solve_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice) {
-  return msm::solve_lattice_by_snes(scene, std::move(lattice), MPI_COMM_WORLD);
-}
-
-cases::Solution follow_lattice_by_snes(const cases::Scene& scene, msm::Lattice lattice,
-                                       msm::Lattice damping) {
-  return msm::follow_lattice_by_snes(scene, std::move(lattice), std::move(damping), MPI_COMM_WORLD);
+cases::Solution solve_by_snes(const cases::Scene& scene, const msm::SpringBody& springs) {
+  return msm::solve_by_snes(scene, springs, MPI_COMM_WORLD);
 }
 
 } // namespace
@@ -54,8 +45,6 @@ const SolverFunctions springproof_solvers{start,
                                           follow_finite_elements,
                                           fem_reference::vibrating_body,
                                           solve_by_snes,
-                                          solve_lattice_by_snes,
-                                          follow_lattice_by_snes,
                                           mechanics::petsc::full_spectrum,
                                           mechanics::petsc::lowest_spectrum,
                                           mechanics::petsc::lowest_vibrations};

@@ -18,9 +18,7 @@ struct SolverFunctions {
   std::unique_ptr<fem_reference::Model> (*finite_elements)(const cases::Scene&, fem_reference::Backend);
   cases::Solution (*follow_finite_elements)(const cases::Scene&);
   mechanics::VibratingBody (*vibrating_elements)(const cases::Scene&);
-  cases::Solution (*solve_by_snes)(const cases::Scene&, const std::vector<msm::CellStiffness>&);
-  cases::Solution (*solve_lattice_by_snes)(const cases::Scene&, msm::Lattice);
-  cases::Solution (*follow_lattice_by_snes)(const cases::Scene&, msm::Lattice, msm::Lattice damping);
+  cases::Solution (*solve_by_snes)(const cases::Scene&, const msm::SpringBody&);
   mechanics::petsc::Spectrum (*full_spectrum)(const Eigen::MatrixXd&);
   mechanics::petsc::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
   mechanics::petsc::Spectrum (*lowest_vibrations)(Eigen::SparseMatrix<double> stiffness,

@@ -35,6 +35,7 @@ msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
 msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
   msm::DesignResult all;
   msm::BodyTerms terms;
+  std::vector<msm::CellStiffness> stiffness;
   bool are_terms = false;
   std::map<std::string, int> n_cells;
   int n_misfits = 0;
@@ -46,9 +47,10 @@ msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
     if (of_material.count(material) == 0 || !scene.mesh.grid) {
       of_material[material] = design_cell(scene, c, of_material[material].stiffness.exponents);
       const msm::DesignResult& own = of_material[material];
-      terms.kinds.push_back(own.terms ? own.terms->kinds.front() : msm::terms_of(own.stiffness));
+      const msm::BodyTerms* own_terms = own.springs.terms();
+      terms.kinds.push_back(own_terms ? own_terms->kinds.front() : msm::terms_of(own.stiffness));
       kind_of_material[material] = static_cast<int>(terms.kinds.size()) - 1;
-      are_terms = are_terms || own.terms;
+      are_terms = are_terms || own_terms;
     }
     terms.kind_of_cell.push_back(kind_of_material[material]);
     const msm::DesignResult& cell = of_material[material];
@@ -57,14 +59,11 @@ msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
       if (!misses || warning != cell.misfit->text) ++n_cells[warning];
     if (misses) ++n_misfits;
     if (cell.misfit && !(all.misfit && cell.misfit->largest <= all.misfit->largest)) all.misfit = cell.misfit;
-    all.cells.push_back(cell.stiffness);
+    stiffness.push_back(cell.stiffness);
     if (c == 0) all.moduli = cell.moduli;
   }
-  all.stiffness = all.cells.front();
-  if (are_terms) {
-    all.terms = std::move(terms);
-    all.cells.clear();
-  }
+  all.stiffness = stiffness.front();
+  all.springs = are_terms ? msm::SpringBody(std::move(terms)) : msm::SpringBody(std::move(stiffness));
   for (const auto& [warning, n] : n_cells)
     all.warnings.push_back(fmt::format("{} of {} cells: {}", n, scene.mesh.cells.size(), warning));
   if (n_misfits > 0)
@@ -88,13 +87,13 @@ std::vector<int> parities(const cases::Grid& grid) {
 msm::DesignResult design_terms(const cases::Scene& scene) {
   if (scene.definition.msm.design == cases::Design::network) {
     msm::DesignResult network;
-    network.terms = msm::BodyTerms{};
+    network.springs = scene.network;
     network.warnings = cases::doubts_of(scene.network, [&](int n) { return Vector3d(scene.mesh.nodes[n]); });
     return network;
   }
   msm::DesignResult all = design_cell(scene, 0);
-  if (!all.terms) all.terms = msm::BodyTerms{{msm::terms_of(all.stiffness)}};
-  msm::BodyTerms& terms = *all.terms;
+  msm::BodyTerms terms =
+      all.springs.terms() ? *all.springs.terms() : msm::BodyTerms{{msm::terms_of(all.stiffness)}};
   const cases::Design design = scene.definition.msm.design;
   const bool is_by_axis = design == cases::Design::given || design == cases::Design::transverse;
   const bool needs_grid = terms.kinds.size() > 1 || is_by_axis;
@@ -110,7 +109,8 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
     if (first_of_material.count(material) == 0) {
       first_of_material[material] = static_cast<int>(terms.kinds.size());
       const msm::DesignResult other = design_cell(scene, c);
-      terms.kinds.insert(terms.kinds.end(), other.terms->kinds.begin(), other.terms->kinds.end());
+      const std::vector<msm::CellTerms>& kinds = other.springs.terms()->kinds;
+      terms.kinds.insert(terms.kinds.end(), kinds.begin(), kinds.end());
       for (const std::string& warning : other.warnings)
         if (std::count(all.warnings.begin(), all.warnings.end(), warning) == 0)
           all.warnings.push_back(warning);
@@ -118,49 +118,8 @@ msm::DesignResult design_terms(const cases::Scene& scene) {
     terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
   }
   terms.planes_of_node = cases::planes_of_nodes(scene.mesh, scene.definition.symmetry);
+  all.springs = std::move(terms);
   return all;
-}
-
-bool is_beyond(const cases::Stiffer& stiffer, const cases::HexMesh& mesh, std::size_t cell) {
-  return cases::centre_of(mesh, mesh.cells[cell])[static_cast<int>(stiffer.axis)] > stiffer.beyond;
-}
-
-/// The terms of every cell, stiffer beyond the plane: further kinds.
-msm::BodyTerms stiffened(msm::BodyTerms terms, const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
-  const std::size_t n_kinds = terms.kinds.size();
-  for (std::size_t kind = 0; kind < n_kinds; ++kind)
-    terms.kinds.push_back(msm::scaled(terms.kinds[kind], stiffer.factor));
-  for (std::size_t c = 0; c < terms.kind_of_cell.size(); ++c)
-    if (is_beyond(stiffer, mesh, c)) terms.kind_of_cell[c] += static_cast<int>(n_kinds);
-  return terms;
-}
-
-/// The springs of every cell, stiffer beyond the plane.
-std::vector<msm::CellStiffness> stiffened(std::vector<msm::CellStiffness> springs,
-                                          const cases::Stiffer& stiffer, const cases::HexMesh& mesh) {
-  if (springs.size() == 1) springs.resize(mesh.cells.size(), springs.front());
-  for (std::size_t c = 0; c < springs.size(); ++c)
-    if (is_beyond(stiffer, mesh, c)) springs[c] = msm::scaled(springs[c], stiffer.factor);
-  return springs;
-}
-
-/// A design whose springs are stiffer beyond the plane.
-msm::DesignResult stiffened(const cases::Scene& scene, msm::DesignResult design,
-                            const cases::Stiffer& stiffer) {
-  if (scene.definition.msm.design == cases::Design::network)
-    throw cases::InputError(scene.definition.msm.where, "design = \"network\": its springs have their own "
-                                                        "stiffnesses; leave stress.stiffer out");
-  if (design.terms)
-    design.terms = stiffened(std::move(*design.terms), stiffer, scene.mesh);
-  else
-    design.cells = stiffened(stiffness_of_cells(design), stiffer, scene.mesh);
-  return design;
-}
-
-/// The springs of a hard case are stiffer where it says so.
-msm::DesignResult as_solved(const cases::Scene& scene, const msm::DesignResult& design) {
-  const auto& stress = scene.definition.stress;
-  return stress && stress->stiffer ? stiffened(scene, design, *stress->stiffer) : design;
 }
 
 /// Displacements to start from, mm; empty: rest.
@@ -227,37 +186,17 @@ msm::DesignResult design_for(const cases::Scene& scene) {
   return design_cell_by_cell(scene);
 }
 
-std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design) {
-  return design.cells.empty() ? std::vector<msm::CellStiffness>{design.stiffness} : design.cells;
-}
-
-msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design) {
-  if (scene.definition.msm.design == cases::Design::network)
-    return msm::network_lattice(scene.mesh, scene.network);
-  return msm::make_lattice(scene.mesh, *design.terms);
-}
-
-msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design) {
-  const msm::DesignResult solved = as_solved(scene, design);
-  return solved.terms ? assembled_lattice(scene, solved)
-                      : msm::make_lattice(scene.mesh, stiffness_of_cells(solved));
-}
-
-msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
-                      const msm::ModelOptions& options) {
-  if (design.terms) return msm::Model(scene, assembled_lattice(scene, design), options);
-  return msm::Model(scene, stiffness_of_cells(design), options);
-}
-
-MovingSprings make_moving_springs(const cases::Scene& scene, const msm::DesignResult& design) {
-  if (scene.definition.msm.design == cases::Design::network) {
-    const msm::Lattice network = msm::network_lattice(scene.mesh, scene.network);
-    return {network, msm::damping_lattice(scene, network)};
-  }
-  if (design.terms)
-    return {msm::make_lattice(scene.mesh, *design.terms), msm::damping_lattice(scene, *design.terms)};
-  const std::vector<msm::CellStiffness> stiffness = stiffness_of_cells(design);
-  return {msm::make_lattice(scene.mesh, stiffness), msm::damping_lattice(scene, stiffness)};
+msm::SpringBody springs_as_solved(const cases::Scene& scene, const msm::DesignResult& design) {
+  const auto& stress = scene.definition.stress;
+  if (!stress || !stress->stiffer) return design.springs;
+  if (design.springs.network())
+    throw cases::InputError(scene.definition.msm.where, "design = \"network\": its springs have their own "
+                                                        "stiffnesses; leave stress.stiffer out");
+  return msm::scaled(design.springs, scene.mesh.cells.size(), [&](std::size_t cell) {
+    const Vector3d centre = cases::centre_of(scene.mesh, scene.mesh.cells[cell]);
+    const bool is_beyond = centre[static_cast<int>(stress->stiffer->axis)] > stress->stiffer->beyond;
+    return is_beyond ? stress->stiffer->factor : 1;
+  });
 }
 
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
@@ -273,17 +212,9 @@ mechanics::EquilibriumSettings limited(const cases::Case& definition,
   return settings;
 }
 
-cases::Fields fields_of_springs(const cases::Scene& scene, const msm::DesignResult& design,
-                                const cases::Solution& solution) {
-  if (scene.definition.msm.design == cases::Design::network)
-    return msm::network_fields(scene, assembled_lattice(scene, design), solution);
-  if (design.terms) return msm::fields(scene, *design.terms, solution);
-  return msm::fields(scene, stiffness_of_cells(design), solution);
-}
-
-cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
+cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& springs,
                             cases::Solution solution) {
-  if (scene.definition.has_fields) solution.fields = fields_of_springs(scene, design, solution);
+  if (scene.definition.has_fields) solution.fields = msm::fields(scene, springs, solution);
   return solution;
 }
 
@@ -304,7 +235,7 @@ std::string describe_distance(const cases::Solution& solution) {
 
 /// Adds how far a solution of a given number of iterations is from the equilibrium that Newton's method
 /// finds.
-void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, int n_threads,
+void add_distance(const cases::Scene& scene, const msm::SpringBody& springs, int n_threads,
                   const mechanics::EquilibriumSettings& settings, cases::Solution& solution) {
   cases::FromEquilibrium& from = *solution.from_equilibrium;
   cases::Scene in_equilibrium = scene;
@@ -312,7 +243,7 @@ void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, i
   in_equilibrium.definition.msm.relaxation.reset();
   Answer newton = solve_side(
       [&] {
-        return make_model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
+        return msm::Model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
       },
       [&](msm::Model& model) { return model.solve(settings); });
   if (!newton.converged()) {
@@ -334,32 +265,28 @@ void add_distance(const cases::Scene& scene, const msm::DesignResult& springs, i
 
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
   if (scene.definition.dynamics)
-    return solve_side(
-        [&] { return *(design = design_for(scene)); },
-        [&](msm::DesignResult& springs) {
-          const std::optional<int> enough = scene.definition.msm.iterations_per_step;
-          const auto steps = enough ? mechanics::in_real_time(*enough) : mechanics::IntegrationSettings{};
-          if (!springs.terms)
-            return msm::follow(scene, stiffness_of_cells(springs), {msm::Path::automatic, n_threads, {}, {}},
-                               steps);
-          MovingSprings moving = make_moving_springs(scene, springs);
-          return msm::follow(scene, std::move(moving.lattice), std::move(moving.damping), steps);
-        });
+    return solve_side([&] { return *(design = design_for(scene)); },
+                      [&](const msm::DesignResult& designed) {
+                        const std::optional<int> enough = scene.definition.msm.iterations_per_step;
+                        return msm::follow(scene, designed.springs, {msm::Path::automatic, n_threads, {}, {}},
+                                           enough ? mechanics::in_real_time(*enough)
+                                                  : mechanics::IntegrationSettings{});
+                      });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
-  msm::DesignResult springs;
+  msm::SpringBody springs;
   Answer answer = solve_side(
       [&] {
         design = design_for(scene);
-        springs = as_solved(scene, *design);
-        return make_model(scene, springs, {msm::Path::automatic, n_threads});
+        springs = springs_as_solved(scene, *design);
+        return msm::Model(scene, springs, {msm::Path::automatic, n_threads});
       },
       [&](msm::Model& model) {
         return with_fields(scene, springs,
                            model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
       });
   hold_against_loads(scene, answer,
-                     [&](const cases::Solution& solution) { fields_of_springs(scene, springs, solution); });
+                     [&](const cases::Solution& solution) { msm::fields(scene, springs, solution); });
   if (answer.solution.from_equilibrium) { // outside of the time that the iterations took
     add_distance(scene, springs, n_threads, settings, answer.solution);
     answer.solution.message = describe_distance(answer.solution);

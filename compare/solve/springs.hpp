@@ -26,41 +26,20 @@ msm::DesignResult design_for(const cases::Scene& scene);
 /// @param scene  whose mesh may be without nodes
 bool is_assembled(const cases::Scene& scene);
 
-/// What make_lattice() takes: one stiffness for all cells, or one each.
-std::vector<msm::CellStiffness> stiffness_of_cells(const msm::DesignResult& design);
-
-/// The lattice of a design that is_assembled(): of cells of terms, or the scene's network.
-msm::Lattice assembled_lattice(const cases::Scene& scene, const msm::DesignResult& design);
-
-/// All springs of a scene as they are solved: a hard case's stiffer where it says so.
+/// The springs of a design as they are solved: a hard case's stiffer where it says so.
 /// @param design  design_for() of the scene
-msm::Lattice solved_lattice(const cases::Scene& scene, const msm::DesignResult& design);
-
-/// A scene's springs, ready to be solved.  @param design  design_for() of the scene
-msm::Model make_model(const cases::Scene& scene, const msm::DesignResult& design,
-                      const msm::ModelOptions& options = {});
-
-/// A scene's springs, ready to be moved.
-struct MovingSprings {
-  msm::Lattice lattice, damping; ///< the latter: msm::damping_lattice()
-};
-MovingSprings make_moving_springs(const cases::Scene& scene, const msm::DesignResult& design);
+msm::SpringBody springs_as_solved(const cases::Scene& scene, const msm::DesignResult& design);
 
 /// A solver's settings with the limits of a hard case: load steps, iterations, seconds from now on. For
 /// another case they stay as they are.
 mechanics::EquilibriumSettings limited(const cases::Case& definition,
                                        mechanics::EquilibriumSettings settings = {});
 
-/// Collective where ranks share the solution.
-/// @param design  of the springs that were solved
-/// @throws SolveError where an equilibrium's reactions do not balance the loads
-cases::Fields fields_of_springs(const cases::Scene& scene, const msm::DesignResult& design,
-                                const cases::Solution& solution);
-
 /// The springs' solution under the full load, with its fields where the case asks for them. Collective where
 /// ranks share the solution.
-/// @param design  of the springs that were solved
-cases::Solution with_fields(const cases::Scene& scene, const msm::DesignResult& design,
+/// @param springs  those that were solved
+/// @throws SolveError where an equilibrium's reactions do not balance the loads
+cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& springs,
                             cases::Solution solution);
 
 /// Designs the springs of a scene and solves them in this process, which needs no finite elements: those of a

@@ -42,15 +42,16 @@ nlohmann::ordered_json cell_to_json(const msm::BodyTerms& terms) {
 } // namespace
 
 std::string springs_text(const msm::DesignResult& design) {
-  if (design.terms && design.terms->kinds.empty()) return "of the case's file";
-  if (design.terms && design.terms->boundary == msm::Boundary::whole)
+  if (design.springs.network()) return "of the case's file";
+  const msm::BodyTerms* terms = design.springs.terms();
+  if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
   const msm::CellStiffness& k = design.stiffness;
   const std::string exponents = k.exponents
                                     ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
                                                   k.exponents->face_diagonal, k.exponents->internal_diagonal)
                                     : "";
-  if (design.terms) return cell_text(design.terms->kinds.front()) + exponents;
+  if (terms) return cell_text(terms->kinds.front()) + exponents;
   std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
                                  1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
   if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
@@ -60,13 +61,13 @@ std::string springs_text(const msm::DesignResult& design) {
 nlohmann::ordered_json springs_to_json(const msm::DesignResult& design) {
   const msm::CellStiffness& k = design.stiffness;
   nlohmann::ordered_json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
-  if (!design.terms)
+  if (design.springs.cells())
     springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
   if (k.exponents)
     springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
-  if (design.terms && !design.terms->kinds.empty()) {
-    springs["volume_stiffness_MPa"] = design.terms->kinds.front().volume;
-    springs["cell"] = cell_to_json(*design.terms);
+  if (const msm::BodyTerms* terms = design.springs.terms()) {
+    springs["volume_stiffness_MPa"] = terms->kinds.front().volume;
+    springs["cell"] = cell_to_json(*terms);
   }
   return springs;
 }

@@ -78,7 +78,9 @@ bool has_drawn_springs(const Comparison& comparison) {
 
 void write_springs_vtu(std::ostream& out, const Comparison& comparison,
                        const std::vector<Vector3d>& displacement) {
-  const msm::Lattice lattice = solved_lattice(comparison.scene, *comparison.answers.design);
+  const cases::Scene& scene = comparison.scene;
+  const msm::Lattice lattice =
+      msm::make_lattice(scene.mesh, springs_as_solved(scene, *comparison.answers.design));
   const Lines lines = lines_of(lattice, displacement);
   cases::GridFields all;
   all.point_vectors.push_back({"msm_displacement", displacement, "mm"});

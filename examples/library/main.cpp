@@ -5,8 +5,8 @@
 #include <compare/measure/measure.hpp>
 #include <compare/solve/springs.hpp>
 #include <iostream>
-#include <msm/lattice.hpp>
 #include <msm/model.hpp>
+#include <msm/spring_body.hpp>
 
 using namespace springproof;
 
@@ -21,11 +21,11 @@ int main(int argc, char** argv) try {
             << " MPa, nu = " << design.moduli.poissons_ratio << '\n';
 
   // Every spring, with its own stiffness, as a simulator takes them.
-  const msm::Lattice lattice = msm::make_lattice(scene.mesh, compare::stiffness_of_cells(design));
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, design.springs);
   std::cout << lattice.rest.size() << " points, " << lattice.links.size() << " springs, "
             << lattice.volume_cells.size() << " volume terms\n";
 
-  msm::Model model(scene, lattice);
+  msm::Model model(scene, design.springs);
   const cases::Solution solution = model.solve();
   for (const cases::Measure& measure : scene.definition.measures)
     std::cout << measure.name << " = " << compare::evaluate(measure, scene, solution) << ' '

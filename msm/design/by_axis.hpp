@@ -1,8 +1,8 @@
 #pragma once
 
-#include "msm/cell_terms.hpp"
 #include "msm/design/lattice_moduli.hpp"
 #include "msm/design/transverse.hpp"
+#include "msm/spring_body.hpp"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/cell_terms.hpp"
+#include "msm/spring_body.hpp"
 
 /// Cells cut into five tetrahedra: one at each of four corners, and one between them. In a grid the cut is
 /// mirrored from cell to cell, so that neighbours agree on the diagonal of their common face: cell (i, j, k)

@@ -135,27 +135,28 @@ mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
   return {incompressible_lambda_over_mu * mu, mu, (incompressible_lambda_over_mu + 2. / 3) * mu};
 }
 
-/// What a method answers.
-struct Designed {
-  CellStiffness stiffness{};
-  std::optional<double> residual{}; ///< its objective at its minimum
-  std::optional<BodyTerms> terms{}; ///< in place of the stiffnesses
-  std::vector<std::string> warnings{};
-  std::optional<NearestModuli> by_fibre{};
-};
-
-Designed in_cell(const DesignRequest& request, const CellStiffness& four, const CubicModuli& moduli) {
-  const auto k = by_axis_where_needed(four, moduli, split(request), request.cell);
-  return k ? Designed{{}, {}, BodyTerms{{terms_by_axis(k->springs, k->volume)}}} : Designed{four};
+DesignResult of_terms(std::vector<CellTerms> kinds) {
+  DesignResult result;
+  result.springs = BodyTerms{std::move(kinds)};
+  return result;
 }
 
-Designed from_linear_method(const DesignRequest& request) {
+BodyTerms* terms_in(DesignResult& result) {
+  return std::get_if<BodyTerms>(&result.springs.kind);
+}
+
+DesignResult in_cell(const DesignRequest& request, const CellStiffness& four, const CubicModuli& moduli) {
+  const auto k = by_axis_where_needed(four, moduli, split(request), request.cell);
+  return k ? of_terms({terms_by_axis(k->springs, k->volume)}) : DesignResult{four};
+}
+
+DesignResult from_linear_method(const DesignRequest& request) {
   const cases::LinearElastic material = designed_material(request, 0);
   const LinearFit fit = linear_method(request.element_stiffness(material), request.cell);
   return {fit.stiffness, fit.residual};
 }
 
-Designed from_moduli_method(const DesignRequest& request) {
+DesignResult from_moduli_method(const DesignRequest& request) {
   // E = 3 mu, G = mu is the finite limit of incompressibility, which an Ogden material without bulk modulus
   // means.
   const cases::LinearElastic material =
@@ -167,12 +168,13 @@ Designed from_moduli_method(const DesignRequest& request) {
 
 /// Below nu = 1/4 the volume term is negative. In a cube the springs outweigh it; in another cell they may
 /// not, and cells that are stable alone are stable together.
-Designed from_hybrid_method(const DesignRequest& request) {
+DesignResult from_hybrid_method(const DesignRequest& request) {
   if (!is_incompressible(request)) designed_material(request, 0);
   const auto [lambda, mu, kappa] = elastic_moduli(request);
-  Designed result =
+  DesignResult result =
       in_cell(request, hybrid_method(lambda, mu, split(request), request.cell), {3 * mu, mu, lambda - mu});
-  const CellTerms cell = result.terms ? result.terms->kinds.front() : terms_of(result.stiffness);
+  const BodyTerms* terms = result.springs.terms();
+  const CellTerms cell = terms ? terms->kinds.front() : terms_of(result.stiffness);
   if (cell.volume < 0 && signs_at_rest(cell_stiffness_matrix(request.cell, cell)).n_negative > 0)
     refuse(request,
            fmt::format("design = \"{}\": below nu = 0.25 the volume term is negative, and the springs "
@@ -181,8 +183,8 @@ Designed from_hybrid_method(const DesignRequest& request) {
   return result;
 }
 
-Designed from_matched_method(const DesignRequest& request) {
-  Designed result = from_hybrid_method(request);
+DesignResult from_matched_method(const DesignRequest& request) {
+  DesignResult result = from_hybrid_method(request);
   if (request.options.exponent) return result;
   const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
   const cases::Material material =
@@ -190,17 +192,17 @@ Designed from_matched_method(const DesignRequest& request) {
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
   result.stiffness.exponents = fit.exponents;
-  if (result.terms) set_exponents(result.terms->kinds.front(), fit.exponents);
+  if (BodyTerms* terms = terms_in(result)) set_exponents(terms->kinds.front(), fit.exponents);
   result.residual = fit.objective;
   return result;
 }
 
-Designed from_nonlinear_method(const DesignRequest& request) {
+DesignResult from_nonlinear_method(const DesignRequest& request) {
   const NonlinearFit fit = nonlinear_method(uniaxial_reference(request), required_cube_edge(request));
   return {fit.stiffness, fit.objective};
 }
 
-Designed from_multi_load(const DesignRequest& request) {
+DesignResult from_multi_load(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   cases::Material material = request.material;
   if (std::holds_alternative<cases::LinearElastic>(material) || options.poissons_ratio)
@@ -243,14 +245,14 @@ double required_youngs_modulus(const DesignRequest& request) {
   return youngs_modulus;
 }
 
-Designed from_ladd_kinney(const DesignRequest& request) {
+DesignResult from_ladd_kinney(const DesignRequest& request) {
   return {ladd_kinney(required_youngs_modulus(request), required_cube_edge(request))};
 }
 
-Designed from_baudet(const DesignRequest& request) {
+DesignResult from_baudet(const DesignRequest& request) {
   const cases::LinearElastic material = is_incompressible(request) ? small_strain_material(request.material)
                                                                    : designed_material(request, -0.25);
-  Designed result{baudet(material.youngs_modulus, material.poissons_ratio, required_cube_edge(request))};
+  DesignResult result{baudet(material.youngs_modulus, material.poissons_ratio, required_cube_edge(request))};
   if (std::abs(material.poissons_ratio - 0.25) > 1e-9)
     result.warnings.push_back(
         "the published design corrects its Poisson's ratio by lateral forces without an energy; they are "
@@ -258,28 +260,30 @@ Designed from_baudet(const DesignRequest& request) {
   return result;
 }
 
-Designed from_uniform(const DesignRequest& request) {
+DesignResult from_uniform(const DesignRequest& request) {
   const auto& given = request.options.uniform_stiffness;
   const double k = given ? newton_per_metre * *given
                          : uniform_stiffness(required_youngs_modulus(request), required_cube_edge(request));
-  return {uniform_springs(k), {}, BodyTerms{{terms_of(uniform_springs(k))}, {}, Boundary::whole}};
+  DesignResult result{uniform_springs(k)};
+  result.springs = BodyTerms{{terms_of(result.stiffness)}, {}, Boundary::whole};
+  return result;
 }
 
-Designed from_van_gelder(const DesignRequest& request) {
-  return {{}, {}, BodyTerms{van_gelder(request.cell, required_youngs_modulus(request))}};
+DesignResult from_van_gelder(const DesignRequest& request) {
+  return of_terms(van_gelder(request.cell, required_youngs_modulus(request)));
 }
 
-Designed from_lloyd(const DesignRequest& request) {
-  return {{}, {}, BodyTerms{lloyd(request.cell, required_youngs_modulus(request))}};
+DesignResult from_lloyd(const DesignRequest& request) {
+  return of_terms(lloyd(request.cell, required_youngs_modulus(request)));
 }
 
-Designed from_biquadratic(const DesignRequest& request) {
+DesignResult from_biquadratic(const DesignRequest& request) {
   const mechanics::ElasticModuli moduli = elastic_moduli(request);
-  return {{}, {}, BodyTerms{biquadratic(moduli.lambda, moduli.mu)}};
+  return of_terms(biquadratic(moduli.lambda, moduli.mu));
 }
 
 /// Where no stiffness is negative the lattice is stable at rest; where one is, the others may outweigh it.
-Designed from_transverse(const DesignRequest& request) {
+DesignResult from_transverse(const DesignRequest& request) {
   const auto& material = std::get<cases::TransverselyIsotropic>(request.material);
   const auto axis = cases::axis_along(material.fibre);
   if (!axis)
@@ -297,7 +301,8 @@ Designed from_transverse(const DesignRequest& request) {
                        "C12 - C66 = C13 - C44; the nearest ones err by {:.3g} % in the energy of a "
                        "strain, and need negative springs that the others do not outweigh",
                        100 * nearest.misfit));
-  Designed result{{}, nearest.distance, BodyTerms{{terms}}};
+  DesignResult result = of_terms({terms});
+  result.residual = nearest.distance;
   if (nearest.misfit > told_misfit)
     result.warnings.push_back(
         fmt::format("the lattice's moduli, C12 - C66 = C13 - C44, are the nearest to the "
@@ -307,25 +312,24 @@ Designed from_transverse(const DesignRequest& request) {
   return result;
 }
 
-Designed from_given(const DesignRequest& request) {
+DesignResult from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   if (options.axis_stiffness) {
     std::array<double, 7> stiffness = *options.axis_stiffness;
     for (double& k : stiffness) k *= newton_per_metre;
-    return {{}, {}, BodyTerms{{terms_by_axis(stiffness, options.volume_stiffness)}}};
+    return of_terms({terms_by_axis(stiffness, options.volume_stiffness)});
   }
   if (!options.stiffness) refuse(request, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
   const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
   return {{newton_per_metre * edge, newton_per_metre * face_diagonal, newton_per_metre * internal_diagonal,
-           options.volume_stiffness},
-          {}};
+           options.volume_stiffness}};
 }
 
-Designed from_network(const DesignRequest& request) {
+DesignResult from_network(const DesignRequest& request) {
   refuse(request, "design = \"network\" has springs of a whole body, and no cell");
 }
 
-const std::map<cases::Design, Designed (*)(const DesignRequest&)> known_methods = {
+const std::map<cases::Design, DesignResult (*)(const DesignRequest&)> known_methods = {
     {cases::Design::linear_method, from_linear_method},
     {cases::Design::nonlinear_method, from_nonlinear_method},
     {cases::Design::moduli, from_moduli_method},
@@ -387,27 +391,25 @@ DesignResult design(const DesignRequest& request) {
     refuse(request, fmt::format("design = \"{}\": must be {} with this {} material", name_of(options.design),
                                 cases::designs_for(is_isotropic),
                                 is_isotropic ? "isotropic" : "transversely isotropic"));
-  Designed found = known_methods.at(options.design)(request);
-  if (const auto law = law_of(options)) {
-    found.stiffness.exponents = law;
-    if (found.terms)
-      for (CellTerms& kind : found.terms->kinds) set_exponents(kind, *found.stiffness.exponents);
+  DesignResult result = known_methods.at(options.design)(request);
+  const auto law = law_of(options);
+  if (law) result.stiffness.exponents = law;
+  std::vector<CellTerms> kinds{terms_of(result.stiffness)};
+  std::vector<std::string> doubts = examine(result.stiffness, request.cell);
+  if (BodyTerms* terms = terms_in(result)) {
+    if (law)
+      for (CellTerms& kind : terms->kinds) set_exponents(kind, *law);
+    kinds = terms->kinds;
+    doubts = examine(kinds.front(), request.cell); // the others are mirror images
+  } else {
+    result.springs = {result.stiffness};
   }
-  DesignResult result;
-  result.stiffness = found.stiffness;
-  result.residual = found.residual;
-  result.terms = std::move(found.terms);
-  result.by_fibre = found.by_fibre;
-  result.moduli = result.terms ? lattice_moduli(result.terms->kinds, request.cell)
-                               : lattice_moduli(result.stiffness, request.cell);
-  result.warnings = result.terms ? examine(result.terms->kinds.front(), request.cell)
-                                 : examine(result.stiffness, request.cell);
-  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
+  result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
+  const Elasticity elasticity = cell_elasticity(kinds, request.cell);
+  result.moduli = averaged_moduli(elasticity);
   const auto material = elasticity_at_rest(request.material);
   if (material && !request.uniaxial_reference && !result.by_fibre) { // which tells of its own misfit
-    result.misfit = moduli_misfit(result.terms ? cell_elasticity(result.terms->kinds, request.cell)
-                                               : cell_elasticity(result.stiffness, request.cell),
-                                  *material);
+    result.misfit = moduli_misfit(elasticity, *material);
     if (!(result.misfit->largest <= told_moduli_misfit)) result.warnings.push_back(result.misfit->text);
   }
   const auto range = options.strain_range.value_or(matched_range);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "msm/cell_terms.hpp"
 #include "msm/design/linear_method.hpp"
 #include "msm/design/misfit.hpp"
 #include "msm/design/transverse.hpp"
 #include "msm/design/uniaxial.hpp"
+#include "msm/spring_body.hpp"
 
 #include <optional>
 
@@ -27,19 +27,18 @@ struct DesignResult {
   std::optional<double> residual{}; ///< the method's objective at its minimum; absent for a closed form
   LatticeModuli moduli{};
   std::vector<std::string> warnings{}; ///< why the design should not be trusted; empty for a sound one
-  std::vector<CellStiffness> cells{};  ///< of every cell of a mesh of unequal cells; empty when all are alike
-  /// What the cells consist of in place of four stiffnesses each. One kind for every cell, or two mirror
-  /// images, until kind_of_cell says more; design_for() of compare/solve fills it in. No kind: the scene's
-  /// network.
-  std::optional<BodyTerms> terms{};
-
+  /// Cells of `stiffness`, or of terms: one kind for every cell, or two mirror images. design_for() of
+  /// compare/solve says what every cell of a mesh has, or the scene's network.
+  SpringBody springs{};
   std::optional<NearestModuli> by_fibre{}; ///< of the transverse design, in place of the moduli's means
   /// Of the lattice's moduli; absent beside by_fibre and where a curve stands for the material. From
   /// told_moduli_misfit on its text is one of the warnings.
   std::optional<ModuliMisfit> misfit{};
 
   /// Whether `stiffness` says what the springs are far from the boundary.
-  bool is_of_four_stiffnesses() const { return !terms || terms->boundary == Boundary::whole; }
+  bool is_of_four_stiffnesses() const {
+    return springs.cells() || (springs.terms() && springs.terms()->boundary == Boundary::whole);
+  }
 };
 
 /// Runs the method that request.options names, then examines its result.

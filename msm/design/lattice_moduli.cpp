@@ -36,21 +36,7 @@ Elasticity affine_elasticity(const CellMatrix& matrix, const CellVertices& verti
   return strains.transpose() * matrix * strains / cases::cell_volume(vertices);
 }
 
-LatticeModuli averaged_over_axes(const Elasticity& elasticity) {
-  return cubic_moduli(elasticity.diagonal().head<3>().mean(),
-                      (elasticity(0, 1) + elasticity(1, 2) + elasticity(0, 2)) / 3,
-                      elasticity.diagonal().tail<3>().mean());
-}
-
 } // namespace
-
-Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
-  return affine_elasticity(cell_stiffness_matrix(vertices, stiffness), vertices);
-}
-
-LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices) {
-  return averaged_over_axes(cell_elasticity(stiffness, vertices));
-}
 
 Elasticity cell_elasticity(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
   Elasticity sum = Elasticity::Zero();
@@ -59,8 +45,10 @@ Elasticity cell_elasticity(const std::vector<CellTerms>& kinds, const CellVertic
   return sum / static_cast<double>(kinds.size());
 }
 
-LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices) {
-  return averaged_over_axes(cell_elasticity(kinds, vertices));
+LatticeModuli averaged_moduli(const Elasticity& elasticity) {
+  return cubic_moduli(elasticity.diagonal().head<3>().mean(),
+                      (elasticity(0, 1) + elasticity(1, 2) + elasticity(0, 2)) / 3,
+                      elasticity.diagonal().tail<3>().mean());
 }
 
 CellVertices cube(double edge) {

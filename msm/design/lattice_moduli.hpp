@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/cell_terms.hpp"
+#include "msm/spring_body.hpp"
 
 namespace springproof::msm {
 
@@ -22,24 +22,20 @@ struct LatticeModuli {
 /// @param edge  h, mm, > 0
 LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
 
-/// The same from the cell's response to affine displacements: exact for a parallelepiped, whose C11, C12, C44
-/// are averaged over the three axes; for another hexahedron the affine (Voigt) estimate.
-/// @param vertices  mm
-LatticeModuli lattice_moduli(const CellStiffness& stiffness, const CellVertices& vertices);
-
-/// The same of cells of terms: the mean of their kinds. Exact too where the points of the lattice are centres
-/// of symmetry, as those of the cut cells are.
-LatticeModuli lattice_moduli(const std::vector<CellTerms>& kinds, const CellVertices& vertices);
-
 /// MPa; engineering strains in the order xx, yy, zz, yz, xz, xy.
 using Elasticity = Eigen::Matrix<double, 6, 6>;
 
-/// Energy of a cell under affine displacements as an elasticity matrix: twice the energy per rest volume is
-/// e^T C e.
-Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices);
-
-/// The same of cells of terms: the mean of their kinds.
+/// Energy of cells under affine displacements as an elasticity matrix: twice the energy per rest volume is
+/// e^T C e. The mean of the cells' kinds.
 Elasticity cell_elasticity(const std::vector<CellTerms>& kinds, const CellVertices& vertices);
+inline Elasticity cell_elasticity(const CellStiffness& stiffness, const CellVertices& vertices) {
+  return cell_elasticity(std::vector{terms_of(stiffness)}, vertices);
+}
+
+/// C11, C12 and C44 averaged over the three axes. Of cell_elasticity() they are exact for a parallelepiped,
+/// and where the points of the lattice are centres of symmetry, as those of the cut cells are; for another
+/// hexahedron they are the affine (Voigt) estimate.
+LatticeModuli averaged_moduli(const Elasticity& elasticity);
 
 /// Derived ratios from the three constants of a cubic solid (MPa).
 LatticeModuli cubic_moduli(double c11, double c12, double c44);

@@ -1,21 +1,21 @@
 #pragma once
 
-#include "msm/cell_terms.hpp"
 #include "msm/design/lattice_moduli.hpp"
+#include "msm/spring_body.hpp"
 
 namespace springproof::msm {
 
 /// Degree of freedom 3*vertex + component, vertex v = i + 2j + 4k.
 using CellMatrix = Eigen::Matrix<double, 24, 24>;
 
-/// Stiffness matrix of one cell's springs, linearised at rest (N/mm):
+/// Stiffness matrix of one cell, its tangent at rest (N/mm). Springs have
 ///   K_ii = sum_j k_ij n n^T,  K_ij = -k_ij n n^T,  n the unit vector along the spring,
-/// plus that of the volume term, (k_v/V0) g g^T with g = dV/dx.  Source: thesis eqs 4.12, 4.13.
+/// the volume term (k_v/V0) g g^T with g = dV/dx.  Source: thesis eqs 4.12, 4.13.
 /// @param vertices  rest positions, mm
-CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness);
-
-/// The same of a cell of terms: its tangent at rest.
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellTerms& terms);
+inline CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellStiffness& stiffness) {
+  return cell_stiffness_matrix(vertices, terms_of(stiffness));
+}
 
 struct LinearFit {
   CellStiffness stiffness; ///< without a volume term

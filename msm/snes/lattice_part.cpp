@@ -24,7 +24,7 @@ LatticePart::LatticePart(const Problem& problem, MPI_Comm communicator)
   gradient_ = make_vector();
   applied_ = make_vector();
   Vector applied = own(problem.on_all_points(problem.force));
-  clear_constrained(applied);
+  for_each_constrained([&](PetscInt entry) { applied[entry] = 0; });
   put(applied_.get(), applied);
 }
 
@@ -82,7 +82,7 @@ petsc::Vector LatticePart::make_vector() const {
                                        n_ghosts, ghosts_.data()));
 }
 
-petsc::Matrix LatticePart::make_matrix(const Lattice& part) const {
+petsc::Matrix LatticePart::make_matrix() const {
   const auto create = [&](MatType type) {
     const Mat made = petsc::get<Mat>(MatCreate, communicator_);
     petsc::Matrix owned(made);
@@ -97,36 +97,19 @@ petsc::Matrix LatticePart::make_matrix(const Lattice& part) const {
   const Eigen::Matrix3d none = Eigen::Matrix3d::Zero(); // of points that no spring holds
   for (PetscInt p = first_; p < first_ + n_own_; ++p)
     check(MatSetValuesBlocked(sparsity.get(), 1, &p, 1, &p, none.data(), ADD_VALUES));
-  add_tangent(part, part.rest, sparsity.get());
+  add_tangent(lattice_.rest, sparsity.get());
   check(MatPreallocatorPreallocate(sparsity.get(), PETSC_TRUE, matrix.get()));
   // Constrained rows keep their zeros: a factorisation is analysed once.
   check(MatSetOption(matrix.get(), MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
   check(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
   // Where it is not definite, the pivots' signs or conjugate gradients tell.
   check(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE));
-  petsc::attach_rigid_motions(matrix.get(), part.rest);
-  return matrix;
-}
-
-petsc::Matrix LatticePart::tangent_at_rest(const Lattice& whole) const {
-  const Lattice part = part_of(whole);
-  petsc::Matrix matrix = make_matrix(part);
-  add_tangent(part, part.rest, matrix.get());
+  petsc::attach_rigid_motions(matrix.get(), lattice_.rest);
   return matrix;
 }
 
 Vector LatticePart::own(const Points& values) const {
   return Eigen::Map<const Vector>(values.front().data() + 3 * first_, 3 * n_own_);
-}
-
-Vector LatticePart::own(const std::vector<double>& values) const {
-  Vector own(3 * n_own_);
-  for (PetscInt p = 0; p < n_own_; ++p) own.segment<3>(3 * p).setConstant(values[index(first_ + p)]);
-  return own;
-}
-
-void LatticePart::clear_constrained(Vector& own) const {
-  for_each_constrained([&](PetscInt entry) { own[entry] = 0; });
 }
 
 Points LatticePart::deal(const Vector& own, const cases::Sharing* sharing) const {
@@ -143,8 +126,7 @@ Vector LatticePart::own(Vec vector) const {
   return Eigen::Map<const Vector>(ReadEntries(vector).data(), 3 * n_own_);
 }
 
-/// The gradient of the lattice's energy at a displacement: gradient_.
-void LatticePart::find_gradient(Vec displacement) const {
+void LatticePart::residual(Vec displacement, double load_factor, Vec out) const {
   const Points force = internal_force_at(lattice_, local_displacement(displacement));
   {
     const WriteEntries gradient(gradient_.get());
@@ -152,16 +134,6 @@ void LatticePart::find_gradient(Vec displacement) const {
       for (int c = 0; c < 3; ++c) gradient[3 * p + static_cast<std::size_t>(c)] = -force[p][c];
   }
   petsc::add_ghosts(gradient_.get());
-}
-
-Vector LatticePart::internal_force(const Vector& displacement) const {
-  put(moved_.get(), displacement);
-  find_gradient(moved_.get());
-  return -own(gradient_.get());
-}
-
-void LatticePart::residual(Vec displacement, double load_factor, Vec out) const {
-  find_gradient(displacement);
   check(VecCopy(gradient_.get(), out));
   check(VecAXPY(out, -load_factor, applied_.get()));
   // An iterative solver moves the supports a little: the next step has to bring them back.
@@ -172,19 +144,11 @@ void LatticePart::residual(Vec displacement, double load_factor, Vec out) const 
 }
 
 void LatticePart::tangent(Vec displacement, Mat matrix) const {
-  tangent_of_forces(displacement, matrix);
-  constrain(matrix);
-}
-
-void LatticePart::tangent_of_forces(Vec displacement, Mat matrix) const {
   check(MatZeroEntries(matrix));
   Points positions = local_displacement(displacement);
   for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += lattice_.rest[p];
-  add_tangent(lattice_, positions, matrix);
-}
-
-void LatticePart::constrain(Mat tangent) const {
-  check(MatZeroRowsColumns(tangent, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
+  add_tangent(positions, matrix);
+  check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(constrained_.size()), constrained_.data(), 1,
                            nullptr, nullptr));
 }
 
@@ -208,14 +172,14 @@ double LatticePart::reference_force() const {
   return norm > 0 ? norm : 1;
 }
 
-void LatticePart::add_tangent(const Lattice& part, const Points& positions, Mat matrix) const {
+void LatticePart::add_tangent(const Points& positions, Mat matrix) const {
   const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
     const PetscInt row = global(index(i)), column = global(index(j));
     const Eigen::Matrix3d transposed = block.transpose(); // PETSc wants rows, Eigen stores columns
     check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, transposed.data(), ADD_VALUES));
     if (i != j) check(MatSetValuesBlocked(matrix, 1, &column, 1, &row, block.data(), ADD_VALUES));
   };
-  visit_tangent_blocks(part, positions, TransverseTerm::exact, add);
+  visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }

@@ -17,15 +17,10 @@ class LatticePart {
 
   mechanics::petsc::Vector make_vector() const;
   /// With the sparsity of the tangent, and all of the diagonal.
-  mechanics::petsc::Matrix make_matrix() const { return make_matrix(lattice_); }
-  /// The tangent at rest of another lattice of the same points, whose links and cells join none that the
-  /// problem's do not; its supports are not constrained.
-  mechanics::petsc::Matrix tangent_at_rest(const Lattice& whole) const;
+  mechanics::petsc::Matrix make_matrix() const;
 
-  /// This rank's entries of values of all points; of a number per point three times that.
+  /// This rank's entries of values of all points.
   Vector own(const Points& values) const;
-  Vector own(const std::vector<double>& values) const;
-  void clear_constrained(Vector& own) const;
   /// Of the points that this rank owns to those that it shows of the answer.
   Points deal(const Vector& own, const cases::Sharing* sharing) const;
 
@@ -33,23 +28,13 @@ class LatticePart {
   void put(Vec vector, const Vector& own) const;
   Vector own(Vec vector) const;
 
-  /// Internal forces on the points at a displacement, N.
-  Vector internal_force(const Vector& displacement) const;
   /// Minus the forces on the points at a displacement, N; of constrained degrees of freedom how far they are
   /// from where they should be, mm. SNES' function: it has the tangent as its derivative.
   void residual(Vec displacement, double load_factor, Vec out) const;
   /// The derivative of residual(): that of the forces, constrained.
   void tangent(Vec displacement, Mat matrix) const;
-  void tangent_of_forces(Vec displacement, Mat matrix) const;
-  void constrain(Mat tangent) const;
   /// Sets the constrained degrees of freedom.
   void move_supports(Vector& displacement, double load_factor) const;
-  bool has_moving_supports() const { return bool(problem_.supports); }
-  /// Calls action(entry) for constrained ones among the owned entries.
-  template<class Action>
-  void for_each_constrained(const Action& action) const {
-    for (const PetscInt d : constrained_) action(d - 3 * first_);
-  }
 
   /// What residuals are measured against: the norm of the applied forces, N; 1 when there are none.
   double reference_force() const;
@@ -68,12 +53,15 @@ class LatticePart {
   int local(int point) const;
   void deal_out();
   Lattice part_of(const Lattice& whole) const;
-  mechanics::petsc::Matrix make_matrix(const Lattice& part) const;
-  void add_tangent(const Lattice& part, const Points& positions, Mat matrix) const;
+  void add_tangent(const Points& positions, Mat matrix) const;
   Points local_displacement(Vec displacement) const;
-  void find_gradient(Vec displacement) const;
   Points supports(double load_factor) const;
   double at(const Points& of_supports, PetscInt entry) const; ///< of constrained, owned entries
+  /// Calls action(entry) for constrained ones among the owned entries.
+  template<class Action>
+  void for_each_constrained(const Action& action) const {
+    for (const PetscInt d : constrained_) action(d - 3 * first_);
+  }
 };
 
 } // namespace springproof::msm

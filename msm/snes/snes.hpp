@@ -1,6 +1,7 @@
 #pragma once
 
 #include "msm/problem.hpp"
+#include "msm/spring_body.hpp"
 
 #include <mpi.h>
 
@@ -11,22 +12,14 @@ constexpr int factorised_by_snes = 30000;
 
 /// Static equilibrium of a scene's lattice over the ranks of a communicator. Where msm::Model would take its
 /// multigrid path, that path with the grid's nodes dealt out in bricks (deal_out.hpp): the same iterations on
-/// any number of ranks. On any other mesh by PETSc: SNES' Newton method with a line search on the imbalance,
+/// any number of ranks. Elsewhere by PETSc: SNES' Newton method with a line search on the imbalance,
 /// an assembled matrix of 3x3 blocks, and MUMPS up to factorised_by_snes unknowns; above them conjugate
 /// gradients with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved where SNES
 /// fails. PETSC_OPTIONS reach SNES with the prefix msm_. Collective: points are dealt out to the ranks, each
 /// of which knows the whole scene; they share the answer (Solution::sharing).
-/// @param stiffness  one for every cell of the scene's mesh, or a single one for all
 /// @param start      displacement (mm) to start from, one per node; empty: rest
 /// @throws cases::SolveError with the load reached when the load cannot be carried
-cases::Solution solve_by_snes(const cases::Scene& scene, const std::vector<CellStiffness>& stiffness,
-                              MPI_Comm communicator, const mechanics::EquilibriumSettings& settings = {},
-                              const Points& start = {});
-
-/// The same for a lattice of any links, tetrahedra and volume terms on the scene's nodes: by PETSc on every
-/// mesh.
-cases::Solution solve_lattice_by_snes(const cases::Scene& scene, Lattice lattice, MPI_Comm communicator,
-                                      const mechanics::EquilibriumSettings& settings = {},
-                                      const Points& start = {});
+cases::Solution solve_by_snes(const cases::Scene& scene, const SpringBody& springs, MPI_Comm communicator,
+                              const mechanics::EquilibriumSettings& settings = {}, const Points& start = {});
 
 } // namespace springproof::msm

@@ -256,24 +256,14 @@ TEST_CASE("cells of terms have the energy and the forces of their lattice", "[ve
   }
 }
 
-TEST_CASE("four stiffnesses and the same springs as terms have the same fields") {
-  const cases::Scene scene = body();
-  const cases::Solution solution = deformed(scene, finite_deformation());
-  for (const msm::CellStiffness& springs : {bodies::hybrid_cell, power_log_cell()})
-    CHECK(largest_difference(msm::fields(scene, std::vector<msm::CellStiffness>{springs}, solution, 0),
-                             msm::fields(scene, msm::BodyTerms{{msm::terms_of(springs)}}, solution, 0)) <=
-          1e-15);
-}
-
 TEST_CASE("a network has reactions, a whole energy and strain, but no stress", "[verification]") {
   const cases::Scene scene = body();
   const cases::Solution solution = deformed(scene, finite_deformation());
-  std::vector<cases::NetworkSpring> springs;
+  msm::Network springs;
   const msm::Lattice lattice = msm::make_lattice(scene.mesh, {bodies::thesis_cell});
   for (const auto& [i, j, spring] : lattice.links) springs.push_back({j, i, spring.stiffness, {}, {}});
   const cases::Fields of_cells = affine(scene, bodies::thesis_cell, finite_deformation()),
-                      of_network =
-                          msm::network_fields(scene, msm::network_lattice(scene.mesh, springs), solution, 0);
+                      of_network = msm::fields(scene, springs, solution, 0);
   CHECK_FALSE(of_network.has_stress);
   CHECK(of_network.stress.empty());
   CHECK(of_network.strain_energy.empty());

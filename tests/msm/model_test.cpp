@@ -102,23 +102,28 @@ TEST_CASE(
              Catch::EndsWith("because of springs of negative stiffness"));
   CHECK_THAT(solve_error(scene, bodies::cell(31, 47, 33, -9)).what(),
              Catch::EndsWith("because of volume terms or tetrahedra of negative stiffness"));
-  const auto error_of = [&](msm::Lattice lattice) {
+  // Networks of a lattice's springs, pressed together by their rest lengths.
+  const auto pressed = [&](const msm::CellStiffness& cell, double factor) {
+    msm::Network springs;
+    for (const auto& [i, j, spring] : msm::make_lattice(scene.mesh, {cell}).links)
+      springs.push_back({i, j, spring.stiffness, factor * spring.rest_length, {}});
+    return springs;
+  };
+  const auto error_of = [&](const msm::Network& springs) {
     try {
-      msm::Model(scene, std::move(lattice)).solve();
+      msm::Model(scene, springs).solve();
     } catch (const cases::SolveError& error) {
       return error;
     }
     return cases::SolveError("none");
   };
-  msm::Lattice lattice = msm::make_lattice(scene.mesh, {bodies::cell(31, 47, 33)});
-  for (msm::Link& link : lattice.links) link.spring.rest_length *= 3;
-  const std::string all = std::to_string(lattice.links.size());
-  CHECK_THAT(error_of(lattice).what(),
+  const msm::Network network = pressed(bodies::cell(31, 47, 33), 3);
+  const std::string all = std::to_string(network.size());
+  CHECK_THAT(error_of(network).what(),
              Catch::EndsWith("because springs are pressed together there: the points of " + all + " of " +
                              all + " are nearer to each other than the spring's rest length"));
   // Too few springs, in a file of few digits: what hardly presses is not to blame.
-  msm::Lattice loose = msm::make_lattice(scene.mesh, {bodies::cell(31, 0, 0)});
-  for (msm::Link& link : loose.links) link.spring.rest_length *= 1 + 1e-6;
+  const msm::Network loose = pressed(bodies::cell(31, 0, 0), 1 + 1e-6);
   CHECK(error_of(loose).outcome() == cases::Outcome::mechanism);
   CHECK_THAT(error_of(loose).what(), Catch::EndsWith("meets no stiffness"));
 }

@@ -62,8 +62,7 @@ cases::Dynamics dynamics_of(cases::Scheme scheme, double step, double end, cases
 }
 
 cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSettings& settings = {}) {
-  return msm::follow(scene, msm::make_lattice(scene.mesh, springs_of_all),
-                     msm::damping_lattice(scene, springs_of_all), settings);
+  return msm::follow(scene, springs_of_all, {msm::Path::direct, 1, {}, {}}, settings);
 }
 
 /// Of the static scene.
@@ -164,8 +163,9 @@ TEST_CASE("springs' error in time falls at the order of each scheme", "[verifica
   msm::Problem problem = msm::make_moving_problem(scene);
   problem.lattice = msm::make_lattice(scene.mesh, springs_of_all);
   const auto statics = msm::make_direct_system(problem);
+  const msm::SpringBody damping = msm::damping_springs(scene, springs_of_all);
   const auto motion = msm::make_moving_lattice(
-      problem, *statics, msm::make_inertia(scene, msm::damping_lattice(scene, springs_of_all)));
+      problem, *statics, msm::make_inertia(scene, msm::make_lattice(scene.mesh, damping)));
   msm::Points shape(scene.mesh.nodes.size(), Vector3d::Zero()); // bends and stretches finitely
   for (std::size_t n = 0; n < shape.size(); ++n) {
     const double along = scene.mesh.nodes[n].x() / 30;

@@ -101,7 +101,7 @@ struct Moving {
       : problem(msm::make_moving_problem(scene)), grid(msm::grid::make_grid_problem(problem, cells)),
         vectors(grid.body), statics(msm::grid::make_grid_system(grid, n_threads)),
         motion(msm::grid::make_moving_grid(problem, grid, vectors, *statics, msm::make_inertia(scene, {}),
-                                           msm::damping_stiffness(scene, cells), n_threads)) {}
+                                           *msm::damping_springs(scene, cells).cells(), n_threads)) {}
   Moving(const cases::Scene& scene, const msm::CellStiffness& cell) : Moving(scene, std::vector{cell}) {}
   Moving(const Moving&) = delete; // the others refer to its problem
 

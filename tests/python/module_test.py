@@ -149,8 +149,9 @@ def check_threads():
 LONG = """
 import os, signal, sys, threading, time, springproof
 def long(side):
-    settings = {"dynamics.end": 6000} if side != "snes" else {"dynamics.end": 6000, "msm.solver": "snes"}
-    return springproof.read_case(sys.argv[1], settings), "fem" if side == "fem" else "msm"
+    if side == "snes":
+        return springproof.read_case(sys.argv[3], {"body.cells": [40, 40, 40], "msm.design": "uniform", "msm.solver": "snes"}), "msm"
+    return springproof.read_case(sys.argv[1], {"dynamics.end": 6000}), side
 def solve(side):
     case, name = long(side)
     case.solve(name)
@@ -184,7 +185,7 @@ except OSError as error: print("went on")
 
 
 def check_interruptions():
-    """Ctrl-C ends a solve and one that waits for another; a handler may solve; Python may end while threads solve. Each solve would take hours."""
+    """Ctrl-C ends a solve and one that waits for another; a handler may solve; Python may end while threads solve. Each solve would take much longer."""
     for script, sides in ((INTERRUPTED, ("msm", "fem", "snes")), (WAITING, ("msm", "fem", "snes")), (HANDLER, ("msm", "fem", "snes"))):
         for side in sides:
             done = subprocess.run([sys.executable, "-W", "ignore", "-c", script, bar, side, block], capture_output=True, text=True, timeout=200)

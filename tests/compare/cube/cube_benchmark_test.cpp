@@ -216,13 +216,14 @@ TEST_CASE(
   definition.msm.design = cases::Design::van_gelder;
   const cases::Scene scene = cases::make_scene(definition);
   const msm::DesignResult design = compare::design_for(scene);
-  REQUIRE(design.terms);
-  REQUIRE(design.terms->kind_of_cell.size() == 1000);
-  CHECK(design.terms->kind_of_cell[0] == 0);
-  CHECK(design.terms->kind_of_cell[1] == 1);  // the next along x
-  CHECK(design.terms->kind_of_cell[10] == 1); // along y
-  CHECK(design.terms->kind_of_cell[11] == 0);
-  CHECK(design.terms->kind_of_cell[100] == 1); // along z
+  REQUIRE(design.springs.terms());
+  const std::vector<int>& kinds = design.springs.terms()->kind_of_cell;
+  REQUIRE(kinds.size() == 1000);
+  CHECK(kinds[0] == 0);
+  CHECK(kinds[1] == 1);  // the next along x
+  CHECK(kinds[10] == 1); // along y
+  CHECK(kinds[11] == 0);
+  CHECK(kinds[100] == 1); // along z
   CHECK(compare::is_assembled(scene));
   cases::Scene no_grid = scene;
   no_grid.mesh.grid.reset();

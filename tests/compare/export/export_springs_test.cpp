@@ -109,8 +109,8 @@ TEST_CASE("exported springs are read back as a network of the same forces", "[ve
     compare::export_springs(folder.path, ExportTarget::csv, "cube", problem);
     problem.lattice.volume_cells.clear(); // the network's springs are Hooke's and power-log ones alone
     const msm::Lattice network =
-        msm::network_lattice(problem.mesh, cases::read_network(content(folder.path / "springs.csv"),
-                                                               "springs.csv", problem.mesh.nodes.size()));
+        msm::make_lattice(problem.mesh, cases::read_network(content(folder.path / "springs.csv"),
+                                                            "springs.csv", problem.mesh.nodes.size()));
     CHECK(network.links.size() == problem.lattice.links.size());
     const msm::Points at = any_displacement(problem.mesh.nodes.size()),
                       expected = msm::internal_force_at(problem.lattice, at),

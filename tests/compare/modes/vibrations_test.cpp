@@ -73,7 +73,7 @@ double lame_frequency(int n, double poissons_ratio, cases::Design design) {
   definition.msm.design = design;
   const cases::Scene scene = cases::make_scene(definition);
   const auto body =
-      msm::vibrating_body(scene, compare::make_moving_springs(scene, compare::design_for(scene)).lattice);
+      msm::vibrating_body(scene, msm::make_lattice(scene.mesh, compare::design_for(scene).springs));
   return lame_frequency(scene.mesh, body.stiffness, body.mass);
 }
 

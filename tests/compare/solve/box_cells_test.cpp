@@ -40,7 +40,7 @@ struct Solved {
 
 /// Of the lattice, 1/MPa.
 msm::Elasticity springs_compliance(const cases::Scene& scene, const msm::DesignResult& design) {
-  return msm::cell_elasticity(design.terms->kinds, cases::cell_vertices(scene.mesh, 0)).inverse();
+  return msm::cell_elasticity(design.springs.terms()->kinds, cases::cell_vertices(scene.mesh, 0)).inverse();
 }
 
 Solved solved(const cases::Case& definition) {
@@ -48,7 +48,7 @@ Solved solved(const cases::Case& definition) {
   std::optional<msm::DesignResult> design;
   const compare::Answer answer = compare::solve_springs(scene, 1, design);
   REQUIRE(answer.converged());
-  REQUIRE(design->terms);
+  REQUIRE(design->springs.terms());
   return {springs_compliance(scene, *design), design->misfit->largest,
           std::get<cases::Box>(definition.body).size, answer.solution.displacement.back()};
 }
@@ -92,8 +92,8 @@ TEST_CASE("an affine shear of boxes leaves the nodes inside in equilibrium, and 
         CAPTURE(cell.transpose(), cases::name_of(design), along, across);
         const cases::Scene scene = cases::make_scene(body(cell, design));
         const msm::DesignResult springs = compare::design_for(scene);
-        REQUIRE(springs.terms);
-        const msm::Lattice lattice = msm::make_lattice(scene.mesh, *springs.terms);
+        REQUIRE(springs.springs.terms());
+        const msm::Lattice lattice = msm::make_lattice(scene.mesh, springs.springs);
         const Vector3d size = std::get<cases::Box>(scene.definition.body).size;
         msm::Points shear;
         for (const Vector3d& x : lattice.rest) shear.push_back(strain * x[across] * Vector3d::Unit(along));

@@ -165,33 +165,21 @@ TEST_CASE("a machine has to hold its ranks' part of a model, and a process its o
   CHECK(compare::megabytes_within(process, scene, ranks) == 100);
 }
 
-TEST_CASE("a motion by SNES is assembled and divided among the ranks, but for its trajectory and springs") {
+TEST_CASE("a motion is held by the first rank, and its trajectory by every rank") {
   cases::Case definition = cube(100);
   definition.dynamics.emplace();
   definition.dynamics->step = 1e-3;
   definition.dynamics->end = 1;
   definition.dynamics->write_every = 100;
-  definition.msm.solver = cases::Solver::snes;
   compare::Request request;
   request.only = cases::Side::msm;
-  const Estimate shared = compare::estimate(body(definition), request).front();
-  CHECK_THAT(shared.model, Contains("assembled"));
-  CHECK(shared.held_by == compare::HeldBy::all_ranks_together);
+  const Estimate motion = compare::estimate(body(definition), request).front();
+  CHECK(motion.held_by == compare::HeldBy::first_rank);
   const double bodies = 1e-6 * 2 * 24 * 11 * cubed(101); // MB of a trajectory of eleven
-  CHECK(shared.megabytes_of_each == Approx(bodies + 1e-6 * 1200 * cubed(101)));
+  CHECK(motion.megabytes_of_each == Approx(bodies));
   const compare::RanksOfMachine ranks{8, 2};
-  const double rest = shared.megabytes - shared.megabytes_of_each;
-  CHECK(compare::megabytes_within(limit(1), shared, ranks) ==
-        Approx(rest / 4 + 2 * shared.megabytes_of_each));
-  CHECK(compare::megabytes_within({1, "ulimit -v", true}, shared, ranks) ==
-        Approx(rest / 8 + shared.megabytes_of_each));
-  definition.msm.solver = cases::Solver::newton; // on the first rank; the trajectory goes to all
-  const Estimate alone = compare::estimate(body(definition), request).front();
-  CHECK(alone.megabytes_of_each == Approx(bodies));
-  CHECK(compare::megabytes_within(limit(1), alone, ranks) == Approx(alone.megabytes + bodies));
-  std::get<cases::Box>(definition.body).cells = {10, 10, 10};
-  definition.msm.solver = cases::Solver::snes;
-  CHECK_THAT(compare::estimate_springs(body(definition)).model, Contains("factorised"));
+  CHECK(compare::megabytes_within(limit(1), motion, ranks) == Approx(motion.megabytes + bodies));
+  CHECK(compare::megabytes_within({1, "ulimit -v", true}, motion, ranks) == Approx(motion.megabytes));
 }
 
 TEST_CASE("the machine's limit is at most its memory, and there is some left for a test") {

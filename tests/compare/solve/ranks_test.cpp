@@ -186,19 +186,18 @@ TEST_CASE_METHOD(WithMpi, "cells of terms and networks have the same fields on a
                  "[ranks]") {
   const cases::Scene scene = scene_of(bodies::clamped_box({5, 4, 6}, bodies::tensile(0.004)));
   const msm::BodyTerms terms{{msm::terms_of(bodies::hybrid_cell)}, {}, msm::Boundary::whole};
-  const msm::Lattice lattice = msm::make_lattice(scene.mesh, terms);
   const auto solved = [&](MPI_Comm communicator) {
-    return msm::solve_lattice_by_snes(scene, lattice, communicator, to_rounding());
+    return msm::solve_by_snes(scene, terms, communicator, to_rounding());
   };
   cases::Solution alone = solved(PETSC_COMM_SELF), together = solved(PETSC_COMM_WORLD);
   const cases::Share here = part_of(alone, together);
   CHECK(largest_difference(msm::fields(scene, terms, alone), msm::fields(scene, terms, together), here) <=
         1e-7);
-  msm::Lattice network = lattice; // its springs without the volume terms: not in balance
-  network.volume_cells.clear();
+  msm::Network network; // its springs without the volume terms: not in balance
+  for (const auto& [i, j, spring] : msm::make_lattice(scene.mesh, terms).links)
+    network.push_back({i, j, spring.stiffness, {}, {}});
   alone.status = together.status = cases::Status::skipped;
-  const cases::Fields one = msm::network_fields(scene, network, alone),
-                      part = msm::network_fields(scene, network, together);
+  const cases::Fields one = msm::fields(scene, network, alone), part = msm::fields(scene, network, together);
   CHECK(part.total_energy == Approx(one.total_energy).epsilon(1e-7));
   const auto norm = [](const auto& v) { return v.norm(); };
   CHECK(largest_difference(one.reaction, part.reaction, here.nodes.begin, norm) <= 1e-9); // N

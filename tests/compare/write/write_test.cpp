@@ -189,7 +189,7 @@ TEST_CASE("springs are lines with their stretch and tension, where they are ours
   compare::Comparison comparison = one_cell_comparison();
   CHECK_FALSE(compare::has_drawn_springs(comparison)); // nobody has designed them
   msm::DesignResult design;
-  design.stiffness = {0.5, 0, 0, 0}; // edges alone
+  design.springs = {{0.5, 0, 0, 0}}; // edges alone
   comparison.answers.design = design;
   auto& displacement = comparison.answers.msm.solution.displacement;
   displacement.assign(8, {0, 0, 0});
@@ -213,7 +213,7 @@ TEST_CASE("springs are lines with their stretch and tension, where they are ours
   msm::CellTerms cell; // a link and a tetrahedron, of which an edge is pressed
   cell.springs = {{{0, 1}, 0.5}};
   cell.tetrahedra = {{{0, 1, 2, 4}, 0.2, 0.1}};
-  comparison.answers.design->terms = msm::BodyTerms{{cell}};
+  comparison.answers.design->springs = msm::BodyTerms{{cell}};
   std::ostringstream of_terms;
   compare::write_springs_vtu(of_terms, comparison, displacement);
   const auto pressed = read_array<double>(of_terms.str(), "stretch");

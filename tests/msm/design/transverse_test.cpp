@@ -71,12 +71,12 @@ TEST_CASE(
   if (split == 1) CHECK_THAT(warnings, Catch::Contains("mechanism")); // a kind of face diagonals is missing
   REQUIRE(design.by_fibre);
   CHECK(design.by_fibre->misfit <= 1e-12); // rounding error
-  REQUIRE(design.terms);
+  REQUIRE(design.springs.terms());
 
   // Cells of a body share springs: under an affine displacement it stores the lattice's energy, and its inner
   // points are in equilibrium.
   const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(4 * cell_side), {4, 4, 4});
-  const msm::Lattice lattice = msm::make_lattice(mesh, *design.terms);
+  const msm::Lattice lattice = msm::make_lattice(mesh, design.springs);
   const double volume = std::pow(4 * cell_side, 3);
   std::mt19937 generator(1);
   for (int trial = 0; trial < 10; ++trial) {
@@ -107,7 +107,7 @@ TEST_CASE("the transverse design of isotropic constants is the hybrid", "[verifi
   msm::DesignRequest isotropic = transverse_request(cases::LinearElastic{modulus, nu});
   isotropic.options.design = cases::Design::hybrid;
   const msm::CellTerms expected = msm::terms_of(msm::design(isotropic).stiffness),
-                       found = msm::design(transverse_request(material)).terms->kinds.front();
+                       found = msm::design(transverse_request(material)).springs.terms()->kinds.front();
   REQUIRE(found.springs.size() == expected.springs.size());
   for (std::size_t s = 0; s < found.springs.size(); ++s) {
     CHECK(found.springs[s].vertices == expected.springs[s].vertices);
@@ -177,7 +177,7 @@ TEST_CASE("a lattice that is not the material's says by how much, and its cell i
   REQUIRE(design.residual);
   CHECK(*design.residual == design.by_fibre->distance);
   const msm::CellMatrix tangent =
-      msm::cell_stiffness_matrix(msm::cube(cell_side), design.terms->kinds.front());
+      msm::cell_stiffness_matrix(msm::cube(cell_side), design.springs.terms()->kinds.front());
   const auto eigenvalues =
       Eigen::SelfAdjointEigenSolver<msm::CellMatrix>(tangent, Eigen::EigenvaluesOnly).eigenvalues().eval();
   CHECK(largest_entry(eigenvalues.head<6>()) <= 1e-12 * eigenvalues[23]); // rigid motions

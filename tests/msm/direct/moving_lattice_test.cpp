@@ -48,9 +48,9 @@ struct Moving {
   explicit Moving(const cases::Scene& scene) : problem(msm::make_moving_problem(scene)) {
     problem.lattice = msm::make_lattice(scene.mesh, {hybrid_springs});
     statics = msm::make_direct_system(problem);
-    motion = msm::make_moving_lattice(
-        problem, *statics,
-        msm::make_inertia(scene, msm::damping_lattice(scene, std::vector{hybrid_springs})));
+    const msm::SpringBody damping = msm::damping_springs(scene, {hybrid_springs});
+    motion = msm::make_moving_lattice(problem, *statics,
+                                      msm::make_inertia(scene, msm::make_lattice(scene.mesh, damping)));
   }
   Moving(const Moving&) = delete; // the others refer to its problem
   Vector rest() const { return Vector::Zero(statics->load().size()); }
@@ -116,10 +116,11 @@ TEST_CASE("springs of cells of terms are damped as those of four stiffnesses, ce
   other.dynamics = {1000., 0., 0.05};
   scene.definition.region_materials.push_back(other);
   scene.material_of_cell = {0, 1};
-  msm::BodyTerms terms;
-  terms.kinds.push_back(msm::terms_of(hybrid_springs));
-  const msm::Lattice by_terms = msm::damping_lattice(scene, terms),
-                     by_cells = msm::damping_lattice(scene, std::vector{hybrid_springs});
+  const auto damping = [&](const msm::SpringBody& springs) {
+    return msm::make_lattice(scene.mesh, msm::damping_springs(scene, springs));
+  };
+  const msm::Lattice by_terms = damping(msm::BodyTerms{{msm::terms_of(hybrid_springs)}}),
+                     by_cells = damping({hybrid_springs});
   REQUIRE(by_terms.links.size() == by_cells.links.size());
   for (std::size_t l = 0; l < by_terms.links.size(); ++l) {
     CHECK(by_terms.links[l].i == by_cells.links[l].i);
@@ -130,8 +131,7 @@ TEST_CASE("springs of cells of terms are damped as those of four stiffnesses, ce
   CHECK(by_terms.volume_cells[1].stiffness == Approx(0.05 * hybrid_springs.volume).epsilon(1e-13));
   // Springs of no cells: one factor for all, tension at rest and all.
   scene = two_cells(true, 0, 0.02);
-  const msm::Lattice network = msm::network_lattice(scene.mesh, {{0, 1, 3., 8., {}}});
-  const msm::Lattice damped = msm::damping_lattice(scene, network);
+  const msm::Lattice damped = damping(msm::Network{{0, 1, 3., 8., {}}});
   CHECK(damped.links.front().spring.stiffness == Approx(0.06).epsilon(1e-13));
   CHECK(damped.links.front().spring.rest_length == 8);
 }

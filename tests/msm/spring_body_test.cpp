@@ -1,4 +1,4 @@
-#include "msm/cell_terms.hpp"
+#include "msm/spring_body.hpp"
 
 #include "msm/design/cut_cells.hpp"
 #include "msm/design/published.hpp"
@@ -38,26 +38,6 @@ msm::Lattice lattice_of_all_terms() {
 }
 
 } // namespace
-
-TEST_CASE("four stiffnesses as terms make the same lattice") {
-  msm::CellStiffness cell = bodies::cell(31, 47, 33, 0.14);
-  cell.exponents = GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
-                            std::optional(msm::Exponents{-1.3, -2, 4.3}));
-  const cases::HexMesh mesh = cases::make_grid_mesh(bodies::masked_grid());
-  const msm::Lattice expected = msm::make_lattice(mesh, std::vector{cell}),
-                     found = msm::make_lattice(mesh, msm::BodyTerms{{msm::terms_of(cell)}});
-  REQUIRE(found.links.size() == expected.links.size());
-  for (std::size_t l = 0; l < found.links.size(); ++l) {
-    CHECK(found.links[l].i == expected.links[l].i);
-    CHECK(found.links[l].j == expected.links[l].j);
-    CHECK(found.links[l].spring.stiffness ==
-          Approx(expected.links[l].spring.stiffness).epsilon(1e-14)); // sums
-    CHECK(found.links[l].spring.rest_length == expected.links[l].spring.rest_length);
-    CHECK(found.links[l].spring.law == expected.links[l].spring.law);
-  }
-  REQUIRE(found.volume_cells.size() == expected.volume_cells.size());
-  CHECK(found.volume_cells.front().is_logarithmic == expected.volume_cells.front().is_logarithmic);
-}
 
 TEST_CASE("springs that are whole at the boundary are all of the stiffness that they have inside") {
   const cases::HexMesh mesh =
