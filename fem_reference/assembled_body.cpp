@@ -1,6 +1,7 @@
 #include "fem_reference/assembled_body.hpp"
 
 #include "fem_reference/cuboid.hpp"
+#include "mechanics/ranks/share_out.hpp"
 
 #include <algorithm>
 
@@ -21,25 +22,29 @@ AssembledBody::AssembledBody(const cases::Scene& the_scene, MPI_Comm communicato
                      element_type(scene.definition.fem, formulations.front()), {}, communicator),
       equations(discretisation, formulations) {}
 
-/// Nodes of the body's mesh are the first of the refined mesh.
-std::vector<cases::Numbered<Eigen::Vector3d>> AssembledBody::displacement(const State& state) const {
-  std::vector<cases::Numbered<Eigen::Vector3d>> displacement;
-  for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
-    const int number = discretisation.nodes.mesh_node[index(node)];
-    if (number >= 0 && index(number) < scene.mesh.nodes.size())
-      displacement.push_back({number, state.segment<3>(3 * node)});
-  }
-  return displacement;
-}
-
-/// Each cell of the body is its 8^refine descendants.
-std::vector<cases::Numbered<double>> AssembledBody::cell_volumes(const State& state) {
-  std::vector<cases::Numbered<double>> volumes;
-  const std::vector<double> own = equations.cell_volumes(state);
-  const int shift = 3 * scene.definition.fem.refine;
-  for (std::size_t cell = 0; cell < own.size(); ++cell)
-    volumes.push_back({discretisation.nodes.mesh_cell[cell] >> shift, own[cell]});
-  return volumes;
+mechanics::StateOnMesh AssembledBody::on_mesh() {
+  // Nodes of the body's mesh are the first of the refined mesh.
+  const auto displacements = [this](const State& state) {
+    std::vector<cases::Numbered<Eigen::Vector3d>> own;
+    for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
+      const int number = discretisation.nodes.mesh_node[index(node)];
+      if (number >= 0 && index(number) < scene.mesh.nodes.size())
+        own.push_back({number, state.segment<3>(3 * node)});
+    }
+    return own;
+  };
+  // Each cell of the body is its 8^refine descendants.
+  const auto cell_volumes = [this](const State& state) {
+    std::vector<cases::Numbered<double>> volumes;
+    const std::vector<double> own = equations.cell_volumes(state);
+    const int shift = 3 * scene.definition.fem.refine;
+    for (std::size_t cell = 0; cell < own.size(); ++cell)
+      volumes.push_back({discretisation.nodes.mesh_cell[cell] >> shift, own[cell]});
+    return volumes;
+  };
+  return {scene.mesh,
+          mechanics::share_out(scene.mesh, discretisation.communicator),
+          {displacements, cell_volumes}};
 }
 
 std::optional<cases::FieldNorms> AssembledBody::norms(const State& state, const cases::Sharing* sharing) {

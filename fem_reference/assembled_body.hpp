@@ -4,6 +4,7 @@
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/equations.hpp"
 #include "fem_reference/grid/grid_model.hpp"
+#include "mechanics/state_on_mesh.hpp"
 
 namespace springproof::fem_reference {
 
@@ -21,10 +22,8 @@ struct AssembledBody {
   Discretisation discretisation;         ///< of the refined mesh
   EquilibriumEquations equations;
 
-  /// Of this rank's nodes, mm.
-  std::vector<cases::Numbered<Eigen::Vector3d>> displacement(const State& state) const;
-  /// Deformed volumes that this rank's elements add to the body's cells, mm³.
-  std::vector<cases::Numbered<double>> cell_volumes(const State& state);
+  /// Refers to this.
+  mechanics::StateOnMesh on_mesh();
   /// When the case measures norms that the body's nodes do not tell. Collective.
   std::optional<cases::FieldNorms> norms(const State& state, const cases::Sharing* sharing);
   /// Of an equilibrium. Collective.  @param sharing  of its solution

@@ -24,10 +24,12 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
 }
 
-double n_element_nodes(const cases::Scene& scene) {
-  const cases::Fem& fem = scene.definition.fem;
-  const int halvings = fem.refine + (fem.element == cases::Element::q2 ? 1 : 0);
-  return double(scene.mesh.nodes.size()) * std::pow(8, halvings);
+int n_halvings(const cases::Fem& fem) {
+  return fem.refine + (fem.element == cases::Element::q2 || fem.element == cases::Element::q2_p1 ? 1 : 0);
+}
+
+double n_element_nodes(const cases::Fem& fem, double n_nodes) {
+  return n_nodes * std::pow(8, n_halvings(fem));
 }
 
 Backend backend_of(const cases::Scene& scene, Backend asked) {

@@ -38,8 +38,15 @@ constexpr long direct_solver_limit = 120000;
 /// can be factorised: 25 a linear solve at 1000, Newton's method fails at 5000.
 constexpr double most_incompressible = 1500;
 
-/// About, of the elements of a scene's mesh as fem.refine divides it.
-double n_element_nodes(const cases::Scene& scene);
+/// How often the elements' nodes halve the edges of a mesh's cells: by fem.refine, and by quadratic elements.
+int n_halvings(const cases::Fem& fem);
+
+/// About, of the elements of a mesh as fem.refine divides it: the number that choices go by.
+/// @param n_nodes  of the mesh
+double n_element_nodes(const cases::Fem& fem, double n_nodes);
+inline double n_element_nodes(const cases::Scene& scene) {
+  return n_element_nodes(scene.definition.fem, double(scene.mesh.nodes.size()));
+}
 
 /// Whether the assembled backend factorises a tangent of that many nodes.
 bool takes_factorisation(double n_nodes);

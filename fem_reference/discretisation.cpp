@@ -43,8 +43,8 @@ bool integrates(const Cell& cell, unsigned face) {
 /// where a face lies inside the body.
 void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& applied, const Space& space,
                   const Nodes& nodes, Vec load) {
-  const double moment =
-      applied.load.kind == cases::LoadKind::torque ? cases::polar_moment(scene.mesh, applied) : 1;
+  const auto traction_at = cases::surface_traction(scene.mesh, applied);
+  if (!traction_at) return;
   std::set<std::set<int>> faces; // by their vertices
   for (const auto& face : applied.selection.faces) faces.emplace(face.begin(), face.end());
   const dealii::QGauss<2> quadrature(space.node_element.degree + 2);
@@ -60,7 +60,7 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
       values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
       for (const unsigned q : values.quadrature_point_indices()) {
         const auto& at = values.quadrature_point(q);
-        const Vector3d traction = cases::surface_traction(applied, {at[0], at[1], at[2]}, moment);
+        const Vector3d traction = traction_at({at[0], at[1], at[2]});
         for (const unsigned a : values.dof_indices())
           add(load, node[a], values.JxW(q) * values.shape_value(a, q) * traction);
       }
@@ -122,9 +122,7 @@ std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space
                                    const Geometry& geometry, const Prescribed& prescribed) {
   const Vector load = nodes.make_vector(space.mesh.get_communicator());
   add_point_forces(scene, nodes, load.get());
-  for (const auto& applied : scene.loads)
-    if (applied.load.kind == cases::LoadKind::traction || applied.load.kind == cases::LoadKind::torque)
-      add_traction(scene, applied, space, nodes, load.get());
+  for (const auto& applied : scene.loads) add_traction(scene, applied, space, nodes, load.get());
   add_gravity(scene, nodes, geometry, load.get());
   if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
   check(VecAssemblyBegin(load.get()));

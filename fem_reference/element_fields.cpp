@@ -67,7 +67,7 @@ mechanics::Balance balance_of(const cases::Scene& scene) {
   const bool has_gravity = !cases::gravity(scene).isZero(0);
   bool is_shared_by_nodes = has_gravity && !scene.masses.empty();
   for (const auto& applied : scene.loads)
-    is_shared_by_nodes = is_shared_by_nodes || applied.load.kind == cases::LoadKind::total_force;
+    is_shared_by_nodes = is_shared_by_nodes || cases::is<cases::loads::TotalForce>(applied.load);
   const bool differs =
       (scene.definition.fem.refine > 0 && is_shared_by_nodes) || (has_gravity && !scene.mesh.grid);
   return differs ? mechanics::Balance::as_a_whole : mechanics::Balance::at_nodes;
@@ -125,10 +125,7 @@ cases::FieldNorms DisplacementNorms::norms(const cases::Sharing* sharing) const 
 }
 
 bool has_own_norms(const cases::Case& definition, int degree) {
-  const auto is_norm = [](const cases::Measure& measure) {
-    return measure.kind == cases::MeasureKind::displacement_field_l2 ||
-           measure.kind == cases::MeasureKind::displacement_field_max;
-  };
+  const auto is_norm = [](const cases::Measure& measure) { return cases::is_field_norm(measure.kind); };
   return (degree > 1 || definition.fem.refine > 0) &&
          std::any_of(definition.measures.begin(), definition.measures.end(), is_norm);
 }

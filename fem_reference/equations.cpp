@@ -81,9 +81,61 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
   has_tangent_ = std::isfinite(size_.relative); // on all ranks alike
 }
 
-void EquilibriumEquations::set_step(const Step& step, bool is_another) {
-  step_.emplace(step);
-  if (is_another) has_tangent_ = false;
+void EquilibriumEquations::set_in_motion(const cases::Scene& scene,
+                                         const std::vector<Formulation>& formulations) {
+  const auto& d = discretisation_;
+  motion_.emplace(Motion{make_inertia(scene, d, formulations), {}, {}, d.make_vector()});
+  cases::Scene alone = scene;
+  for (const auto& applied : scene.loads) {
+    alone.loads = {applied};
+    const std::vector<double> load = d.load_of(alone);
+    State force = rest();
+    for (std::size_t i = 0; i < load.size(); ++i)
+      if (!d.constraints.is_constrained[i]) force[static_cast<Eigen::Index>(i)] = load[i];
+    motion_->loads.emplace_back(applied.load.history, force);
+  }
+  motion_->added = 0. * motion_->inertia.mass + 0. * motion_->inertia.damping; // the pattern of every step
+}
+
+void EquilibriumEquations::external_force(double time, State& force) {
+  force = rest();
+  for (const mechanics::LoadInTime& load : motion_->loads) load.add(time, force);
+}
+
+void EquilibriumEquations::supports_at(double time, State& displacement) const {
+  const auto& constraints = discretisation_.constraints;
+  std::vector<double> prescribed;
+  constraints.prescribe_at(time, prescribed);
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+    if (constraints.is_constrained[i]) displacement[static_cast<Eigen::Index>(i)] = prescribed[i];
+}
+
+void EquilibriumEquations::set_step(const mechanics::StepTerms& terms) {
+  const bool is_another = !step_ || terms.mass != step_->mass || terms.damping != step_->damping;
+  step_.emplace(terms);
+  if (!is_another) return;
+  motion_->added = terms.mass * motion_->inertia.mass + terms.damping * motion_->inertia.damping;
+  has_tangent_ = false;
+}
+
+/// On free degrees of freedom of this rank; 0 elsewhere.
+void EquilibriumEquations::multiply(const LocalMatrix& matrix, const State& motion, State& product) {
+  const auto n = static_cast<Eigen::Index>(n_dofs());
+  {
+    const WriteEntries all(motion_->moved.get());
+    Eigen::Map<State>(all.data(), n) = motion.head(n);
+  }
+  mechanics::petsc::update_ghosts(motion_->moved.get());
+  {
+    const ReadEntries from(motion_->moved.get());
+    const WriteEntries to(inertia_force_.get());
+    Eigen::Map<State>(to.data(), n) = matrix * Eigen::Map<const State>(from.data(), n);
+  }
+  mechanics::petsc::add_ghosts(inertia_force_.get());
+  product.setZero(motion.size());
+  const ReadEntries of_all(inertia_force_.get());
+  for (int i = 0; i < 3 * discretisation_.nodes.n_owned; ++i)
+    if (!discretisation_.constraints.is_constrained[cases::index(i)]) product[i] = of_all[i];
 }
 
 void EquilibriumEquations::complete(State& motion) {
@@ -113,7 +165,7 @@ void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
   const auto add = [&](const State& way, Vec to) {
     {
       const WriteEntries product(inertia_force_.get());
-      Eigen::Map<State>(product.data(), n) = step_->added * way;
+      Eigen::Map<State>(product.data(), n) = motion_->added * way;
     }
     mechanics::petsc::add_ghosts(inertia_force_.get());
     const ReadEntries product(inertia_force_.get());
@@ -125,7 +177,7 @@ void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
   if (wanted == Wanted::stress) return;
   way += Eigen::Map<const State>(prescribed_gap_.data(), n);
   add(way, right_hand_side_.get());
-  add_to_tangent(step_->added);
+  add_to_tangent(motion_->added);
 }
 
 /// Rows and columns of constrained degrees of freedom are left out.

@@ -3,15 +3,18 @@
 #include "fem_reference/assembly.hpp"
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/linear_solver.hpp"
+#include "mechanics/dynamics/dynamic_problem.hpp"
+#include "mechanics/dynamics/load_in_time.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
 namespace springproof::fem_reference {
 
 constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
 
-/// The discrete equilibrium equations of a scene: internal force = load factor * load. Supports are part of
-/// the equations: a step takes constrained degrees of freedom to where they have to be.
-class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
+/// The discrete equations of a scene: internal force = load factor * load, or those of its motion. Supports
+/// are part of the equations: a step takes constrained degrees of freedom to where they have to be. Pressures
+/// have no inertia.
+class EquilibriumEquations : public mechanics::petsc::DistributedProblem<mechanics::DynamicProblem> {
  public:
   /// @param formulations  of each of the discretisation's materials: one formulation, several materials
   EquilibriumEquations(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
@@ -37,22 +40,23 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   /// Negative eigenvalues that is_stable() counted.
   std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
 
-  /// A step in time: from now on, whatever the load factor,  force = f_int(u) + added (u - origin)  on free
-  /// degrees of freedom, supports are where they are said to be, and residuals are relative to scale. What it
-  /// refers to lives until the next call.
-  struct Step {
-    const LocalMatrix& added; ///< N/mm; its pattern is part of the tangent's
-    const State& origin;      ///< mm; ghosts current
-    const State& force;       ///< N, on this rank's degrees of freedom
-    const State& supports;    ///< mm, on constrained degrees of freedom
-    double scale;             ///< N
-  };
-  /// @param is_another  whether `added` has other values than before
-  void set_step(const Step& step, bool is_another);
-
+  /// Gives the body the masses, damping and loads in time of a scene: the functions below are about these.
+  /// @param scene        that the discretisation is of: already refined
+  /// @param formulations  as of the constructor
+  void set_in_motion(const cases::Scene& scene, const std::vector<Formulation>& formulations);
+  void mass_product(const State& motion, State& product) override {
+    multiply(motion_->inertia.mass, motion, product);
+  }
+  void damping_product(const State& motion, State& product) override {
+    multiply(motion_->inertia.damping, motion, product);
+  }
+  void external_force(double time, State& force) override;
+  void supports_at(double time, State& displacement) const override;
   /// Of a velocity whose own degrees of freedom are given: those of other ranks, and the pressures that
   /// belong to them in a linear body.
-  void complete(State& motion);
+  void complete(State& motion) override;
+  /// Residuals are from now on those of the step, whatever the load factor, relative to its scale.
+  void set_step(const mechanics::StepTerms& terms) override;
 
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
@@ -69,6 +73,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   void evaluate_for_direction(const State& state, double load_factor);
   double load(std::size_t dof, double load_factor) const;
   void add_inertia(const State& state, Wanted wanted);
+  void multiply(const LocalMatrix& matrix, const State& motion, State& product);
   void add_to_tangent(const LocalMatrix& added);
   void measure(std::optional<double> volume_mismatch, double load_factor);
 
@@ -80,7 +85,14 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem {
   Vector right_hand_side_; ///< of the Newton system
   Vector correction_;      ///< its solution
   Vector inertia_force_;   ///< what a step in time adds
-  std::optional<Step> step_;
+  struct Motion {
+    Inertia inertia;
+    std::vector<mechanics::LoadInTime> loads;
+    LocalMatrix added; ///< mass M + damping C of the step, N/mm; its pattern is part of the tangent's
+    Vector moved;      ///< with ghosts
+  };
+  std::optional<Motion> motion_; ///< of a body in motion
+  std::optional<mechanics::StepTerms> step_;
   double load_norm_ = 0;
   long n_evaluations_ = 0, n_tangents_ = 0;
   bool has_tangent_ = false; ///< one that was assembled at a valid state

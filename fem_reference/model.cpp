@@ -5,7 +5,6 @@
 #include "fem_reference/grid/grid_model.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/equilibrium/turns.hpp"
-#include "mechanics/ranks/share_out.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -143,15 +142,10 @@ cases::Solution Model::Assembled::solve(double load_factor, mechanics::Equilibri
   last = equilibrium.state;
   last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  solution.sharing = mechanics::share_out(scene.mesh, body.discretisation.communicator);
-  const cases::Sharing* const sharing = solution.sharing.get();
-  solution.displacement =
-      cases::deal(sharing, body.displacement(last), scene.mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
-  solution.cell_volume = cases::deal(sharing, body.cell_volumes(last), scene.mesh.cells.size(), 0.);
-  solution.norms = body.norms(last, sharing);
+  body.on_mesh().add_to(solution, last);
+  solution.norms = body.norms(last, solution.sharing.get());
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = body.equations.negative_eigenvalues();
-  solution.inverted_cells = cases::n_inverted(scene.mesh, solution.displacement, sharing);
   return solution;
 }
 

@@ -19,6 +19,10 @@ namespace {
 
 } // namespace
 
+bool prefers_multigrid(const cases::Grid& grid, double n_nodes) {
+  return n_nodes >= multigrid_from && !(grid.slenderness() > cases::Grid::thin && n_nodes <= most_factorised);
+}
+
 bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path wanted) {
   const std::vector<CellStiffness>* cells = springs.cells();
   const auto is_another = [&](const CellStiffness& k) {
@@ -28,9 +32,7 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
   const bool can = scene.mesh.grid && cells && std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can) refuse_multigrid();
   if (wanted != Path::automatic) return wanted == Path::multigrid;
-  const std::size_t n_nodes = scene.mesh.nodes.size();
-  if (can && scene.mesh.grid->slenderness() > cases::Grid::thin && n_nodes <= most_factorised) return false;
-  return can && n_nodes >= multigrid_from;
+  return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
 }
 
 Model::Model(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)

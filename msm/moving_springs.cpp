@@ -24,7 +24,7 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
   inertia.damping = std::move(damping);
   for (const auto& applied : scene.loads) {
     std::vector<cases::NodeVector> force =
-        applied.load.kind == cases::LoadKind::gravity
+        applied.load.on() == cases::loads::On::masses
             ? cases::weights(inertia.mass, cases::acceleration_of(applied.load))
             : cases::loaded_nodes(scene, {applied});
     inertia.loads.push_back({applied.load.history, std::move(force)});

@@ -7,9 +7,8 @@
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_motion.hpp"
 #include "mechanics/interruption.hpp"
 
 #include <algorithm>
@@ -22,8 +21,7 @@
 #include <pybind11/stl.h>
 #include <thread>
 
-// The extension module of python/springproof: cases, their solutions and designs, as numpy arrays and as the
-// documents of --json.
+// The extension module of python/springproof: cases, solutions and designs, as arrays and as --json has them.
 namespace py = pybind11;
 using namespace springproof;
 
@@ -153,8 +151,7 @@ std::shared_ptr<cases::Scene> read_scene(const std::string& path, const std::vec
   return std::make_shared<cases::Scene>(std::move(scene));
 }
 
-/// A signal's handler in Python has raised, Ctrl-C's for one, and the exception waits in its thread; or
-/// Python ends.
+/// A signal's handler in Python has raised, Ctrl-C's for one, and its exception waits; or Python ends.
 struct Interrupted {};
 
 /// Python ends while threads solve, which it would leave behind: MPI and PETSc end with it.

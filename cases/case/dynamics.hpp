@@ -23,6 +23,7 @@ struct TimeScheme {
   double beta = 0.25, gamma = 0.5; ///< newmark: 2 beta >= gamma >= 1/2, stable with any step
   double rho_infinity = 1;         ///< generalized_alpha, 0 to 1: what a step leaves of the fastest motion
 };
+SPRINGPROOF_FIELDS(TimeScheme, scheme, beta, gamma, rho_infinity)
 
 /// Where a motion begins.
 SPRINGPROOF_ENUMERATION(MotionStart,
@@ -39,6 +40,7 @@ struct Dynamics {
 
   int n_steps() const;
 };
+SPRINGPROOF_FIELDS(Dynamics, scheme, step, end, start, write_every, where)
 
 /// The factor of a load or motion over time.
 struct History {
@@ -51,6 +53,7 @@ struct History {
   double just_before(double time) const; ///< at a jump what comes before it
   bool jumps() const;
 };
+SPRINGPROOF_FIELDS(History, points, frequency)
 
 /// What a material adds to its elasticity: C = mass_damping M + stiffness_damping K(rest) of its cells.
 struct MaterialDynamics {
@@ -58,6 +61,7 @@ struct MaterialDynamics {
   double mass_damping = 0;       ///< alpha, 1/s, >= 0
   double stiffness_damping = 0;  ///< beta, s, >= 0
 };
+SPRINGPROOF_FIELDS(MaterialDynamics, density, mass_damping, stiffness_damping)
 
 /// Mass matrix of the finite elements.
 SPRINGPROOF_ENUMERATION(ElementMass, consistent,

@@ -3,8 +3,17 @@
 #include "cases/case/solution.hpp"
 
 #include <stdexcept>
+#include <type_traits>
+
+namespace cereal {
+class BinaryOutputArchive;
+}
 
 namespace springproof::cases {
+
+/// Names and places of files are for messages: a worker needs them, a case's identity must not have them.
+template<class Archive>
+constexpr bool has_places = !std::is_same_v<Archive, cereal::BinaryOutputArchive>;
 
 /// A place in a case file, for messages: "file:line:column". Line 0: the value came from the command line or
 /// a default.
@@ -14,6 +23,12 @@ struct Where {
   int column = 0;
   std::string key; ///< dotted, as in "load[0].value"
 };
+
+template<class Archive>
+void serialize(Archive& archive, Where& place) {
+  auto& [file, line, column, key] = place;
+  if constexpr (has_places<Archive>) archive(file, line, column, key);
+}
 
 /// Wrong input or usage (exit status 2). The message says where, which key and value, and what is allowed.
 class InputError : public std::runtime_error {
@@ -31,6 +46,26 @@ class InputError : public std::runtime_error {
  private:
   Where where_;
 };
+
+/// A file that a case names.
+struct NamedFile {
+  std::string path; ///< as opened: relative paths are resolved against the case file
+  Where where{};    ///< of the name in the case file
+
+  /// @throws InputError, at the name, with the path before the reason
+  [[noreturn]] void refuse(const std::string& reason) const { throw InputError(where, path + ": " + reason); }
+  /// The same of a reason that may have the path, as VTK's have.
+  [[noreturn]] void refuse_once(const std::string& reason) const {
+    if (reason.find(path) == std::string::npos) refuse(reason);
+    throw InputError(where, reason);
+  }
+};
+
+template<class Archive>
+void serialize(Archive& archive, NamedFile& named) {
+  auto& [path, where] = named;
+  if constexpr (has_places<Archive>) archive(path, where);
+}
 
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {

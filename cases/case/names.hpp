@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike.
@@ -13,6 +14,15 @@ namespace springproof::cases {
   enum class Enum { __VA_ARGS__ };                                                                           \
   inline const char* enumerators(Enum) {                                                                     \
     return #__VA_ARGS__;                                                                                     \
+  }
+
+/// Lists every field of a type in its order, beneath the type and in its namespace, so that cereal can keep
+/// and send its values. A field that is added to the type and not here does not compile.
+#define SPRINGPROOF_FIELDS(Type, ...)                                                                        \
+  template<class Archive>                                                                                    \
+  void serialize(Archive& archive, Type& listed) {                                                           \
+    auto& [__VA_ARGS__] = listed;                                                                            \
+    archive(__VA_ARGS__);                                                                                    \
   }
 
 /// What a name has between its words. An enumeration may have an overload of its own.
@@ -43,6 +53,36 @@ std::optional<Enum> value_of(const std::string& name) {
   for (std::size_t n = 0; n < all_names<Enum>().size(); ++n)
     if (all_names<Enum>()[n] == name) return static_cast<Enum>(n);
   return std::nullopt;
+}
+
+/// The kinds of a thing as the types of a variant, each with its `name` in case files. What is to be done
+/// with every kind is an overload for each of these types: a kind that is forgotten does not compile.
+template<class Variant>
+struct Kinds;
+template<class... Kind>
+struct Kinds<std::variant<Kind...>> {
+  static const std::vector<std::string>& names() {
+    static const std::vector<std::string> all{Kind::name...};
+    return all;
+  }
+  /// @param name  one of names()
+  static std::variant<Kind...> named(const std::string& name) {
+    std::variant<Kind...> kind;
+    ((name == Kind::name ? void(kind = Kind{}) : void()), ...);
+    return kind;
+  }
+};
+
+/// Name of a kind.
+template<class... Kind>
+std::string name_of(const std::variant<Kind...>& kind) {
+  return std::visit([](const auto& one) -> std::string { return one.name; }, kind);
+}
+
+/// Whether a load, a measure, ... is of a kind.
+template<class Kind, class Thing>
+bool is(const Thing& thing) {
+  return std::holds_alternative<Kind>(thing.kind);
 }
 
 /// The words of a list as a message shows them: "a" | "b" | "c".

@@ -1,4 +1,4 @@
-#include "cases/case/read_body.hpp"
+#include "cases/case/readers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -67,12 +67,9 @@ void read_keep(const Entry& entry, Labels& labels) {
 }
 
 Labels read_labels(Table& table, const std::string& case_path) {
-  const Entry file = table.entry("file");
   Labels labels;
-  labels.where = file.where;
-  labels.path = read_file_path(
-      file, {".nii", ".gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".inv3"},
-      "a picture in three dimensions, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3", case_path);
+  labels.file = read_file_path(table.entry("file"), {".nii", ".gz", ".inv3"},
+                               "a picture in three dimensions, .nii, .nii.gz or .inv3", case_path);
   labels.edge = table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive});
   labels.classes = read_classes(table);
   if (table.has("crop")) labels.crop = read_corners(table.entry("crop"));
@@ -83,6 +80,12 @@ Labels read_labels(Table& table, const std::string& case_path) {
 }
 
 } // namespace
+
+std::vector<std::string> names_of(const std::vector<LabelClass>& classes) {
+  std::vector<std::string> names;
+  for (const LabelClass& one : classes) names.push_back(one.name);
+  return names;
+}
 
 double read_scale(Table& table) {
   const Number scale{"a number from 1e-9 to 1e9, the mm of a unit of the file",
@@ -97,10 +100,10 @@ Body read_body(Table& table, const std::string& case_path) {
   const Entry file = table.entry(shape == "mesh" ? "file" : "surface");
   if (shape == "mesh")
     return MeshFile{read_file_name(file, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path),
-                    file.where, read_scale(table)};
+                    read_scale(table)};
   return Voxels{read_file_name(file, {".stl"}, "a closed surface in STL, .stl", case_path),
                 table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive}),
-                file.where, read_scale(table)};
+                read_scale(table)};
 }
 
 } // namespace springproof::cases

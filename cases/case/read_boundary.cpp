@@ -1,6 +1,5 @@
-#include "cases/case/read_boundary.hpp"
+#include "cases/case/readers.hpp"
 
-#include "cases/case/read_dynamics.hpp"
 #include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
@@ -13,7 +12,8 @@ namespace springproof::cases {
 
 namespace {
 
-const Vector read_point{"a point of three finite numbers (mm)"};
+const Vector read_point{"a point of three finite numbers (mm)"},
+    read_force{"a force of three finite numbers (N)"};
 
 /// "near 5 5 10".
 Eigen::Vector3d read_near_words(const Entry& entry, const std::string& text) {
@@ -48,12 +48,6 @@ std::array<bool, 3> read_components(const Entry& entry) {
     components[static_cast<std::size_t>(*axis)] = true;
   }
   return components;
-}
-
-std::vector<std::string> names_of(const std::vector<LabelClass>& classes) {
-  std::vector<std::string> names;
-  for (const LabelClass& one : classes) names.push_back(one.name);
-  return names;
 }
 
 /// { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }
@@ -177,33 +171,42 @@ Moved read_moved(Table& table, const Case& definition) {
   return moved;
 }
 
-/// Acts on the whole body; `kind` is where messages point to.
-void read_gravity(Table& table, Load& load) {
+void read_keys(Table& table, loads::NodalForce& force) {
+  force.value = table.required("value", read_force);
+}
+
+void read_keys(Table& table, loads::TotalForce& force) {
+  force.value = table.required("value", read_force);
+}
+
+void read_keys(Table& table, loads::Traction& traction) {
+  traction.value = table.required("value", Vector{"a traction of three finite numbers (MPa)"});
+}
+
+void read_keys(Table& table, loads::Torque& torque) {
+  torque.value = table.required("value", Number{"one finite number, the moment (N mm)"});
+  torque.axis = table.required("axis", read_direction);
+  torque.centre = table.required("centre", read_point);
+}
+
+void read_keys(Table& table, loads::Gravity& gravity) {
   table.refuse_unless(false, {"region", "near", "radius"}, "left out: gravity acts on the whole body");
   table.know({"region", "near", "radius"});
-  load.region.where = table.entry("kind").where;
-  load.value = table.required("value", Vector{"an acceleration of three finite numbers (m/s²)"});
+  gravity.value = table.required("value", Vector{"an acceleration of three finite numbers (m/s²)"});
 }
 
 Load read_load(Table& table, const Case& definition) {
   Load load;
   const bool is_gravity =
-      table.has("kind") && table.entry("kind").value<std::string>() == name_of(LoadKind::gravity);
-  if (!is_gravity) load.region = read_region(table, definition.body);
-  load.kind = table.required("kind", read_name<LoadKind>);
+      table.has("kind") && table.entry("kind").value<std::string>() == loads::Gravity::name;
+  if (is_gravity)
+    load.region.where = table.entry("kind").where; // which messages point to
+  else
+    load.region = read_region(table, definition.body);
+  load.kind = table.required("kind", read_kind<loads::Kind>);
   load.history = read_history(table, definition.dynamics.has_value());
-  if (is_gravity) {
-    read_gravity(table, load);
-  } else if (load.kind == LoadKind::torque) {
-    load.moment = table.required("value", Number{"one finite number, the moment (N mm)"});
-    load.axis = table.required("axis", read_direction);
-    load.centre = table.required("centre", read_point);
-  } else {
-    load.value =
-        table.required("value", acts_on_area(load.kind) ? Vector{"a traction of three finite numbers (MPa)"}
-                                                        : Vector{"a force of three finite numbers (N)"});
-  }
-  if (acts_on_area(load.kind)) check_has_area(load, definition.body);
+  std::visit([&](auto& kind) { read_keys(table, kind); }, load.kind);
+  if (load.on() == loads::On::area) check_has_area(load, definition.body);
   return load;
 }
 
@@ -211,10 +214,6 @@ AddedMass read_mass(Table& table, const Body& body) {
   const auto is_mass = [](double mass) { return mass >= 1e-9 && mass <= 1e6; };
   return {read_region(table, body),
           table.required("value", Number{"a number from 1e-9 to 1000000 (kg)", is_mass})};
-}
-
-bool is_zero(const Load& load) {
-  return load.value.isZero(0) && load.moment == 0;
 }
 
 } // namespace
@@ -299,12 +298,13 @@ void check_boundary(Table& root, const Case& result) {
     return;
   if (loads.empty() && has_moves) refuse_late("moved");
   if (loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
-  if (std::all_of(loads.begin(), loads.end(), is_zero) && !has_moves) {
+  if (std::all_of(loads.begin(), loads.end(), [](const Load& load) { return load.is_zero(); }) &&
+      !has_moves) {
     Table first(root.entry("load").elements("tables").front(), "a table");
     first.entry("value").refuse("other than 0, here or in another [[load]]: nothing would move");
   }
   if (std::none_of(loads.begin(), loads.end(),
-                   [&](const Load& load) { return !is_zero(load) && has_begun(load.history); }))
+                   [&](const Load& load) { return !load.is_zero() && has_begun(load.history); }))
     refuse_late(has_moves ? "moved" : "load");
 }
 

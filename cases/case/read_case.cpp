@@ -1,11 +1,7 @@
 #include "cases/case/read_case.hpp"
 
-#include "cases/case/letters.hpp"
-#include "cases/case/read_body.hpp"
-#include "cases/case/read_boundary.hpp"
-#include "cases/case/read_dynamics.hpp"
-#include "cases/case/read_materials.hpp"
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
+#include "cases/case/rows.hpp"
 #include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
@@ -65,73 +61,77 @@ void check_differ(Table& table, const std::string& key, const Region& here, cons
         fmt::format("another node than {}: there is no direction from a node to itself", other_key));
 }
 
-/// A strain has no component von_mises: there are several equivalent strains.
-TensorComponent read_tensor_component(const Entry& entry, MeasureKind kind) {
-  std::vector<std::string> allowed = all_names<TensorComponent>();
-  if (kind == MeasureKind::strain)
-    allowed.erase(std::find(allowed.begin(), allowed.end(), name_of(TensorComponent::von_mises)));
-  return *value_of<TensorComponent>(entry.word(allowed));
-}
+/// The keys of a measure's kind.
+struct MeasureKeys {
+  Table& table;
+  const Body& body;
 
-Measure read_measure(Table& table, const Case& definition) {
-  const auto node = [&](const Entry& entry) { return read_region_text(entry, definition.body); };
-  Measure measure;
-  measure.where = table.where();
-  measure.name = table.required("name", read_text);
-  measure.kind = table.required("kind", read_name<MeasureKind>);
-  switch (measure.kind) {
-  case MeasureKind::coordinate:
-    measure.node = table.required("node", node);
+  Region node(const char* key) const { return read_region_text(table.entry(key), body); }
+
+  void operator()(measures::Coordinate& measure) const {
+    measure.node = node("node");
     measure.axis = table.required("axis", read_name<Axis>);
-    break;
-  case MeasureKind::displacement:
-    measure.node = table.required("node", node);
+  }
+  void operator()(measures::Displacement& measure) const {
+    measure.node = node("node");
     measure.component = table.required("component", read_name<Component>);
-    break;
-  case MeasureKind::tilt:
-    measure.top = table.required("top", node);
-    measure.bottom = table.required("bottom", node);
+  }
+  void operator()(measures::Tilt& measure) const {
+    measure.top = node("top");
+    measure.bottom = node("bottom");
     measure.toward = table.required("toward", read_name<Axis>);
-    measure.axis = table.optional("up", read_name<Axis>).value_or(Axis::z);
+    measure.up = table.optional("up", read_name<Axis>).value_or(Axis::z);
     check_differ(table, "top", measure.top, measure.bottom, "bottom");
-    if (measure.toward == measure.axis)
-      table.entry("toward").refuse(
-          fmt::format("another axis than up, which is \"{}\"", name_of(measure.axis)));
-    break;
-  case MeasureKind::twist:
-    measure.node = table.required("node", node);
-    measure.centre = table.required("centre", node);
+    if (measure.toward == measure.up)
+      table.entry("toward").refuse(fmt::format("another axis than up, which is \"{}\"", name_of(measure.up)));
+  }
+  void operator()(measures::Twist& measure) const {
+    measure.node = node("node");
+    measure.centre = node("centre");
     measure.axis = table.optional("axis", read_name<Axis>).value_or(Axis::z);
     check_differ(table, "node", measure.node, measure.centre, "centre");
-    break;
-  case MeasureKind::reaction:
-    measure.region = read_region(table, definition.body);
+  }
+  void operator()(measures::Reaction& measure) const {
+    measure.region = read_region(table, body);
     measure.component = table.required("component", read_name<Component>);
-    break;
-  case MeasureKind::curvature:
-    measure.region = read_region(table, definition.body);
+  }
+  void operator()(measures::Curvature& measure) const {
+    measure.region = read_region(table, body);
     measure.axis = table.required("axis", read_name<Axis>);
-    break;
-  case MeasureKind::stress:
-  case MeasureKind::strain:
-    measure.tensor_component = read_tensor_component(table.entry("component"), measure.kind);
+  }
+  void operator()(measures::Stress& measure) const { read_of_cells(measure, all_names<TensorComponent>()); }
+  /// A strain has no component von_mises: there are several equivalent strains.
+  void operator()(measures::Strain& measure) const {
+    std::vector<std::string> components = all_names<TensorComponent>();
+    components.erase(std::find(components.begin(), components.end(), name_of(TensorComponent::von_mises)));
+    read_of_cells(measure, components);
+  }
+  void operator()(measures::StrainEnergy&) const {}
+  void operator()(measures::Volume&) const {}
+  void operator()(measures::DisplacementFieldL2&) const {}
+  void operator()(measures::DisplacementFieldMax&) const {}
+
+  void read_of_cells(measures::OfCells& measure, const std::vector<std::string>& components) const {
+    measure.component = *value_of<TensorComponent>(table.entry("component").word(components));
     table.know({"statistic", "point", "region", "near", "radius"});
     if ((measure.statistic = table.optional("statistic", read_name<Statistic>))) {
       table.refuse_unless(false, {"point"}, "left out beside statistic, which is of several cells");
-      if (table.has("region") || table.has("near")) measure.region = read_region(table, definition.body);
-      break;
+      if (table.has("region") || table.has("near")) measure.region = read_region(table, body);
+      return;
     }
     table.refuse_unless(false, {"region", "near", "radius"}, "left out without statistic");
     measure.point_where = table.entry("point").where;
     measure.point = table.required("point", Vector{"three finite numbers (mm), a point of the body at rest"});
-    break;
-  case MeasureKind::strain_energy:
-  case MeasureKind::volume:
-  case MeasureKind::displacement_field_l2:
-  case MeasureKind::displacement_field_max:
-    break;
   }
-  if (definition.dynamics && (is_of_fields(measure.kind) || measure.kind == MeasureKind::curvature))
+};
+
+Measure read_measure(Table& table, const Case& definition) {
+  Measure measure;
+  measure.where = table.where();
+  measure.name = table.required("name", read_text);
+  measure.kind = table.required("kind", read_kind<measures::Kind>);
+  std::visit(MeasureKeys{table, definition.body}, measure.kind);
+  if (definition.dynamics && !measures::is_in_time(measure.kind))
     table.entry("kind").refuse("a measure of single nodes' displacements or of volume: forces, stresses and "
                                "curvatures of a motion are not recorded");
   measure.over_time = read_over_time(table, measure.kind, definition.dynamics.has_value());
@@ -182,24 +182,21 @@ void read_measures(Table& root, Case& result) {
 }
 
 BodySurface read_contour(Table& table, const Labels& picture) {
-  const Entry intensity = table.entry("intensity");
   const PictureContour contour{
-      Number{"a finite number, an intensity"}(intensity),
+      table.required("intensity", Number{"a finite number, an intensity"}),
       table.optional("smoothing", WholeNumber{"a whole number of passes, 0 to 1000", 0, 1000}).value_or(0),
       static_cast<std::size_t>(
           table.optional("triangles", WholeNumber{"a whole number, 100 to 5000000", 100, 5'000'000})
               .value_or(0))};
   table.refuse_unless(false, {"file", "scale"}, "left out: the surface is the contour of the body's picture");
-  return {picture.path, contour, intensity.where, 1};
+  return {{picture.file.path, table.entry("intensity").where}, contour, 1};
 }
 
 BodySurface read_surface_file(Table& table, const std::string& case_path) {
   table.refuse_unless(false, {"intensity", "smoothing", "triangles"},
                       "left out: with shape = \"labels\" alone there is a picture to make a contour of");
-  const Entry file = table.entry("file");
-  return {read_file_name(file, {".stl", ".vtp"}, "a surface, .stl or .vtp", case_path),
+  return {read_file_name(table.entry("file"), {".stl", ".vtp"}, "a surface, .stl or .vtp", case_path),
           {},
-          file.where,
           read_scale(table)};
 }
 

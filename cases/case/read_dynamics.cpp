@@ -1,4 +1,4 @@
-#include "cases/case/read_dynamics.hpp"
+#include "cases/case/readers.hpp"
 
 #include "cases/case/turns_in_time.hpp"
 
@@ -130,7 +130,7 @@ void check_sine(const History& history, const Dynamics& dynamics, const std::str
 
 void check_densities(Table& root, const Case& definition) {
   const bool has_gravity = std::any_of(definition.loads.begin(), definition.loads.end(),
-                                       [](const Load& load) { return load.kind == LoadKind::gravity; });
+                                       [](const Load& load) { return load.on() == loads::On::masses; });
   const bool has_density = definition.material_dynamics.density.has_value();
   if (!has_density && (definition.dynamics || has_gravity || !definition.masses.empty())) {
     Table material(root.entry("material"), "a table");
@@ -170,10 +170,9 @@ History read_history(Table& table, bool has_dynamics) {
   return table.optional("history", read_shape).value_or(History{});
 }
 
-std::optional<OverTime> read_over_time(Table& table, MeasureKind kind, bool has_dynamics) {
+std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind, bool has_dynamics) {
   table.refuse_unless(has_dynamics, {"over_time"}, is_static);
-  const bool is_field =
-      kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
+  const bool is_field = is_field_norm(kind);
   table.refuse_unless(!is_field, {"over_time"}, "left out: the norm of a field is of the end");
   const auto given = table.optional("over_time", read_name<OverTime>);
   if (!has_dynamics || is_field) return std::nullopt;

@@ -1,7 +1,4 @@
-#include "cases/case/read_materials.hpp"
-
-#include "cases/case/read_boundary.hpp"
-#include "cases/case/read_dynamics.hpp"
+#include "cases/case/readers.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -80,14 +77,6 @@ void read_layer(Table& table, RegionMaterial& region) {
   if (!(region.lower[axis] < region.upper[axis])) table.entry("to").refuse("a number above from");
 }
 
-void read_corners(const Entry& entry, RegionMaterial& region) {
-  const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
-  const std::vector<Entry> corners = entry.elements(allowed, 2);
-  region.lower = Vector{allowed}(corners[0]);
-  region.upper = Vector{allowed}(corners[1]);
-  if (!(region.lower.array() < region.upper.array()).all()) entry.refuse(allowed);
-}
-
 /// A material and the cells that consist of it, in a case whose own material is read.
 RegionMaterial read_region_material(Table& table, const Case& definition) {
   const Material& own = definition.material;
@@ -106,12 +95,12 @@ RegionMaterial read_region_material(Table& table, const Case& definition) {
   table.refuse_unless(labels != nullptr, {"class"},
                       "left out: only a body of shape = \"labels\" has classes of cells");
   region.group = table.optional(labels ? "class" : "group", read_text).value_or("");
-  if (labels && has_group) {
-    std::vector<std::string> names;
-    for (const LabelClass& one : labels->classes) names.push_back(one.name);
-    table.entry("class").word(names);
+  if (labels && has_group) table.entry("class").word(names_of(labels->classes));
+  if (has_box) {
+    const auto [lower, upper] = read_corners(table.entry("box"));
+    region.lower = lower;
+    region.upper = upper;
   }
-  if (has_box) read_corners(table.entry("box"), region);
   if (has_axis) read_layer(table, region);
   table.know({"box", "axis", "from", "to"});
   table.refuse_unless(has_axis, {"from", "to"}, "left out without axis");

@@ -1,7 +1,4 @@
-#include "cases/case/read_models.hpp"
-
-#include "cases/case/read_dynamics.hpp"
-#include "cases/case/read_materials.hpp"
+#include "cases/case/readers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -316,9 +313,7 @@ Msm read_msm(Table& table, const Case& definition) {
   read_stiffness(table, msm);
   table.know({"file"});
   if (msm.design == Design::network) {
-    const Entry file = table.entry("file");
-    msm.network =
-        NetworkFile{read_file_name(file, {".csv"}, "a file of springs, .csv", definition.file), file.where};
+    msm.network = read_file_name(table.entry("file"), {".csv"}, "a file of springs, .csv", definition.file);
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -23,6 +25,13 @@ std::optional<Number> number_in(std::string_view text) {
   if constexpr (std::is_floating_point_v<Number>)
     if (!std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+/// The letters of ASCII small; others as they are.
+inline std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 /// One row of a table; views of the text that it was read from.

@@ -270,20 +270,20 @@ toml::table parse_file(const std::string& path, const std::vector<std::string>& 
   return document;
 }
 
-std::string read_file_path(const Entry& entry, const std::vector<std::string>& endings,
-                           const std::string& allowed, const std::string& case_path) {
+NamedFile read_file_path(const Entry& entry, const std::vector<std::string>& endings,
+                         const std::string& allowed, const std::string& case_path) {
   const std::filesystem::path file = read_text(entry);
   if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
-  return (std::filesystem::path(case_path).parent_path() / file).lexically_normal().string();
+  return {(std::filesystem::path(case_path).parent_path() / file).lexically_normal().string(), entry.where};
 }
 
-std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
-                           const std::string& allowed, const std::string& case_path) {
-  const std::filesystem::path path = read_file_path(entry, endings, allowed, case_path);
+NamedFile read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                         const std::string& allowed, const std::string& case_path) {
+  NamedFile file = read_file_path(entry, endings, allowed, case_path);
   std::error_code unreadable; // a name that is too long, for one
-  if (!std::filesystem::is_regular_file(path, unreadable))
-    entry.refuse(fmt::format("a file that exists: there is no {}", path.string()));
-  return path.string();
+  if (!std::filesystem::is_regular_file(file.path, unreadable))
+    entry.refuse(fmt::format("a file that exists: there is no {}", file.path));
+  return file;
 }
 
 std::array<Eigen::Vector3d, 2> read_corners(const Entry& entry, bool may_be_flat) {

@@ -53,13 +53,12 @@ std::string read_text(const Entry& entry);
 /// The name of a file that exists, relative to the case file.
 /// @param endings  that are allowed    @param allowed  completes "must be ..."    @param case_path  of the
 /// case
-/// @return the name as it is to be opened
-std::string read_file_name(const Entry& entry, const std::vector<std::string>& endings,
-                           const std::string& allowed, const std::string& case_path);
+NamedFile read_file_name(const Entry& entry, const std::vector<std::string>& endings,
+                         const std::string& allowed, const std::string& case_path);
 
 /// The same of a file that need not be there before the body is made: a package's data.
-std::string read_file_path(const Entry& entry, const std::vector<std::string>& endings,
-                           const std::string& allowed, const std::string& case_path);
+NamedFile read_file_path(const Entry& entry, const std::vector<std::string>& endings,
+                         const std::string& allowed, const std::string& case_path);
 
 /// One finite number, whole or not. `allowed` completes "must be ...".
 struct Number {
@@ -96,6 +95,12 @@ struct WholeNumber {
 template<class Enum>
 Enum read_name(const Entry& entry) {
   return *value_of<Enum>(entry.word(all_names<Enum>()));
+}
+
+/// A kind of a thing, by its name.
+template<class Variant>
+Variant read_kind(const Entry& entry) {
+  return Kinds<Variant>::named(entry.word(Kinds<Variant>::names()));
 }
 
 /// A table that records which keys were read: the others are unknown keys.

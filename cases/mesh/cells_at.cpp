@@ -2,7 +2,6 @@
 
 #include "mechanics/hexahedron.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -20,14 +19,8 @@ double largest_edge(const Eigen::AlignedBox3d& box) {
   return box.sizes().maxCoeff();
 }
 
-Eigen::AlignedBox3d box_around(const mechanics::HexahedronVertices& vertices) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : vertices) box.extend(vertex);
-  return box;
-}
-
 bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
-  const Eigen::AlignedBox3d box = box_around(vertices);
+  const Eigen::AlignedBox3d box = bounding_box(vertices);
   if (box.exteriorDistance(point) > on_boundary * largest_edge(box)) return false;
   const auto at = place_in_cell(vertices, point);
   return at && (at->array() >= -on_boundary).all() && (at->array() <= 1 + on_boundary).all();
@@ -56,7 +49,7 @@ std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
 } // namespace
 
 std::optional<Vector3d> place_in_cell(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
-  const double size = largest_edge(box_around(vertices));
+  const double size = largest_edge(bounding_box(vertices));
   Vector3d at = Vector3d::Constant(0.5);
   for (int step = 0; step < most_steps; ++step) {
     const Vector3d missing = point - mechanics::image(vertices, at);

@@ -2,7 +2,6 @@
 
 #include "cases/mesh/cells_at.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <limits>
 #include <numeric>
@@ -171,8 +170,7 @@ class MeshCheck {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
       const std::array<int, 8> cell = mesh_.cells[c];
       const auto vertices = cell_vertices(mesh_, c);
-      Eigen::AlignedBox3d box;
-      for (const Vector3d& vertex : vertices) box.extend(vertex);
+      Eigen::AlignedBox3d box = bounding_box(vertices);
       const Vector3d aside = Vector3d::Constant(touching * of_cell[c]);
       nodes.for_each_in({box.min() - aside, box.max() + aside}, [&](int node) {
         if (std::find(cell.begin(), cell.end(), node) != cell.end()) return;

@@ -43,6 +43,9 @@ struct GmshFunctions {
   std::vector<GmshGroup> (*groups)();
 };
 
+/// gmsh and the ninety libraries it needs, loaded when first called: a tenth of a second.
+const GmshFunctions& gmsh();
+
 /// The symbol by which gmsh() finds them.
 extern "C" const GmshFunctions springproof_gmsh;
 

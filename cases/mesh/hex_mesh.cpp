@@ -3,7 +3,6 @@
 #include "cases/mesh/sharing.hpp"
 #include "mechanics/hexahedron.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
@@ -50,13 +49,6 @@ std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vecto
     whole[index(a)] = static_cast<int>(nearest);
   }
   return whole;
-}
-
-template<class Points>
-Eigen::AlignedBox3d bounding_box(const Points& points) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& point : points) box.extend(point);
-  return box;
 }
 
 /// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid of that spacing.

@@ -3,6 +3,7 @@
 #include "cases/mesh/grid_lists.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -125,6 +126,13 @@ template<class Value>
 void make_set(std::vector<Value>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+template<class Points>
+Eigen::AlignedBox3d bounding_box(const Points& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  return box;
 }
 
 /// Mean of the rest positions of a cell's, a face's, ... nodes.

@@ -1,6 +1,5 @@
-#include "cases/mesh/inv3.hpp"
-
 #include "cases/case/rows.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -88,7 +87,7 @@ std::array<double, 3> numbers_of(vtkXMLDataElement& dictionary, const std::strin
 
 Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
   // Masks and surfaces beside the voxels may take more than these.
-  if (bytes.deflated) check_deflated(*bytes.deflated, 0, most_bytes_of_project);
+  if (bytes.is_compressed) check_gzip(path, 0, most_bytes_of_project);
   const std::string list = unpacked(
       path, "main.plist", [](const std::string& name) { return name == "main.plist"; },
       [](std::uint64_t size) { return size <= most_bytes_of_list; });

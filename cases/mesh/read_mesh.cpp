@@ -1,8 +1,9 @@
 #include "cases/mesh/read_mesh.hpp"
 
+#include "cases/case/installation.hpp"
 #include "cases/mesh/check_mesh.hpp"
 #include "cases/mesh/confined.hpp"
-#include "cases/mesh/gmsh.hpp"
+#include "cases/mesh/gmsh_functions.hpp"
 #include "cases/mesh/mesh_bytes.hpp"
 
 #include <algorithm>
@@ -176,10 +177,10 @@ void check_format(std::istream& stream) {
 
 /// The mesh of a file, as bytes.
 std::string mesh_bytes(const MeshFile& file, bool is_geometry) {
-  std::ifstream stream(file.path);
+  std::ifstream stream(file.file.path);
   if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!is_geometry) check_format(stream);
-  gmsh().open(file.path, is_geometry);
+  gmsh().open(file.file.path, is_geometry);
   HexMesh mesh = Builder().build();
   for (Eigen::Vector3d& node : mesh.nodes.stored()) node *= file.scale;
   return bytes_of_mesh(mesh);
@@ -187,26 +188,33 @@ std::string mesh_bytes(const MeshFile& file, bool is_geometry) {
 
 } // namespace
 
+const GmshFunctions& gmsh() {
+  static const auto* const functions =
+      static_cast<const GmshFunctions*>(load_shared_object("springproof_gmsh"));
+  return *functions;
+}
+
 std::string name_in_dimension(const std::string& name, int dimension) {
   constexpr std::array<const char*, 3> kinds{"point", "curve", "surface"};
   return name + " (" + kinds[index(dimension)] + ")";
 }
 
-HexMesh read_mesh(const MeshFile& file) {
+HexMesh read_mesh(const MeshFile& mesh) {
+  const NamedFile& file = mesh.file;
   std::error_code absent;
   if (!std::filesystem::is_regular_file(file.path, absent))
-    throw InputError(file.where, file.path + ": " + (absent ? absent.message() : "is no regular file"));
+    file.refuse(absent ? absent.message() : "is no regular file");
   const bool is_geometry = std::filesystem::path(file.path).extension() == ".geo";
   if (is_geometry && std::filesystem::exists(file.path + ".opt", absent))
-    throw InputError(file.where, file.path + ": has options for gmsh beside it, " + file.path +
-                                     ".opt: write them into the .geo (Mesh.X = ...;)");
+    file.refuse("has options for gmsh beside it, " + file.path +
+                ".opt: write them into the .geo (Mesh.X = ...;)");
   try {     // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
     gmsh(); // loaded before the child is confined
     const Limits limits =
         is_geometry ? limits_to_mesh : limits_to_read(std::filesystem::file_size(file.path));
-    return mesh_from(run_confined([&] { return mesh_bytes(file, is_geometry); }, limits));
+    return mesh_from(run_confined([&] { return mesh_bytes(mesh, is_geometry); }, limits));
   } catch (const std::exception& error) {
-    throw InputError(file.where, fmt::format("{}: {}", file.path, error.what()));
+    file.refuse(error.what());
   }
 }
 

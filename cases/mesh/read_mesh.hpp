@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case/case.hpp"
+#include "cases/case/body.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 
 namespace springproof::cases {
@@ -16,6 +16,6 @@ std::string name_in_dimension(const std::string& name, int dimension);
 /// @throws InputError, at the place of `file` in the case file, if it cannot be read or is of another format;
 /// if it has no hexahedra or other three-dimensional cells; if check_mesh() refuses it; if an element of a
 /// group is not part of a hexahedron
-HexMesh read_mesh(const MeshFile& file);
+HexMesh read_mesh(const MeshFile& mesh);
 
 } // namespace springproof::cases

@@ -2,8 +2,8 @@
 
 #include "cases/mesh/vtk_functions.hpp"
 
-/// VTK's readers in a confined process: they crash on some broken files, and allocate whatever a file says
-/// that it has.
+/// VTK's readers and filters in a confined process: they crash on some broken files, and allocate whatever a
+/// file says that it has.
 namespace springproof::cases {
 
 /// A file .stl, text or binary; coordinates are rounded to single precision. What follows the last triangle
@@ -20,6 +20,21 @@ PointCloud read_point_cloud(const std::string& content);
 /// The same with interpolation between its points and the nodes of a mesh.
 /// @throws std::runtime_error likewise; if it has no cells of a volume, or none near a node of the mesh
 CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh);
+
+/// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
+/// not be closed.
+/// @param remarks  as of read_triangles()
+/// @throws std::runtime_error with VTK's message; if it has no triangles or a position that is not finite
+TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks = nullptr);
+
+/// The surface that divides a picture's points of a value above the level from the others: closed, because
+/// beyond its borders a picture is below the level; seen from outside anticlockwise, outside being below.
+/// @throws std::runtime_error if there is none; if the sizes of the picture are not as many as its values
+TriangleMesh contour(const Picture& picture, const ContourSettings& settings);
+
+/// A surface in about so many triangles, where it has more, by quadric decimation, in 20 s or not at all.
+/// @throws std::runtime_error with VTK's message; if it takes longer, or no triangle is left
+TriangleMesh decimated(const TriangleMesh& surface, std::size_t n_triangles);
 
 /// What the confined process answered, which may be anything; bytes_of() makes them.
 /// @throws std::exception if the bytes are no such value: a field of another length than the points, no

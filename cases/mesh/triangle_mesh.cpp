@@ -73,15 +73,4 @@ Vector3d doubled_area(const std::array<int, 3>& triangle, const std::vector<Vect
   return to_second.cross(positions[index(triangle[2])] - origin);
 }
 
-void vertex_normals(const std::vector<std::array<int, 3>>& triangles, const std::vector<Vector3d>& positions,
-                    std::vector<Vector3d>& normals) {
-  normals.assign(positions.size(), Vector3d::Zero());
-  for (const std::array<int, 3>& triangle : triangles) {
-    const Vector3d area = doubled_area(triangle, positions);
-    for (const int vertex : triangle) normals[index(vertex)] += area;
-  }
-  for (Vector3d& normal : normals)
-    if (const double length = normal.norm(); length > 0) normal /= length;
-}
-
 } // namespace springproof::cases

@@ -27,10 +27,4 @@ Eigen::Vector3d barycentre(const std::array<int, 3>& triangle, const std::vector
 Eigen::Vector3d doubled_area(const std::array<int, 3>& triangle,
                              const std::vector<Eigen::Vector3d>& positions);
 
-/// Unit normals of the vertices: of the sum of their triangles' areas as vectors, which an affine map takes
-/// along exactly. Zero at a vertex without triangles, or whose triangles cancel out.
-/// @param positions  of the vertices, mm    @param normals  one per vertex, overwritten
-void vertex_normals(const std::vector<std::array<int, 3>>& triangles,
-                    const std::vector<Eigen::Vector3d>& positions, std::vector<Eigen::Vector3d>& normals);
-
 } // namespace springproof::cases

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace springproof::cases {
@@ -15,11 +16,27 @@ struct Volume {
   std::vector<float> intensities;   ///< x fastest
 };
 
+/// What a picture's file can hold.
+struct VolumeBytes {
+  std::uint64_t in_file;
+  std::uint64_t of_voxels; ///< deflate makes of a byte 1032 at most
+  bool is_compressed;      ///< by gzip, from the first byte on
+};
+
+/// @throws std::runtime_error if it is no regular file
+VolumeBytes bytes_of_volume(const std::string& path);
+
 /// @param most_bytes  of voxels that the file can hold
 /// @throws std::runtime_error unless there are voxels of a finite size above 0, no more than the file can
 /// hold, and so few that they can be numbered
 /// @return how many there are
 std::size_t checked_voxels(const std::array<int, 3>& voxels, const Eigen::Vector3d& spacing,
                            std::size_t bytes_a_voxel, std::uint64_t most_bytes);
+
+/// Inflates a gzipped file piece by piece, and keeps none: readers believe bytes that a checksum refutes, and
+/// what has no end.
+/// @param least, most  how many bytes it may hold
+/// @throws std::runtime_error unless it is whole, its checksums right, and holds as many
+void check_gzip(const std::string& path, std::uint64_t least, std::uint64_t most);
 
 } // namespace springproof::cases

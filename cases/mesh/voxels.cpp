@@ -2,9 +2,7 @@
 
 #include "cases/mesh/pieces.hpp"
 #include "cases/mesh/read_vtk.hpp"
-#include "cases/mesh/scale_hint.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -18,14 +16,13 @@ namespace {
 
 Eigen::AlignedBox3d box_of(const Surface& surface) {
   Eigen::AlignedBox3d body;
-  for (const auto& triangle : surface)
-    for (const Vector3d& vertex : triangle) body.extend(vertex);
+  for (const auto& triangle : surface) body.extend(bounding_box(triangle));
   return body;
 }
 
 /// Reads the body's surface, at its scale.
 Surface scaled_surface(const Voxels& voxels, std::vector<std::string>* remarks = nullptr) {
-  Surface surface = read_stl(voxels.path, voxels.where, remarks);
+  Surface surface = read_stl(voxels.file, remarks);
   for (auto& triangle : surface)
     for (Vector3d& vertex : triangle) vertex *= voxels.scale;
   return surface;
@@ -44,9 +41,8 @@ Grid empty_grid(const Surface& surface, const Voxels& voxels) {
     const double n = std::max(1.0, std::ceil((body.sizes()[a] - rounding) / voxels.edge - 1e-6));
     n_cells *= n;
     if (!(n_cells <= Grid::most_cells))
-      throw InputError(voxels.where,
-                       fmt::format("{}: needs more than {:.0e} cells of edge {} mm: {}", voxels.path,
-                                   Grid::most_cells, voxels.edge, scale_hint(body.sizes())));
+      voxels.file.refuse(fmt::format("needs more than {:.0e} cells of edge {} mm: {}", Grid::most_cells,
+                                     voxels.edge, scale_hint(body.sizes())));
     grid.cells[index(a)] = static_cast<int>(n);
   }
   grid.present.assign(grid.n_lattice_cells(), false);
@@ -117,12 +113,11 @@ std::vector<std::size_t> sizes_of_pieces(const Grid& grid) {
 
 } // namespace
 
-Surface read_stl(const std::string& path, const Where& where, std::vector<std::string>* remarks) {
+Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
   try {
-    return read_triangles(path, remarks);
+    return read_triangles(file.path, remarks);
   } catch (const std::exception& error) {
-    const std::string reason = error.what(); // VTK's have the path
-    throw InputError(where, reason.find(path) == std::string::npos ? path + ": " + reason : reason);
+    file.refuse_once(error.what());
   }
 }
 
@@ -159,9 +154,7 @@ HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks)
 }
 
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
-  const auto refuse = [&](const std::string& reason) {
-    throw InputError(voxels.where, fmt::format("{}: {}", voxels.path, reason));
-  };
+  const auto refuse = [&](const std::string& reason) { voxels.file.refuse(reason); };
   if (const std::size_t open = n_open_edges(surface))
     refuse(fmt::format("is not closed: {} edges of its {} triangles have no neighbour running the other way",
                        open, surface.size()));

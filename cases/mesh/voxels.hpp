@@ -1,15 +1,16 @@
 #pragma once
 
-#include "cases/case/case.hpp"
+#include "cases/case/body.hpp"
 #include "cases/mesh/vtk_functions.hpp"
+
+#include <fmt/format.h>
 
 namespace springproof::cases {
 
 /// Reads a surface in STL, text or binary; coordinates are rounded to single precision.
-/// @param where  the place in a case file that names it, for messages
 /// @throws InputError if it cannot be read, ends within a triangle, has none or a position that is not finite
 /// @param remarks  as of read_triangles()
-Surface read_stl(const std::string& path, const Where& where, std::vector<std::string>* remarks = nullptr);
+Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks = nullptr);
 
 /// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
 /// has an inside. Vertices are the same when their coordinates are. (VTK's boundary edges have no direction:
@@ -35,5 +36,13 @@ VoxelCounts count_voxels(const Voxels& voxels);
 HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
 /// The same of a surface that has been read and scaled.
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
+
+/// For messages about a body that is too small or too large for its cells.
+/// @param size  along the axes, mm
+inline std::string scale_hint(const Eigen::Vector3d& size) {
+  return fmt::format("the file's body is {:.4g} x {:.4g} x {:.4g} mm; where its unit is another, body.scale "
+                     "says how many mm that is (1000 for metres)",
+                     size.x(), size.y(), size.z());
+}
 
 } // namespace springproof::cases

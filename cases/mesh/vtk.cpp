@@ -1,4 +1,4 @@
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/installation.hpp"

@@ -1,7 +1,6 @@
-#include "cases/mesh/vtk_clouds.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
 #include "cases/mesh/vtk_grid.hpp"
-#include "cases/mesh/vtk_run.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,10 +1,7 @@
 #include "cases/mesh/vtk_functions.hpp"
 
-#include "cases/mesh/vtk_clouds.hpp"
 #include "cases/mesh/vtk_grid.hpp"
-#include "cases/mesh/vtk_run.hpp"
-#include "cases/mesh/vtk_surfaces.hpp"
-#include "cases/mesh/vtk_volumes.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
 #include <algorithm>
 #include <filesystem>

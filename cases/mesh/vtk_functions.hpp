@@ -5,7 +5,6 @@
 #include "cases/mesh/point_cloud.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 #include "cases/mesh/volume.hpp"
-#include "cases/mesh/volume_files.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
@@ -58,7 +57,7 @@ struct VtkFunctions {
   /// The index of the point closest to each position.  @param points  at least one
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& positions);
-  /// Reads a file .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .inv3.
+  /// Reads a file .nii, .nii.gz or .inv3.
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
   /// The triangles of a file .vtp's content.
   Surface (*read_polygons)(const std::string& content);
@@ -70,6 +69,15 @@ struct VtkFunctions {
   /// cases::decimated()
   Surface (*decimated)(const TriangleMesh&, std::size_t n_triangles);
 };
+
+/// For commands that need VTK after they have solved.
+/// @throws InputError where the program was built without VTK, with what to type
+void check_has_vtk();
+
+/// Loads the shared object springproof_vtk at the first call. Linked to the programs, VTK's libraries would
+/// lengthen every start by a fifth.
+/// @throws InputError as check_has_vtk()
+const VtkFunctions& vtk();
 
 /// The symbol by which vtk() finds them.
 extern "C" const VtkFunctions springproof_vtk;

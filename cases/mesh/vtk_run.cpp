@@ -1,4 +1,4 @@
-#include "cases/mesh/vtk_run.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
 #include <stdexcept>
 #include <vtkAlgorithm.h>

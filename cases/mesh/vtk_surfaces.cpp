@@ -1,9 +1,7 @@
-#include "cases/mesh/vtk_surfaces.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
 #include "cases/mesh/vtk_grid.hpp"
-#include "cases/mesh/vtk_run.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
 #include <vtkCellArray.h>
@@ -148,8 +146,7 @@ Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) 
   // the triangles left must interpolate.
   const vtkNew<vtkFloatArray> bent;
   bent->SetNumberOfComponents(3);
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+  const Eigen::AlignedBox3d box = bounding_box(surface.vertices);
   for (const Vector3d& vertex : surface.vertices) {
     points->InsertNextPoint(vertex.data());
     const Vector3d from_centre = vertex - box.center();

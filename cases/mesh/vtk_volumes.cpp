@@ -1,9 +1,6 @@
-#include "cases/mesh/vtk_volumes.hpp"
+#include "cases/mesh/vtk_parts.hpp"
 
-#include "cases/mesh/inv3.hpp"
-#include "cases/mesh/voxel_size.hpp"
-#include "cases/mesh/vtk_run.hpp"
-
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,16 +8,11 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
-#include <type_traits>
 #include <vtkDataArray.h>
-#include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkImageReader2.h>
-#include <vtkMetaImageReader.h>
 #include <vtkNIFTIImageHeader.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
-#include <vtkNrrdReader.h>
 #include <vtkPointData.h>
 #include <zlib.h>
 
@@ -28,30 +20,22 @@ namespace springproof::cases {
 
 namespace {
 
-/// The intensities as they are meant: the file's numbers, scaled.
-struct Scale {
-  double slope = 1, intercept = 0;
-};
+/// What two statements of a length may differ by, relative, and an angle from a right one: half a voxel in
+/// 500.
+constexpr double voxel_tolerance = 1e-3;
 
-Scale scale_of(vtkNIFTIImageReader& reader) {
-  return {reader.GetRescaleSlope(), reader.GetRescaleIntercept()};
-}
-Scale scale_of(vtkMetaImageReader& reader) {
-  return {reader.GetRescaleSlope(), reader.GetRescaleOffset()};
-}
-Scale scale_of(vtkNrrdReader&) {
-  return {};
-}
-
-void check_header(vtkMetaImageReader&, const std::string&) {}
-void check_header(vtkNrrdReader&, const std::string&) {}
-
-/// VTK's own reading of these headers knows no units and takes what is no number for 1 or for its beginning.
-Eigen::Vector3d voxel_of(vtkMetaImageReader&, const VolumeBytes& bytes) {
-  return bytes.voxel;
-}
-Eigen::Vector3d voxel_of(vtkNrrdReader&, const VolumeBytes& bytes) {
-  return bytes.voxel;
+/// The edges of a voxel from the steps between voxels.
+/// @param steps  one along each axis of the array, in columns
+/// @throws std::runtime_error unless they are at right angles
+Eigen::Vector3d edges_of_voxel(const Eigen::Matrix3d& steps) {
+  const Eigen::Vector3d edges = steps.colwise().norm();
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3;
+    if (!(std::abs(steps.col(a).dot(steps.col(b))) <= voxel_tolerance * edges[a] * edges[b]))
+      throw std::runtime_error(
+          "has sheared voxels: the axes of its array must be at right angles to each other; resample it");
+  }
+  return edges;
 }
 
 std::string shown(const Eigen::Vector3d& edges) {
@@ -60,10 +44,18 @@ std::string shown(const Eigen::Vector3d& edges) {
   return text.str();
 }
 
+/// @return mm
+double unit_of_length(vtkNIFTIImageHeader& header) {
+  constexpr std::array<double, 4> units{1, 1e3, 1, 1e-3}; // none, m, mm, um
+  const auto unit = static_cast<std::size_t>(header.GetXYZTUnits() & 7);
+  if (unit < units.size()) return units[unit];
+  throw std::runtime_error("has lengths in 'xyzt_units " + std::to_string(unit) + "', must be um, mm or m");
+}
+
 /// The grid spacings of pixdim. The affine map of an sform leads to where the scanner or an aligned picture
 /// has the voxels, and must agree; one to an atlas (codes 3 and up) need not where a qform leads to the
 /// scanner.
-Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader, const VolumeBytes&) {
+Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader) {
   vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
   const Eigen::Vector3d edges(reader.GetDataSpacing());
   constexpr int of_atlas = 3;
@@ -80,18 +72,7 @@ Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader, const VolumeBytes&) {
       throw std::runtime_error("says voxels of " + shown(edges) + " by its pixdim and of " + shown(by_map) +
                                " by its sform, which must agree: set the one that is wrong");
   }
-  constexpr std::array<const char*, 4> units{"", "m", "mm", "um"};
-  const auto unit = static_cast<std::size_t>(header.GetXYZTUnits() & 7);
-  return edges * millimetres_in(unit < units.size() ? units[unit] : "xyzt_units " + std::to_string(unit));
-}
-
-/// VTK takes the last bytes of a longer NRRD.
-void check_length(vtkMetaImageReader&, const VolumeBytes&, std::uint64_t) {}
-void check_length(vtkNIFTIImageReader&, const VolumeBytes&, std::uint64_t) {}
-void check_length(vtkNrrdReader&, const VolumeBytes& bytes, std::uint64_t of_voxels) {
-  if (!bytes.deflated && bytes.of_voxels != of_voxels)
-    throw std::runtime_error("has " + std::to_string(bytes.of_voxels) + " bytes of voxels, must have " +
-                             std::to_string(of_voxels));
+  return edges * unit_of_length(header);
 }
 
 /// The first number of a header, in either order of bytes, says which it is; VTK does not look at it.
@@ -124,28 +105,23 @@ void check_header(vtkNIFTIImageReader& reader, const std::string& path) {
   if (header.GetBitPix() != bits)
     throw std::runtime_error("says " + std::to_string(header.GetBitPix()) + " bits a voxel, its type has " +
                              std::to_string(bits));
-  const Scale scale = scale_of(reader);
-  if (!std::isfinite(scale.slope) || !std::isfinite(scale.intercept))
+  if (!std::isfinite(reader.GetRescaleSlope()) || !std::isfinite(reader.GetRescaleIntercept()))
     throw std::runtime_error("has a scale of its intensities that is no number");
 }
 
-/// What compressed voxels may hold: as much as the header says, but of NIfTI with its header, and any number
-/// of pictures one after the other in time, the first of which is read.
-template<class Reader>
-void check_compressed(Reader& reader, const VolumeBytes& bytes, std::uint64_t of_voxels) {
-  if (!bytes.deflated) return;
-  std::uint64_t least = of_voxels;
+/// What a compressed file may hold: its header, as many voxels as that says, and any number of pictures one
+/// after the other in time, the first of which is read.
+void check_compressed(const std::string& path, vtkNIFTIImageHeader& header, const VolumeBytes& bytes,
+                      std::uint64_t of_voxels) {
+  const std::uint64_t least =
+      of_voxels + static_cast<std::uint64_t>(std::clamp<std::int64_t>(header.GetVoxOffset(), 0, 1 << 30));
   double n_pictures = 1;
-  if constexpr (std::is_same_v<Reader, vtkNIFTIImageReader>) {
-    vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
-    least += static_cast<std::uint64_t>(std::clamp<std::int64_t>(header.GetVoxOffset(), 0, 1 << 30));
-    for (int a = 4; a <= std::min<std::int64_t>(7, header.GetDim(0)); ++a)
-      n_pictures *= std::clamp<double>(static_cast<double>(header.GetDim(a)), 1, 1e6);
-  }
-  constexpr double room = std::is_same_v<Reader, vtkNrrdReader> ? 0 : 1 << 20; // for what may follow
+  for (int a = 4; a <= std::min<std::int64_t>(7, header.GetDim(0)); ++a)
+    n_pictures *= std::clamp<double>(static_cast<double>(header.GetDim(a)), 1, 1e6);
+  constexpr double room = 1 << 20; // for what may follow
   const double most =
       std::min(room + n_pictures * static_cast<double>(least), static_cast<double>(bytes.of_voxels));
-  check_deflated(*bytes.deflated, least, static_cast<std::uint64_t>(most));
+  check_gzip(path, least, static_cast<std::uint64_t>(most));
 }
 
 /// VTK's messages name the file, objects and addresses, in several lines.
@@ -166,9 +142,55 @@ void run_on(const std::string& path, const Action& action) {
   }
 }
 
-template<class Reader>
-Volume read_with_vtk(const std::string& path, const VolumeBytes& bytes) {
-  vtkNew<Reader> reader;
+} // namespace
+
+std::size_t checked_voxels(const std::array<int, 3>& voxels, const Eigen::Vector3d& spacing,
+                           std::size_t bytes_a_voxel, std::uint64_t most_bytes) {
+  const std::string size =
+      std::to_string(voxels[0]) + " x " + std::to_string(voxels[1]) + " x " + std::to_string(voxels[2]);
+  double n = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (voxels[a] < 1) throw std::runtime_error("has " + size + " voxels, must have some in every direction");
+    n *= voxels[a];
+    const double length = spacing[static_cast<int>(a)];
+    if (!(length > 1e-6 && length < 1e6))
+      throw std::runtime_error("has voxels of " + std::to_string(length) +
+                               " mm, must be from 1e-6 to 1e6 mm");
+  }
+  if (!(n * static_cast<double>(bytes_a_voxel) <= static_cast<double>(most_bytes)))
+    throw std::runtime_error("says that it has " + size + " voxels, more than the file can hold");
+  if (!(n <= std::numeric_limits<int>::max()))
+    throw std::runtime_error("has " + size + " voxels, must have fewer than 2^31");
+  return static_cast<std::size_t>(n);
+}
+
+void check_gzip(const std::string& path, std::uint64_t least, std::uint64_t most) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  if (!file) throw std::runtime_error("cannot be read");
+  std::array<char, 1 << 16> piece;
+  std::uint64_t held = 0;
+  for (int n = 1; (n = gzread(file.get(), piece.data(), piece.size())) > 0;) {
+    held += static_cast<std::uint64_t>(n);
+    if (held > most)
+      throw std::runtime_error("holds more than " + std::to_string(most) +
+                               " bytes where it is compressed, far more than its header says");
+  }
+  int status = Z_OK;
+  const std::string message = gzerror(file.get(), &status); // "PATH: reason"
+  if (status == Z_BUF_ERROR) throw std::runtime_error("is cut short: what is compressed has no end");
+  if (status != Z_OK || gzdirect(file.get()) != 0)
+    throw std::runtime_error("is damaged where it is compressed: " +
+                             (status == Z_OK ? "incorrect header check" : message.substr(path.size() + 2)));
+  if (held < least)
+    throw std::runtime_error("is cut short: holds " + std::to_string(held) +
+                             " bytes where it is compressed, its header says " + std::to_string(least));
+}
+
+Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
+  const std::string project = ".inv3";
+  if (path.size() > project.size() && path.substr(path.size() - project.size()) == project)
+    return read_inv3(path, bytes);
+  const vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(path.c_str());
   run_on(path, [&] { run_information(*reader); });
   Volume volume;
@@ -178,44 +200,26 @@ Volume read_with_vtk(const std::string& path, const VolumeBytes& bytes) {
     volume.voxels[a] = n > 0 && n < std::numeric_limits<int>::max() ? static_cast<int>(n) : 0;
   }
   if (const int n = reader->GetNumberOfScalarComponents(); n != 1)
-    throw std::runtime_error(
-        "has " + std::to_string(n) +
-        " numbers a voxel, must have one (a first axis of up to 9 in NRRD is taken for that)");
+    throw std::runtime_error("has " + std::to_string(n) + " numbers a voxel, must have one");
   check_header(*reader, path);
-  volume.spacing = voxel_of(*reader, bytes);
+  volume.spacing = voxel_of(*reader);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
   if (bytes_a_voxel < 1) throw std::runtime_error("has voxels of no type of numbers");
   const std::size_t n =
       checked_voxels(volume.voxels, volume.spacing, static_cast<std::size_t>(bytes_a_voxel), bytes.of_voxels);
-  check_length(*reader, bytes, n * static_cast<std::size_t>(bytes_a_voxel));
-  check_compressed(*reader, bytes, n * static_cast<std::size_t>(bytes_a_voxel));
+  if (bytes.is_compressed)
+    check_compressed(path, *reader->GetNIFTIHeader(), bytes, n * static_cast<std::size_t>(bytes_a_voxel));
   run_on(path, [&] { run(*reader); });
   vtkDataArray* numbers = reader->GetOutput()->GetPointData()->GetScalars();
   if (numbers == nullptr || static_cast<std::size_t>(numbers->GetNumberOfValues()) != n)
     throw std::runtime_error("has other voxels than it says");
-  const Scale scale = scale_of(*reader);
-  const bool is_scaled = scale.slope != 0;
+  const double slope = reader->GetRescaleSlope(), intercept = reader->GetRescaleIntercept();
   volume.intensities.resize(n);
   for (std::size_t v = 0; v < n; ++v) {
     const double number = numbers->GetComponent(static_cast<vtkIdType>(v), 0);
-    volume.intensities[v] = static_cast<float>(is_scaled ? scale.slope * number + scale.intercept : number);
+    volume.intensities[v] = static_cast<float>(slope != 0 ? slope * number + intercept : number);
   }
   return volume;
-}
-
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-} // namespace
-
-Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
-  if (ends_with(path, ".inv3")) return read_inv3(path, bytes);
-  if (ends_with(path, ".nrrd") || ends_with(path, ".nhdr")) return read_with_vtk<vtkNrrdReader>(path, bytes);
-  if (ends_with(path, ".mha") || ends_with(path, ".mhd"))
-    return read_with_vtk<vtkMetaImageReader>(path, bytes);
-  return read_with_vtk<vtkNIFTIImageReader>(path, bytes);
 }
 
 } // namespace springproof::cases

@@ -1,6 +1,7 @@
 #include "cases/scene/cut.hpp"
 
 #include "cases/mesh/pieces.hpp"
+#include "cases/scene/regions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,24 +109,6 @@ CutSide side_of(const Scene& scene, const Removed& removed, const Block& block, 
   return side;
 }
 
-/// Nodes as a selection with the edges and faces between them.
-Selection selection_of(const HexMesh& mesh, const std::vector<int>& nodes) {
-  Selection selection;
-  selection.nodes = nodes;
-  const auto has_all = [&](const auto& some) {
-    return std::all_of(some.begin(), some.end(),
-                       [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
-  };
-  for (const std::array<int, 8> cell : mesh.cells) {
-    for (const auto& edge : cell_edges)
-      if (const auto ends = pick(cell, edge); has_all(ends)) selection.edges.push_back(sorted(ends));
-    for (const auto& face : cell_faces)
-      if (const auto corners = pick(cell, face); has_all(corners)) selection.faces.push_back(corners);
-  }
-  make_set(selection.edges);
-  return selection;
-}
-
 } // namespace
 
 HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed) {
@@ -197,7 +180,9 @@ void join_cuts(Scene& scene) {
       motion.region.where = removed.where;
       motion.components = {axis == 0, axis == 1, axis == 2};
       motion.displacement[static_cast<int>(axis)] = side->displacement;
-      scene.moved.push_back({selection_of(scene.mesh, side->free), motion});
+      std::vector<bool> is_free(scene.mesh.nodes.size(), false);
+      for (const int node : side->free) is_free[index(node)] = true;
+      scene.moved.push_back({select_between(scene.mesh, is_free), motion});
       scene.constrained.push_back({scene.moved.back().selection, motion.components});
     }
   }

@@ -4,13 +4,23 @@
 
 namespace springproof::cases {
 
+namespace {
+
+/// After the one time and before the other.
+bool jumps_between(const History& history, double begin, double end) {
+  const auto is_jump = [&](const auto& from, const auto& to) {
+    return from[0] == to[0] && from[1] != to[1] && from[0] > begin && from[0] < end;
+  };
+  return std::adjacent_find(history.points.begin(), history.points.end(), is_jump) != history.points.end();
+}
+
+} // namespace
+
 Scene scene_before_start(const Scene& scene) {
   Scene still = scene;
   for (Scene::AppliedLoad& applied : still.loads) {
     Load& load = applied.load;
-    const double factor = load.history.just_before(0);
-    load.value *= factor;
-    load.moment *= factor;
+    load.scale(load.history.just_before(0));
     load.history = {};
   }
   for (auto& [selection, motion] : still.moved) {
@@ -28,19 +38,33 @@ Scene scene_before_start(const Scene& scene) {
   return still;
 }
 
+bool has_load_histories(const Scene& scene) {
+  return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& applied) {
+    return !applied.load.history.points.empty() || applied.load.history.frequency != 0;
+  });
+}
+
+bool jumps_on_the_way(const Scene& scene) {
+  const double end = scene.definition.dynamics->end;
+  return std::any_of(scene.loads.begin(), scene.loads.end(),
+                     [=](const auto& applied) { return jumps_between(applied.load.history, 0, end); }) ||
+         std::any_of(scene.moved.begin(), scene.moved.end(),
+                     [=](const auto& moved) { return jumps_between(moved.motion.history, 0, end); });
+}
+
 std::vector<int> watched_nodes(const Scene& scene) {
   std::vector<int> nodes;
   for (const Measure& measure : scene.definition.measures)
-    for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-      if (region->near || !region->name.empty()) nodes.push_back(select_node(scene.mesh, *region));
+    for_each_region(measure, [&](const Region& region, bool is_node) {
+      if (is_node) nodes.push_back(select_node(scene.mesh, region));
+    });
   make_set(nodes);
   return nodes;
 }
 
 bool watches_volume(const Scene& scene) {
   const auto& measures = scene.definition.measures;
-  return std::any_of(measures.begin(), measures.end(),
-                     [](const Measure& measure) { return measure.kind == MeasureKind::volume; });
+  return std::any_of(measures.begin(), measures.end(), is<measures::Volume, Measure>);
 }
 
 } // namespace springproof::cases

@@ -9,6 +9,13 @@ namespace springproof::cases {
 /// time 0, at full load, without [dynamics].
 Scene scene_before_start(const Scene& scene);
 
+/// Whether the factor of a load follows time.
+bool has_load_histories(const Scene& scene);
+
+/// Whether the factor of a load or a moved region jumps after time 0 and before the motion's end.
+/// @param scene  of a dynamic case
+bool jumps_on_the_way(const Scene& scene);
+
 /// Nodes that the case's measures look at, ascending.
 std::vector<int> watched_nodes(const Scene& scene);
 

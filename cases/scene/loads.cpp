@@ -14,23 +14,21 @@ using Eigen::Vector3d;
 
 namespace {
 
+std::array<double, 4> bilinear_shapes(double s, double t) {
+  return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+}
+
 /// Calls action(face, point, shape values, area weight) at the 2x2 Gauss points of the bilinear faces of a
 /// selection; exact for what is at most cubic in each direction: shape functions times a linear traction on a
 /// planar face.
 template<class Action>
 void integrate(const HexMesh& mesh, const Selection& selection, const Action& action) {
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-  for (const auto& face : selection.faces)
-    for (double s : gauss)
-      for (double t : gauss) {
-        const auto vertex = [&](std::size_t v) -> Vector3d { return mesh.nodes[index(face[v])]; };
-        const std::array<double, 4> shape{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
-        const Vector3d along_s = (1 - t) * (vertex(1) - vertex(0)) + t * (vertex(2) - vertex(3));
-        const Vector3d along_t = (1 - s) * (vertex(3) - vertex(0)) + s * (vertex(2) - vertex(1));
-        Vector3d point = Vector3d::Zero();
-        for (std::size_t v = 0; v < 4; ++v) point += shape[v] * vertex(v);
-        action(face, point, shape, along_s.cross(along_t).norm() / 4);
-      }
+  for (const auto& face : selection.faces) {
+    std::array<Vector3d, 4> vertices;
+    for (std::size_t v = 0; v < 4; ++v) vertices[v] = mesh.nodes[index(face[v])];
+    for (const auto& [s, t, point, area] : gauss_points(vertices, 2))
+      action(face, point, bilinear_shapes(s, t), area);
+  }
 }
 
 /// Forces on the nodes of loads' regions, which add up.
@@ -53,16 +51,34 @@ class Forces {
   std::vector<NodeVector> forces;
 };
 
+/// The force on a node.  @param here, all  the node's share of what the region has, and the sum of them
+Vector3d on_node(const loads::NodalForce& load, double here, double) {
+  return load.value * here;
+}
+Vector3d on_node(const loads::TotalForce& load, double here, double all) {
+  return load.value * (here / all);
+}
+
+using TractionAt = std::function<Vector3d(const Vector3d&)>;
+TractionAt traction_of(const loads::Traction& load, const HexMesh&, const Selection&) {
+  return [value = load.value](const Vector3d&) { return value; };
+}
+TractionAt traction_of(const loads::Torque& load, const HexMesh& mesh, const Selection& selection) {
+  return [load, per_radius = load.value / polar_moment(mesh, selection, load)](
+             const Vector3d& point) -> Vector3d { return per_radius * load.axis.cross(point - load.centre); };
+}
+
 void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads, Forces& forces) {
   const auto share = modelled_share(scene);
   for (const auto& [selection, load, part, points] : loads) {
-    if (acts_on_area(load.kind) || load.kind == LoadKind::gravity) continue;
-    double divisor = load.kind == LoadKind::total_force ? 0 : 1;
-    if (divisor == 0)
-      for (int node : selection.nodes) divisor += share(node);
-    for (std::size_t n = 0; n < selection.nodes.size(); ++n)
-      forces.add(selection.nodes[n],
-                 load.value * (share(selection.nodes[n]) * (part.empty() ? 1 : part[n]) / divisor));
+    if (load.on() != loads::On::nodes) continue;
+    double all = 0;
+    for (const int node : selection.nodes) all += share(node);
+    for (std::size_t n = 0; n < selection.nodes.size(); ++n) {
+      const double here = share(selection.nodes[n]) * (part.empty() ? 1 : part[n]);
+      const auto force = [&](const auto& kind) { return on_node(kind, here, all); };
+      forces.add(selection.nodes[n], loads::of_those_on<loads::On::nodes, Vector3d>(load.kind, force));
+    }
   }
 }
 
@@ -88,6 +104,29 @@ double area_within(const Scene& scene, const Region& region) {
 
 } // namespace
 
+std::vector<FacePoint> gauss_points(const std::array<Vector3d, 4>& vertices, int n) {
+  const double inner = std::sqrt(3. / 7 - 2. / 7 * std::sqrt(1.2)),
+               outer = std::sqrt(3. / 7 + 2. / 7 * std::sqrt(1.2));
+  const double light = (18 - std::sqrt(30.)) / 72, heavy = (18 + std::sqrt(30.)) / 72;
+  using Rule = std::vector<std::array<double, 2>>; // place on the unit interval, and weight
+  const Rule rule = n == 2 ? Rule{{0.5 - 0.5 / std::sqrt(3.0), 0.5}, {0.5 + 0.5 / std::sqrt(3.0), 0.5}}
+                           : Rule{{(1 - outer) / 2, light},
+                                  {(1 - inner) / 2, heavy},
+                                  {(1 + inner) / 2, heavy},
+                                  {(1 + outer) / 2, light}};
+  std::vector<FacePoint> points;
+  for (const auto& [s, weight_s] : rule)
+    for (const auto& [t, weight_t] : rule) {
+      const std::array<double, 4> shape = bilinear_shapes(s, t);
+      const Vector3d along_s = (1 - t) * (vertices[1] - vertices[0]) + t * (vertices[2] - vertices[3]);
+      const Vector3d along_t = (1 - s) * (vertices[3] - vertices[0]) + s * (vertices[2] - vertices[1]);
+      Vector3d at = Vector3d::Zero();
+      for (std::size_t v = 0; v < 4; ++v) at += shape[v] * vertices[v];
+      points.push_back({s, t, at, weight_s * weight_t * along_s.cross(along_t).norm()});
+    }
+  return points;
+}
+
 std::function<double(int node)> modelled_share(const Scene& scene) {
   return [planes = planes_of_nodes(scene.mesh, scene.definition.symmetry)](int node) {
     double share = 1;
@@ -112,9 +151,10 @@ std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
   return all.forces;
 }
 
-Vector3d surface_traction(const Scene::AppliedLoad& applied, const Vector3d& point, double polar_moment) {
-  if (applied.load.kind == LoadKind::traction) return applied.load.value;
-  return applied.load.moment / polar_moment * applied.load.axis.cross(point - applied.load.centre);
+std::function<Vector3d(const Vector3d&)> surface_traction(const HexMesh& mesh,
+                                                          const Scene::AppliedLoad& applied) {
+  const auto traction = [&](const auto& kind) { return traction_of(kind, mesh, applied.selection); };
+  return loads::of_those_on<loads::On::area, TractionAt>(applied.load.kind, traction);
 }
 
 double area(const HexMesh& mesh, const Selection& selection) {
@@ -129,7 +169,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto& [selection, load, part, points] = scene.loads[i];
-    if (load.kind != LoadKind::traction || !load.region.radius) continue;
+    if (!is<loads::Traction>(load) || !load.region.radius) continue;
     const double found = area(scene.mesh, selection), wanted = area_within(scene, load.region);
     if (std::abs(found - wanted) <= most * wanted) continue;
     const std::string by = wanted > 0 ? fmt::format(" ({:+.0f} %)", 100 * (found / wanted - 1)) : "";
@@ -145,10 +185,10 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
   return warnings;
 }
 
-double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied) {
+double polar_moment(const HexMesh& mesh, const Selection& selection, const loads::Torque& torque) {
   double moment = 0;
-  integrate(mesh, applied.selection, [&](const auto&, const Vector3d& point, const auto&, double weight) {
-    moment += weight * applied.load.axis.cross(point - applied.load.centre).squaredNorm();
+  integrate(mesh, selection, [&](const auto&, const Vector3d& point, const auto&, double weight) {
+    moment += weight * torque.axis.cross(point - torque.centre).squaredNorm();
   });
   return moment;
 }
@@ -161,11 +201,11 @@ std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene
   Forces all(loads);
   add_point_forces(scene, loads, all);
   for (const Scene::AppliedLoad& applied : loads) {
-    if (!acts_on_area(applied.load.kind)) continue;
-    const double moment = applied.load.kind == LoadKind::torque ? polar_moment(scene.mesh, applied) : 0;
+    const auto traction = surface_traction(scene.mesh, applied);
+    if (!traction) continue;
     integrate(scene.mesh, applied.selection,
               [&](const auto& face, const Vector3d& point, const auto& shape, double weight) {
-                const Vector3d force = weight * surface_traction(applied, point, moment);
+                const Vector3d force = weight * traction(point);
                 for (std::size_t v = 0; v < 4; ++v) all.add(face[v], shape[v] * force);
               });
   }

@@ -48,13 +48,23 @@ std::vector<Eigen::Vector3d> on_all_nodes(const std::vector<NodeVector>& some, s
 std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
-/// Dead surface traction (MPa) of a traction or torque load at a point (mm) of its region at rest.
-/// @param polar_moment  of the region's faces about a torque's axis: see polar_moment()
-Eigen::Vector3d surface_traction(const Scene::AppliedLoad& applied, const Eigen::Vector3d& point,
-                                 double polar_moment);
+/// The dead surface traction (MPa) of a load on an area, as a function of the point (mm) of its region at
+/// rest; empty for other loads.
+std::function<Eigen::Vector3d(const Eigen::Vector3d& point)>
+surface_traction(const HexMesh& mesh, const Scene::AppliedLoad& applied);
 
-/// Integral of r² over the load's rest faces (mm⁴), r the distance from the torque's axis, exact for bilinear
-/// planar faces.
-double polar_moment(const HexMesh& mesh, const Scene::AppliedLoad& applied);
+/// A Gauss point of a bilinear face.
+struct FacePoint {
+  double s, t;        ///< in the unit square: along the face's first edge, and along its last one
+  Eigen::Vector3d at; ///< mm
+  double area;        ///< mm², its weight
+};
+
+/// @param vertices  around the face, mm    @param n  points in each direction, 2 or 4
+std::vector<FacePoint> gauss_points(const std::array<Eigen::Vector3d, 4>& vertices, int n);
+
+/// Integral of r² over the rest faces of a torque's region (mm⁴), r the distance from its axis, exact for
+/// bilinear planar faces.
+double polar_moment(const HexMesh& mesh, const Selection& selection, const loads::Torque& torque);
 
 } // namespace springproof::cases

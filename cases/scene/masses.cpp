@@ -1,6 +1,7 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace springproof::cases {
 
@@ -8,6 +9,11 @@ namespace {
 
 constexpr double tonnes_per_kg = 1e-3, tonnes_per_mm3 = 1e-12; ///< the latter of kg/m³
 constexpr double mm_per_m = 1e3;
+
+/// mm/s²
+Eigen::Vector3d acceleration(const loads::Gravity& gravity) {
+  return mm_per_m * gravity.value;
+}
 
 /// Shares a value of every cell out to the points.
 /// @param of_volume  of a cell, per mm³
@@ -41,23 +47,17 @@ CellDynamics dynamics_of(const Scene& scene, std::size_t cell) {
 
 std::vector<NodeMass> added_masses(const Scene& scene) {
   if (scene.masses.empty()) return {};
-  std::vector<int> nodes;
-  for (const auto& applied : scene.masses)
-    nodes.insert(nodes.end(), applied.selection.nodes.begin(), applied.selection.nodes.end());
-  make_set(nodes);
-  std::vector<NodeMass> masses;
-  for (const int node : nodes) masses.push_back({node, 0});
+  std::map<int, double> masses; // of nodes
   const auto share = modelled_share(scene);
   for (const auto& [selection, added] : scene.masses) {
     double divisor = 0;
     for (const int node : selection.nodes) divisor += share(node);
-    for (const int node : selection.nodes) {
-      const auto is_before = [](const NodeMass& at, int number) { return at.node < number; };
-      std::lower_bound(masses.begin(), masses.end(), node, is_before)->mass +=
-          added.mass * tonnes_per_kg * (share(node) / divisor);
-    }
+    for (const int node : selection.nodes)
+      masses[node] += added.mass * tonnes_per_kg * (share(node) / divisor);
   }
-  return masses;
+  std::vector<NodeMass> ascending;
+  for (const auto& [node, mass] : masses) ascending.push_back({node, mass});
+  return ascending;
 }
 
 double mass_of(const std::vector<NodeMass>& added, int node) {
@@ -82,14 +82,15 @@ std::vector<double> point_mass_damping(const Scene& scene) {
                     [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
 }
 
-Eigen::Vector3d acceleration_of(const Load& gravity) {
-  return mm_per_m * gravity.value;
+Eigen::Vector3d acceleration_of(const Load& load) {
+  const auto of_kind = [](const auto& kind) { return acceleration(kind); };
+  return loads::of_those_on<loads::On::masses, Eigen::Vector3d>(load.kind, of_kind);
 }
 
 Eigen::Vector3d gravity(const Scene& scene) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& applied : scene.loads)
-    if (applied.load.kind == LoadKind::gravity) sum += acceleration_of(applied.load);
+    if (applied.load.on() == loads::On::masses) sum += acceleration_of(applied.load);
   return sum;
 }
 

@@ -34,8 +34,8 @@ std::vector<double> point_masses(const Scene& scene, PointMass shared);
 /// mass_damping. What is added by [[mass]] is not damped.
 std::vector<double> point_mass_damping(const Scene& scene);
 
-/// Of a load of kind gravity, mm/s², at a factor of 1; and of all of a scene's together.
-Eigen::Vector3d acceleration_of(const Load& gravity);
+/// The acceleration of a load that acts on masses, mm/s², at a factor of 1; and of all of a scene's together.
+Eigen::Vector3d acceleration_of(const Load& load);
 Eigen::Vector3d gravity(const Scene& scene);
 
 /// All loads of the case as nodal forces, N, at factors of 1: loaded_nodes(), and gravity on point_masses(),

@@ -95,12 +95,6 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
 
 } // namespace
 
-Eigen::AlignedBox3d bounding_box(const HexMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& node : mesh.nodes) box.extend(node);
-  return box;
-}
-
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
   const std::size_t nearest = nearest_node(mesh, point);
@@ -115,24 +109,15 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
 
 Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
   if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
-  const Eigen::AlignedBox3d body = bounding_box(mesh);
+  const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
   const double rounding = 1e-9 * body.sizes().norm(); // far above that of i * spacing, far below a cell
-  Selection selection;
   std::vector<bool> is_selected;
-  for (const Vector3d& node : mesh.nodes) {
+  for (const Vector3d& node : mesh.nodes)
     is_selected.push_back(std::all_of(faces.begin(), faces.end(), [&](const std::string& face) {
       const int axis = face[0] - 'x';
       return std::abs(node[axis] - (face[1] == '+' ? body.max() : body.min())[axis]) <= rounding;
     }));
-    if (is_selected.back()) selection.nodes.push_back(static_cast<int>(is_selected.size()) - 1);
-  }
-  for (const auto& cell : mesh.cells) {
-    std::array<bool, 8> vertices;
-    for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(cell[v])];
-    add_sides(cell, vertices, selection);
-  }
-  make_set(selection.edges);
-  return selection;
+  return select_between(mesh, is_selected);
 }
 
 std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry) {
@@ -179,7 +164,7 @@ Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_select
   for (std::size_t n = 0; n < is_selected.size(); ++n)
     if (is_selected[n]) selection.nodes.push_back(static_cast<int>(n));
   for (std::size_t c = 0; c < mesh.cells.size() && !selection.nodes.empty(); ++c) {
-    if (!is_of_cells(c)) continue;
+    if (is_of_cells && !is_of_cells(c)) continue;
     std::array<bool, 8> vertices;
     for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(mesh.cells[c][v])];
     add_sides(mesh.cells[c], vertices, selection);
@@ -195,7 +180,7 @@ Selection select_part(const HexMesh& mesh, const Region& region) {
     return part.cell_class.empty() ||
            (!mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == part.cell_class);
   };
-  const Eigen::AlignedBox3d body = bounding_box(mesh);
+  const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
   const double rounding = 1e-9 * body.sizes().norm(); // as select_on_planes()
   std::vector<bool> is_in_class(mesh.nodes.size(), part.cell_class.empty());
   for (std::size_t c = 0; c < mesh.cells.size() && !part.cell_class.empty(); ++c)

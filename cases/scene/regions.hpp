@@ -1,16 +1,12 @@
 #pragma once
 
-#include "cases/case/case.hpp"
+#include "cases/case/boundary.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 
-#include <Eigen/Geometry>
 #include <functional>
 
 /// What the kinds of regions select on a mesh; select() in scene.hpp knows which kind one is.
 namespace springproof::cases {
-
-/// Of all nodes at rest, mm.
-Eigen::AlignedBox3d bounding_box(const HexMesh& mesh);
 
 /// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
 Selection select_near(const HexMesh& mesh, const Region& region);
@@ -31,9 +27,9 @@ std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::ve
 Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
                        const Region& region);
 
-/// Nodes with the edges and faces between them of some of the cells.
+/// Nodes with the edges and faces between them of some of the cells, or of all.
 Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
-                         const std::function<bool(std::size_t cell)>& is_of_cells);
+                         const std::function<bool(std::size_t cell)>& is_of_cells = {});
 
 /// The nodes of the region's part, and the edges and faces between them of the cells that it is a part of.
 Selection select_part(const HexMesh& mesh, const Region& region);

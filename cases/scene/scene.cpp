@@ -5,7 +5,7 @@
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
@@ -37,19 +37,19 @@ bool are_faces(const std::vector<std::string>& words) {
 /// Patches become groups of the mesh, so that refined meshes keep the same patches.
 void add_patches(Scene& scene) {
   std::optional<std::vector<std::array<int, 4>>> surface;
+  const auto add_patch = [&](const Region& region, bool) {
+    if (!region.radius) return;
+    if (!surface) surface = surface_faces(scene.mesh, scene.definition.symmetry);
+    scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, *surface, region));
+  };
   const auto add_patches_of = [&](const auto& conditions) {
-    for (const auto& condition : conditions) {
-      const Region& region = condition.region;
-      if (!region.radius) continue;
-      if (!surface) surface = surface_faces(scene.mesh, scene.definition.symmetry);
-      scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, *surface, region));
-    }
+    for (const auto& condition : conditions) add_patch(condition.region, false);
   };
   add_patches_of(scene.definition.fixed);
   add_patches_of(scene.definition.moved);
   add_patches_of(scene.definition.loads);
   add_patches_of(scene.definition.masses);
-  add_patches_of(scene.definition.measures);
+  for (const Measure& measure : scene.definition.measures) for_each_region(measure, add_patch);
 }
 
 bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
@@ -163,16 +163,17 @@ void check_sizes(const Scene& scene) {
 
 void resolve_loads(Scene& scene) {
   for (const Load& load : scene.definition.loads) {
-    if (load.kind == LoadKind::gravity) {
+    if (load.on() == loads::On::masses) {
       scene.loads.push_back({{}, load});
       continue;
     }
     Selection selection = select(scene.mesh, load.region);
-    if (acts_on_area(load.kind) && selection.faces.empty())
+    if (load.on() == loads::On::area && selection.faces.empty())
       throw InputError(load.region.where, fmt::format("'{}' has no faces, and a {} acts on faces",
                                                       load.region.name, name_of(load.kind)));
     scene.loads.push_back({std::move(selection), load});
-    if (load.kind == LoadKind::torque && !(polar_moment(scene.mesh, scene.loads.back()) > 0))
+    if (is<loads::Torque>(load) &&
+        !(polar_moment(scene.mesh, scene.loads.back().selection, std::get<loads::Torque>(load.kind)) > 0))
       throw InputError(load.region.where, "the region has no extent about the torque's axis");
   }
 }
@@ -199,33 +200,40 @@ bool has_support(const Scene& scene, const Region& region, Component component) 
   return std::any_of(scene.constrained.begin(), scene.constrained.end(), is_there);
 }
 
-/// A reaction is measured where something is supported, stress and strain inside the body, and stress where
-/// springs belong to cells.
-void check_fields(const Scene& scene) {
-  for (const Measure& measure : scene.definition.measures) {
-    if (measure.kind == MeasureKind::reaction && !has_support(scene, measure.region, measure.component))
-      throw InputError(measure.region.where,
-                       fmt::format("selects no node that is fixed or moved{}; must be a region of "
-                                   "[[fixed]], [[symmetry]] or [[moved]], whose force is measured",
-                                   measure.component == Component::norm
-                                       ? ""
-                                       : " in component " + name_of(measure.component)));
-    if (measure.kind == MeasureKind::stress && scene.definition.msm.design == Design::network)
-      throw InputError(measure.where, "kind is \"stress\", must be another one beside design = \"network\": "
-                                      "the springs of a network belong to no cell, and a cell has no stress");
-    const bool is_of_cells = measure.statistic && (measure.region.near || !measure.region.name.empty());
-    if (is_of_cells && select(scene.mesh, measure.region).faces.empty())
-      throw InputError(measure.region.where,
-                       fmt::format("'{}' has no faces, and a statistic is of the cells that "
-                                   "have a face in the region",
-                                   measure.region.name));
-    const bool is_of_point =
-        !measure.statistic && (measure.kind == MeasureKind::stress || measure.kind == MeasureKind::strain);
-    if (is_of_point && cells_at(scene.mesh, measure.point).empty())
-      throw InputError(measure.point_where,
-                       fmt::format("is [{}, {}, {}], must be a point of the body at rest (mm)",
-                                   measure.point.x(), measure.point.y(), measure.point.z()));
-  }
+/// A reaction is measured where something is supported.
+void check_reaction(const Scene& scene, const measures::Reaction& reaction) {
+  if (has_support(scene, reaction.region, reaction.component)) return;
+  throw InputError(reaction.region.where,
+                   fmt::format("selects no node that is fixed or moved{}; must be a region of "
+                               "[[fixed]], [[symmetry]] or [[moved]], whose force is measured",
+                               reaction.component == Component::norm
+                                   ? ""
+                                   : " in component " + name_of(reaction.component)));
+}
+
+/// Stress and strain are measured inside the body.
+void check_cells(const Scene& scene, const measures::OfCells& measure) {
+  if (measure.statistic && measure.has_region() && select(scene.mesh, measure.region).faces.empty())
+    throw InputError(measure.region.where,
+                     fmt::format("'{}' has no faces, and a statistic is of the cells that "
+                                 "have a face in the region",
+                                 measure.region.name));
+  if (!measure.statistic && cells_at(scene.mesh, measure.point).empty())
+    throw InputError(measure.point_where,
+                     fmt::format("is [{}, {}, {}], must be a point of the body at rest (mm)",
+                                 measure.point.x(), measure.point.y(), measure.point.z()));
+}
+
+void check_measure(const Scene& scene, const Measure& measure) {
+  if (is<measures::Stress>(measure) && scene.definition.msm.design == Design::network)
+    throw InputError(measure.where, "kind is \"stress\", must be another one beside design = \"network\": "
+                                    "the springs of a network belong to no cell, and a cell has no stress");
+  const auto check_kind = [&](const auto& kind) {
+    using Kind = std::decay_t<decltype(kind)>;
+    if constexpr (std::is_same_v<Kind, measures::Reaction>) check_reaction(scene, kind);
+    if constexpr (std::is_base_of_v<measures::OfCells, Kind>) check_cells(scene, kind);
+  };
+  std::visit(check_kind, measure.kind);
 }
 
 /// @throws InputError if physical groups of several dimensions have the region's name
@@ -322,10 +330,11 @@ Scene make_scene(const Case& definition) {
   for (const AddedMass& added : definition.masses)
     scene.masses.push_back({select(scene.mesh, added.region), added});
   resolve_network(scene);
-  for (const Measure& measure : definition.measures) // every region that one names is one node
-    for (const Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-      if (region->near || !region->name.empty()) select_node(scene.mesh, *region);
-  check_fields(scene);
+  for (const Measure& measure : definition.measures)
+    for_each_region(measure, [&](const Region& region, bool is_node) {
+      if (is_node) select_node(scene.mesh, region);
+    });
+  for (const Measure& measure : definition.measures) check_measure(scene, measure);
   if (definition.surface || !definition.landmarks.empty()) check_has_vtk();
   read_surface_of(scene);
   return scene;
@@ -361,9 +370,8 @@ Scene refine(const Scene& scene, int n) {
       continue;
     }
     const Region& region = applied.load.region;
-    const LoadKind kind = applied.load.kind;
-    const bool stays =
-        kind == LoadKind::nodal_force || kind == LoadKind::gravity || (region.near && !region.radius);
+    const bool stays = is<loads::NodalForce>(applied.load) || applied.load.on() == loads::On::masses ||
+                       (region.near && !region.radius);
     fine.loads.push_back(
         {stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load, applied.part});
   }

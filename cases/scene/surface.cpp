@@ -1,7 +1,7 @@
 #include "cases/scene/surface.hpp"
 
-#include "cases/mesh/label_surface.hpp"
-#include "cases/mesh/read_surface.hpp"
+#include "cases/mesh/labels.hpp"
+#include "cases/mesh/read_vtk.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <algorithm>
@@ -31,21 +31,18 @@ void open_at_symmetry(const HexMesh& mesh, const std::vector<Fixed>& symmetry, T
 
 void read_surface_of(Scene& scene) {
   constexpr std::size_t most = 5'000'000;
-  const auto& file = scene.definition.surface;
-  if (!file) return;
-  const auto refuse = [&](const std::string& reason) {
-    const bool has_path = reason.find(file->path) != std::string::npos;
-    throw InputError(file->where, has_path ? reason : file->path + ": " + reason);
-  };
+  const auto& named = scene.definition.surface;
+  if (!named) return;
   try {
-    scene.surface = file->contour ? label_surface(std::get<Labels>(scene.definition.body), *file->contour)
-                                  : read_surface(file->path, &scene.remarks);
-    for (Eigen::Vector3d& vertex : scene.surface.vertices) vertex *= file->scale;
+    scene.surface = named->contour ? label_surface(std::get<Labels>(scene.definition.body), *named->contour)
+                                   : read_surface(named->file.path, &scene.remarks);
+    for (Eigen::Vector3d& vertex : scene.surface.vertices) vertex *= named->scale;
   } catch (const std::runtime_error& error) {
-    refuse(error.what());
+    named->file.refuse_once(error.what());
   }
   if (scene.surface.triangles.size() > most)
-    refuse(fmt::format("has {} triangles, must have at most {}", scene.surface.triangles.size(), most));
+    named->file.refuse(
+        fmt::format("has {} triangles, must have at most {}", scene.surface.triangles.size(), most));
   open_at_symmetry(scene.mesh, scene.definition.symmetry, scene.surface);
 }
 

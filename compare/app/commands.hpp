@@ -1,7 +1,11 @@
 #pragma once
 
+#include "compare/solve/answers.hpp"
+
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
+#include <memory>
 
 /// The program's commands. Each adds its subcommand and options to the command line and, when it is the one
 /// chosen, sets what is to be done after MPI has started. The answer is the exit status: 0 done, 1 an
@@ -29,31 +33,53 @@ inline std::vector<const CLI::App*> commands_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-/// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
-inline void add_converge_option(CLI::App& command, int& meshes) {
-  command
-      .add_flag("--converge{3}", meshes,
-                "the limit from exactly N uniformly refined meshes (--converge=4; 3 by itself), with a table "
-                "of them")
-      ->check(CLI::Range(3, 9));
+/// A command and the options that its command line sets.
+template<class Options>
+struct Command {
+  CLI::App* app;
+  std::shared_ptr<Options> options;
+};
+
+/// Adds a command that is run with its options when it is the one chosen.
+template<class Options>
+Command<Options> add_command(CLI::App& program, Action& chosen, const std::string& name,
+                             const std::string& description, int (*run)(const Options&)) {
+  const Command<Options> command{program.add_subcommand(name, description), std::make_shared<Options>()};
+  command.app->callback(
+      [options = command.options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
+  return command;
 }
+
+/// Files of the cases in a folder of the program's cases, by their names.
+std::map<std::string, std::string> case_files_in(const std::string& folder);
+
+/// --set.
+CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& settings, const std::string& text);
+/// --json, of the commands that print nothing else then.
+CLI::Option* add_json_option(CLI::App& command, bool& json);
+/// --workers: the number of worker processes, 0 without it.
+CLI::Option* add_workers_option(CLI::App& command, int& n_workers);
+/// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
+CLI::Option* add_converge_option(CLI::App& command, int& meshes);
 
 /// --msm-displacements and --interpolate, of the commands that take another simulator's results.
 struct DisplacementOptions {
   std::string file; ///< empty: our springs are solved
   bool interpolate = false;
 };
-
 /// @return the first of the two
-inline CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& options) {
-  CLI::Option* file = command.add_option(
-      "--msm-displacements", options.file,
-      "another simulator's displacements in place of our springs: .csv (x,y,z,ux,uy,uz) or a VTK file");
-  command
-      .add_flag("--interpolate", options.interpolate,
-                "they are on a mesh of their own: interpolate in its cells, and say what that may add")
-      ->needs(file);
-  return file;
-}
+CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& options);
+
+/// --replay, of the commands that solve both models of what was pulled.
+CLI::Option* add_replay_option(CLI::App& command, std::string& recording);
+
+/// The one question of a command with --replay, with the recording's forces as loads.
+/// @param recording  a file of `interact`; empty: the questions stay as they are
+/// @throws cases::InputError where there are several questions, or the file is no recording of the case
+std::vector<Question> with_recording(std::vector<Question> questions, const std::string& recording);
+
+/// Checks that an option's value is a number between two others. CLI::Range and CLI::PositiveNumber let nan
+/// pass.
+CLI::Validator number_between(double lowest, double highest);
 
 } // namespace springproof::compare

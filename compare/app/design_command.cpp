@@ -2,17 +2,15 @@
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/cube/plot_design.hpp"
-#include "compare/cube/recommendation.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "msm/design/nonlinear_method.hpp"
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -57,7 +55,7 @@ void write_nonlinear_figures(const std::string& folder, const msm::DesignRequest
   plot_valley(folder, msm::nonlinear_method(reference, edge).stiffness, edge, reference, others);
 }
 
-/// Of the designs whose lattices have closed forms.
+/// Plots the designs whose lattices have closed forms.
 void write_stress_strain(const std::string& folder, const msm::DesignRequest& request,
                          const std::vector<DesignAttempt>& attempts) {
   const double edge = msm::cube_edge(request.cell);
@@ -118,9 +116,8 @@ int run(const CommandOptions& options) {
 } // namespace
 
 void add_design_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<CommandOptions>();
-  CLI::App* command =
-      program.add_subcommand("design", "stiffnesses of a cell for a material, and the lattice's moduli");
+  const auto [command, options] = add_command<CommandOptions>(
+      program, chosen, "design", "stiffnesses of a cell for a material, and the lattice's moduli", run);
   add_design_options(*command, options->design);
   command->add_flag("--compare", options->compare, "every method side by side");
   command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
@@ -128,8 +125,7 @@ void add_design_command(CLI::App& program, Action& chosen) {
   command->add_flag("--measure", options->measure,
                     "the errors of the thesis's cube with these designs (solves both models)");
   command->add_option("--out", options->out, "folder for design.json and the method's figures");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

@@ -3,8 +3,8 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/case/read_models.hpp"
-#include "compare/app/number_option.hpp"
+#include "cases/case/readers.hpp"
+#include "compare/app/commands.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
@@ -63,7 +63,7 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
   return cases::LinearElastic{o.youngs_modulus, o.poissons_ratio};
 }
 
-/// Of logarithmic strains; as in case files.
+/// Bound on logarithmic strains, as in case files.
 constexpr double largest_allowed_strain = 2;
 
 /// @throws InputError for an end of the strains that is none, or that nothing here has a use for
@@ -149,8 +149,7 @@ int n_materials(const DesignOptions& o) {
 
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");
-  command.add_option("--set", o.settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1")
-      ->allow_extra_args(false);
+  add_set_option(command, o.settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1");
   command.add_option("--young", o.youngs_modulus, "Young's modulus, MPa")->check(number_between(1e-12, 1e12));
   command
       .add_option("--poisson", o.poissons_ratio,

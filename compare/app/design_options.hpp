@@ -22,11 +22,11 @@ struct DesignOptions {
   std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;
   double neo_hookean = 0;
   std::string curve_file;
-  std::string curve_strain, curve_stress, curve_unit; ///< of its columns; names of msm::CurveStrain and so on
+  std::string curve_strain, curve_stress, curve_unit; ///< names of its columns' msm::CurveStrain and so on
   std::optional<double> largest_strain;
-  std::vector<std::string> paths;   ///< of the multi-load method; empty: all
+  std::vector<std::string> paths;   ///< paths of the multi-load method; empty: all
   std::vector<double> strain_range; ///< two, or left out
-  std::string law;                  ///< of the multi-load method's springs; empty: the case's, or Hooke's
+  std::string law;                  ///< law of the multi-load method; empty: the case's or Hooke's
   bool springs_only = false;        ///< the multi-load method without its volume term
 };
 

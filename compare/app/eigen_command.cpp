@@ -1,19 +1,17 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
-#include "compare/modes/vibrations.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -73,7 +71,8 @@ int run_vibrations(const EigenOptions& options) {
   return has_answer ? 0 : 1;
 }
 
-int run(EigenOptions options) {
+int run(const EigenOptions& asked) {
+  EigenOptions options = asked;
   if (!options.vibrating.empty()) return run_vibrations(options);
   if (options.design.case_file.empty() && n_materials(options.design) == 0) options.design.youngs_modulus = 1;
   if (options.design.case_file.empty() && options.design.method.empty())
@@ -96,7 +95,8 @@ int run(EigenOptions options) {
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const EigenspaceAnalysis analysis = analyse_eigenspaces(full_spectrum(fem), full_spectrum(msm));
+  const EigenspaceAnalysis analysis =
+      analyse_eigenspaces(solvers().full_spectrum(fem), solvers().full_spectrum(msm));
   const std::optional<cases::HexMesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);
@@ -119,11 +119,12 @@ int run(EigenOptions options) {
 } // namespace
 
 void add_eigen_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<EigenOptions>();
+  const auto [command, options] = add_command<EigenOptions>(
+      program, chosen, "eigen",
+      "the lowest vibrations of a case in both models; without a case, eigenspaces of a cell's two "
+      "stiffness matrices, and the modes of a whole body",
+      run);
   options->design.edge = 2; // with E = 1: the thesis's cell, whose eigenvalues Table 4.2 prints
-  CLI::App* command = program.add_subcommand(
-      "eigen", "the lowest vibrations of a case in both models; without a case, eigenspaces of a cell's two "
-               "stiffness matrices, and the modes of a whole body");
   add_design_options(*command, options->design);
   CLI::Option* cell = command->get_option("--case");
   CLI::Option* vibrating =
@@ -138,8 +139,7 @@ void add_eigen_command(CLI::App& program, Action& chosen) {
       ->capture_default_str();
   command->add_option("--out", options->out,
                       "folder for the dot diagram, mode shapes, their pictures and tables");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

@@ -1,15 +1,14 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/solve/springs.hpp"
 
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -42,17 +41,15 @@ int export_case(const ExportOptions& options) {
 } // namespace
 
 void add_export_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = program.add_subcommand(
-      "export", "the designed springs of a case as an explicit list, for other programs");
+  const auto [command, options] = add_command<ExportOptions>(
+      program, chosen, "export", "the designed springs of a case as an explicit list, for other programs",
+      export_case);
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_option("--to", options->target, "what the springs are written for")
       ->required()
       ->check(CLI::IsMember(cases::all_names<ExportTarget>()));
   command->add_option("--out", options->out, "folder for the files")->required();
-  command->add_option("--set", options->settings, "override a key: msm.design=moduli")
-      ->allow_extra_args(false);
-  command->callback([options, &chosen] { chosen = [options] { return export_case(*options); }; });
+  add_set_option(*command, options->settings, "override a key: msm.design=moduli");
 }
 
 } // namespace springproof::compare

@@ -2,8 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
-#include "compare/app/replay_option.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
@@ -11,13 +10,11 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_gates.hpp"
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -31,9 +28,9 @@ struct GateOptions {
   std::string replay; ///< a recording of interact; empty: none
   std::string junit, out;
   int workers = 0; ///< one per core
-  int meshes = 0;  ///< of the finite elements' limit; 0: as the cases' accuracy asks
+  int meshes = 0;  ///< meshes of the finite elements' limit; 0: as the cases ask
   bool json = false, annotate = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  ShardOptions shards;
 };
 
 /// Every case is read, and its mesh and regions looked up, before any is solved.
@@ -88,10 +85,10 @@ void write(const GateOptions& options, const std::vector<Comparison>& judged) {
 
 /// Answers to all questions, solved now or by the shards that are merged.
 std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vector<Question>& questions) {
-  if (options.shards->folders.empty())
+  if (options.shards.folders.empty())
     return answer_all(questions, FinishedCases(options.out, questions), solve_fem, {options.workers});
   claim_folder(options.out);
-  return answers_of(read_shards(options.shards->folders), questions, FileNames::of_cases);
+  return answers_of(read_shards(options.shards.folders), questions, FileNames::of_cases);
 }
 
 int gate(const GateOptions& options) {
@@ -102,8 +99,8 @@ int gate(const GateOptions& options) {
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
-  if (!options.shards->part.empty())
-    return solve_shard(*options.shards, questions, FileNames::of_cases, options.out, {options.workers});
+  if (!options.shards.part.empty())
+    return solve_shard(options.shards, questions, FileNames::of_cases, options.out, {options.workers});
   std::vector<Answers> answers = solved_or_merged(options, questions);
   std::vector<Comparison> done;
   for (std::size_t q = 0; q < questions.size(); ++q) {
@@ -120,17 +117,15 @@ int gate(const GateOptions& options) {
 } // namespace
 
 void add_gate_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<GateOptions>();
-  CLI::App* command = program.add_subcommand("gate", "judge what each case expects: one line per gate");
+  const auto [command, options] = add_command<GateOptions>(
+      program, chosen, "gate", "judge what each case expects: one line per gate", gate);
   command->add_option("case", options->files, "case files (TOML)")->required();
-  command->add_option("--set", options->settings, "override a key: material.poissons_ratio=0.3")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
   add_displacement_options(*command, options->displacements);
   add_converge_option(*command, options->meshes);
   add_replay_option(*command, options->replay);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = add_json_option(*command, options->json);
   CLI::Option* annotate = command->add_flag(
       "--annotate", options->annotate, "GitHub's annotations too; with --json they go to standard error");
   CLI::Option* bless =
@@ -142,9 +137,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
                                          "folder for results.json, comparison.csv and fields as .vtu; cases "
                                          "that it holds already are not solved again");
   bless->excludes(add_shard_options(*command, options->shards, out, {junit, json, annotate, bless}));
-  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
-      ->check(CLI::Range(1, 1024));
-  command->callback([options, &chosen] { chosen = [options] { return gate(*options); }; });
+  add_workers_option(*command, options->workers);
 }
 
 } // namespace springproof::compare

@@ -1,17 +1,16 @@
 #include "cases/case/installation.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/number_option.hpp"
-#include "compare/interact/recording.hpp"
 #include "compare/interact/server.hpp"
+#include "compare/interact/simulation.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/page.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
+#include "compare/write/quote.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -89,9 +88,9 @@ std::string free_path(const std::string& folder, const std::string& name) {
 /// @return where it was written; empty: there is nothing to keep
 std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
                            const Simulation& simulation) {
-  if (options.out.empty() || simulation.recording().empty()) return "";
+  if (options.out.empty() || !simulation.has_recording()) return "";
   const std::string path = free_path(options.out, definition.name);
-  write_file(path, [&](std::ostream& out) { write_recording(out, simulation, definition.dynamics->step); });
+  write_file(path, [&](std::ostream& out) { simulation.write_recording(out); });
   return path;
 }
 
@@ -143,12 +142,11 @@ int run(const InteractOptions& options) {
 } // namespace
 
 void add_interact_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<InteractOptions>();
-  CLI::App* command = program.add_subcommand(
-      "interact", "a dynamic case's springs on a page of this machine, to turn and to pull in real time");
+  const auto [command, options] = add_command<InteractOptions>(
+      program, chosen, "interact",
+      "a dynamic case's springs on a page of this machine, to turn and to pull in real time", run);
   command->add_option("case", options->file, "case file (TOML) with [dynamics]")->required();
-  command->add_option("--set", options->settings, "override a key of the case: dynamics.step=0.02")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings, "override a key of the case: dynamics.step=0.02");
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
@@ -168,7 +166,6 @@ void add_interact_command(CLI::App& program, Action& chosen) {
   command->add_flag(
       "--json", options->json,
       "what has been, as one JSON document on standard output; the address goes to standard error");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 } // namespace springproof::compare

@@ -1,10 +1,9 @@
 // springproof_kernel_calls CELLS KERNEL... calls each of these kernels of the springs once on a cube of
-// cells, for `springproof sweep --perf` to have their instructions counted: those below
-// springproof_counted_call.
+// cells. `springproof sweep --perf` has the instructions counted that run below springproof_counted_call.
 
 #include "compare/sweep/timed_cube.hpp"
 #include "msm/grid/multigrid.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 
 #include <functional>
 #include <iostream>
@@ -58,7 +57,7 @@ void run_multigrid(int cells) {
   springproof_counted_call([&] { multigrid.apply(field, solution); });
 }
 
-/// By the list of springs, as on meshes that are no grid.
+/// Runs over the list of springs, as on meshes that are no grid.
 void run_list(int cells) {
   const msm::Lattice lattice =
       msm::make_lattice(cases::make_box_mesh({cells * 1.0, cells * 1.0, cells * 1.0}, {cells, cells, cells}),

@@ -1,6 +1,5 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
-#include "compare/app/colours.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/session.hpp"
 #include "compare/provenance/machine.hpp"
@@ -13,7 +12,6 @@
 #include <iostream>
 #include <new>
 #include <system_error>
-#include <unistd.h>
 
 using namespace springproof;
 
@@ -37,7 +35,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
           << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
              "(install libopenblas0-pthread)\n";
     compare::check_petsc_options();
-    const compare::Colours colours(std::cout, STDOUT_FILENO);
+    const compare::Colours colours;
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;

@@ -4,15 +4,13 @@
 #include "compare/solve/shard.hpp"
 
 #include <algorithm>
-#include <memory>
 
 namespace springproof::compare {
 
 namespace {
 
-constexpr const char* recorded_options[] = {
-    "--set=",   "--converge=", "--msm-displacements=", "--interpolate=", "--replay=", "--trace=",
-    "--quick=", "--budget="};
+constexpr const char* recorded_options[] = {"--set=",         "--converge=", "--msm-displacements=",
+                                            "--interpolate=", "--replay=",   "--trace="};
 
 struct MergeOptions {
   std::vector<std::string> folders;
@@ -44,7 +42,7 @@ int merge(const MergeOptions& options) {
   if (options.annotate) words.emplace_back("--annotate");
   CLI::App commands;
   Action chosen;
-  for (const auto add : {add_gate_command, add_sweep_command, add_tables_command}) add(commands, chosen);
+  for (const auto add : {add_gate_command, add_tables_command}) add(commands, chosen);
   commands.require_subcommand(1);
   std::reverse(words.begin(), words.end()); // as CLI11 takes them
   try {
@@ -58,15 +56,14 @@ int merge(const MergeOptions& options) {
 } // namespace
 
 void add_merge_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = program.add_subcommand(
-      "merge", "one report and one exit status of the shards of gate, tables or sweep");
+  const auto [command, options] = add_command<MergeOptions>(
+      program, chosen, "merge", "one report and one exit status of the shards of gate or tables",
+      merge);
   command->add_option("folder", options->folders, "of each shard's --out")->required();
   command->add_option("--out", options->out, "folder for the files of the whole command's --out");
   command->add_option("--junit", options->junit, "of gate: file for the verdicts as JUnit's XML");
   command->add_flag("--annotate", options->annotate, "of gate: GitHub's annotations too");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return merge(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

@@ -4,11 +4,8 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <map>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -21,19 +18,7 @@ struct NewOptions {
   std::string template_name = "box";
 };
 
-/// A case file of cases/templates is named like the template, and may have one other file beside it.
-fs::path templates() {
-  return fs::path(cases_folder()) / "templates";
-}
-const std::string placeholder = "TEMPLATE";
-
-std::vector<std::string> template_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(templates()))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+const std::string placeholder = "TEMPLATE"; ///< for the case's name in templates
 
 /// The template's text, about a case of another name.
 std::string filled(const fs::path& file, const std::string& name) {
@@ -57,12 +42,16 @@ void check_name(const std::string& name) {
 
 int write_new_case(const NewOptions& options) {
   check_name(options.name);
-  const std::vector<std::string> known = template_names();
-  if (std::find(known.begin(), known.end(), options.template_name) == known.end())
+  const std::map<std::string, std::string> templates = case_files_in("templates");
+  const auto chosen = templates.find(options.template_name);
+  if (chosen == templates.end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, file] : templates) known.push_back(name);
     throw cases::InputError("new: there is no template \"" + options.template_name + "\", allowed are " +
                             cases::alternatives(known));
-  std::map<fs::path, fs::path> copies; // from, to
-  for (const auto& entry : fs::directory_iterator(templates()))
+  }
+  std::map<fs::path, fs::path> copies; // from, to: the case's file, and another of the same name beside it
+  for (const auto& entry : fs::directory_iterator(fs::path(chosen->second).parent_path()))
     if (entry.path().stem() == options.template_name)
       copies[entry.path()] = options.name + entry.path().extension().string();
   for (const auto& [from, to] : copies)
@@ -81,12 +70,11 @@ int write_new_case(const NewOptions& options) {
 } // namespace
 
 void add_new_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<NewOptions>();
-  CLI::App* command = program.add_subcommand("new", "write a commented case file to start from");
+  const auto [command, options] = add_command<NewOptions>(
+      program, chosen, "new", "write a commented case file to start from", write_new_case);
   command->add_option("name", options->name, "of the case; the file is NAME.toml")->required();
   command->add_option("--template", options->template_name, "box | layers | mesh | voxels")
       ->capture_default_str();
-  command->callback([options, &chosen] { chosen = [options] { return write_new_case(*options); }; });
 }
 
 } // namespace springproof::compare

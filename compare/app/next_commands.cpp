@@ -1,7 +1,7 @@
 #include "compare/app/next_commands.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/write/shell.hpp"
+#include "compare/write/quote.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -33,9 +33,8 @@ std::optional<std::array<int, 3>> finer_cells(const Comparison& comparison) {
   constexpr std::size_t most_cells = 40000;
   const cases::Case& definition = comparison.scene.definition;
   const auto* box = std::get_if<cases::Box>(&definition.body);
-  const bool has_nodal_forces =
-      std::any_of(definition.loads.begin(), definition.loads.end(),
-                  [](const cases::Load& load) { return load.kind == cases::LoadKind::nodal_force; });
+  const bool has_nodal_forces = std::any_of(definition.loads.begin(), definition.loads.end(),
+                                            cases::is<cases::loads::NodalForce, cases::Load>);
   const bool is_given = cases::facts_of(definition.msm.design).source == cases::DesignSource::file;
   if (!box || has_nodal_forces || is_given || 8 * comparison.scene.mesh.cells.size() > most_cells)
     return std::nullopt;
@@ -95,7 +94,7 @@ std::vector<NextCommand> next_commands(const RunOfCase& run, const Comparison& c
 
 std::vector<NextCommand> next_commands(const RunOfCase& run, const cases::Msm& own, const Ranking& ranking) {
   std::vector<NextCommand> next;
-  const RankedDesign* best = ranking.recommended();
+  const Trial* best = ranking.recommended();
   if (best && best->name != cases::name_of(own.design))
     next.push_back({line_of(words_of(run, {"msm=", "msm."}), {"--set", msm_setting(best->name, own)}),
                     "this design by itself"});

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "compare/ranking/ranking.hpp"
-#include "compare/ranking/verdict.hpp"
+#include "compare/study/study.hpp"
+#include "compare/study/verdict.hpp"
 
 namespace springproof::compare {
 

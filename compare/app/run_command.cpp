@@ -1,40 +1,36 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/design_options.hpp"
 #include "compare/app/next_commands.hpp"
-#include "compare/app/replay_option.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/ranking/write_ranking.hpp"
+#include "compare/study/write_ranking.hpp"
 #include "compare/report/case_page.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/write/columns.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
 namespace {
 
 struct RunOptions {
-  std::string program; ///< as typed
+  const CLI::App* program = nullptr; ///< whose name is what was typed
   std::vector<std::string> files;
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;              ///< of the finite elements' limit; 0: as the case's accuracy asks
+  int meshes = 0;              ///< meshes of the finite elements' limit; 0: as the case asks
   bool converges_time = false; ///< once more with half the step
   std::string peer;            ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
@@ -44,20 +40,10 @@ struct RunOptions {
   bool json = false;
 };
 
-/// CalculiX wants all of the body in one place.
-void ask_peer(const cases::Scene& scene, Answers& answers) {
-  const cases::Solution fem = gathered(answers.fem.solution);
-  answers.peer.emplace();
-  const Answer answer = shared_from_rank_0(scene.mesh, [&] {
-    answers.peer = ask_calculix(with_fem(scene, answers.resolved), fem);
-    return answers.peer->answer;
-  });
-  answers.peer->answer = answer;
-}
-
-/// For the commands that a text ends with.
+/// What the commands that a text ends with are made of.
 RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
-  return {options.program, definition.file, options.settings, options.meshes > 0, !options.out.empty()};
+  return {options.program->get_name(), definition.file, options.settings, options.meshes > 0,
+          !options.out.empty()};
 }
 
 void print_ranking(const RunOptions& options, const cases::Case& definition, const Ranking& ranking) {
@@ -97,10 +83,13 @@ int run_designs(const RunOptions& options) {
     rankings.push_back(rank_designs(question.scene, designs_of(options.designs, definition), options.meshes));
     shown.reset();
     const Ranking& ranking = rankings.back();
-    const bool is_told = mpi_rank() == 0; // the other ranks' rankings have no designs
-    failed = failed || !(is_told ? ranking.is_sound() : ranking.fem.converged());
-    if (is_told && !options.out.empty()) write_rankings(options.out, rankings);
-    if (is_told && !options.json) print_ranking(options, definition, ranking);
+    if (mpi_rank() != 0) { // the other ranks' rankings have no designs
+      failed = failed || !ranking.fem.converged();
+      continue;
+    }
+    failed = failed || !ranking.is_sound();
+    if (!options.out.empty()) write_rankings(options.out, rankings);
+    if (!options.json) print_ranking(options, definition, ranking);
   }
   if (mpi_rank() == 0 && options.json) std::cout << json_text(rankings_to_json(rankings));
   return failed ? 1 : 0;
@@ -116,8 +105,8 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   const auto& [scene, request] = question;
   const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
                                   long_solve_text(scene.definition.name, models));
-  Answers answers = solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question));
-  if (!request.peer.empty()) ask_peer(scene, answers);
+  Answers answers =
+      solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question), ask_calculix);
   finished.keep(question, answers);
   return answers;
 }
@@ -192,7 +181,7 @@ void check_time_studies(const std::vector<Question>& questions) {
                               ": --converge-time: the case has no [dynamics]");
 }
 
-int run(const RunOptions& options) {
+int run_comparisons(const RunOptions& options) {
   const auto only =
       options.displacements.file.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
   // All are read before any is solved: a mistake in the last costs nothing.
@@ -235,16 +224,18 @@ int run(const RunOptions& options) {
   return failed ? 1 : 0;
 }
 
+int run(const RunOptions& options) {
+  return options.designs.empty() || options.report ? run_comparisons(options) : run_designs(options);
+}
+
 } // namespace
 
 void add_run_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<RunOptions>();
-  CLI::App* command = program.add_subcommand("run", "solve both sides of each case and print the comparison");
+  const auto [command, options] = add_command<RunOptions>(
+      program, chosen, "run", "solve both sides of each case and print the comparison", run);
   command->add_option("case", options->files, "case files (TOML)")->required();
-  command
-      ->add_option("--set", options->settings,
-                   "override a key: material.poissons_ratio=0.3, load[0].value=[0,0,1]")
-      ->allow_extra_args(false);
+  add_set_option(*command, options->settings,
+                 "override a key: material.poissons_ratio=0.3, load[0].value=[0,0,1]");
   CLI::Option* only = command->add_option("--only", options->only, "solve one side")
                           ->check(CLI::IsMember({"both", "fem", "msm"}));
   add_converge_option(*command, options->meshes);
@@ -262,7 +253,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
                                           "CASE_bodies/bodies.png and .svg, in the folder of --out; with "
                                           "--designs they are on it");
   report->needs(out);
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
+  add_json_option(*command, options->json);
   add_designs_option(*command, options->designs,
                      "the springs of these designs (a,b,c or all) against the same finite elements, by their "
                      "worst errors")
@@ -270,12 +261,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->excludes("--peer")
       ->excludes("--msm-displacements");
   add_replay_option(*command, options->replay)->excludes(command->get_option("--designs"));
-  command->callback([options, &program, &chosen] {
-    options->program = program.get_name();
-    chosen = [options] {
-      return options->designs.empty() || options->report ? run(*options) : run_designs(*options);
-    };
-  });
+  options->program = &program;
 }
 
 } // namespace springproof::compare

@@ -5,15 +5,71 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solvers.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <iostream>
 #include <mpi.h>
+#include <string_view>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace springproof::compare {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::pair<std::string_view, std::string_view> colour_of_word[] = {
+    {"met "sv, "32"sv},       {"all gates met"sv, "32"sv}, {"MISSED"sv, "31"sv},
+    {"not judged"sv, "33"sv}, {"FAILED"sv, "31"sv},        {"GATES FAILED"sv, "31"sv},
+    {"DIFFERS"sv, "31"sv},    {"warning:"sv, "33"sv},      {"Warning:"sv, "33"sv}};
+
+/// Holds a line back until it is whole, or flushed.
+class Colouring : public std::streambuf {
+ public:
+  explicit Colouring(std::streambuf& plain) : plain_(plain) {}
+  ~Colouring() override { sync(); }
+
+ private:
+  int overflow(int character) override {
+    if (character == traits_type::eof()) return 0;
+    line_ += static_cast<char>(character);
+    return character == '\n' && !write() ? traits_type::eof() : character;
+  }
+  int sync() override { return write() ? plain_.pubsync() : -1; }
+
+  bool write() {
+    const std::size_t begin = std::min(line_.find_first_not_of(' '), line_.size());
+    for (const auto& [word, colour] : colour_of_word)
+      if (line_.compare(begin, word.size(), word) == 0) {
+        const std::size_t end = word.find_last_not_of(' ') + 1;
+        line_.insert(begin + end, "\033[0m");
+        line_.insert(begin, "\033[" + std::string(colour) + "m");
+        break;
+      }
+    const auto n = static_cast<std::streamsize>(line_.size());
+    const bool is_written = plain_.sputn(line_.data(), n) == n;
+    line_.clear();
+    return is_written;
+  }
+
+  std::streambuf& plain_;
+  std::string line_;
+};
+
+bool wants_colours() {
+  const char* const none = std::getenv("NO_COLOR");
+  const char* const terminal = std::getenv("TERM");
+  // MPI's launcher gives each rank a terminal, whatever its own output is.
+  return isatty(STDOUT_FILENO) == 1 && !is_under_mpi_launcher() && !(none && *none) &&
+         !(terminal && terminal == "dumb"sv);
+}
+
+} // namespace
 
 void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -40,6 +96,16 @@ void give_up(const std::string& message, int status) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+}
+
+Colours::Colours() : plain_(std::cout.rdbuf()) {
+  if (!wants_colours()) return;
+  colouring_ = std::make_unique<Colouring>(*plain_);
+  std::cout.rdbuf(colouring_.get());
+}
+
+Colours::~Colours() {
+  if (colouring_) std::cout.rdbuf(plain_);
 }
 
 } // namespace springproof::compare

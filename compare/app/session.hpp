@@ -1,20 +1,34 @@
 #pragma once
 
+#include <memory>
+#include <streambuf>
 #include <string>
 
 /// A command's process, and its job's other ranks.
 namespace springproof::compare {
 
-/// A closed standard stream's number would be given to the next file that is opened, which would then get
-/// what is printed. Instead, writing to it fails.
+/// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
 void reserve_standard_streams();
 
 /// Under an MPI launcher starts MPI. A process alone has it started with the first solver that needs it
 /// (compare/solve/solvers.hpp), which most commands do without.
 void start_ranks();
 
-/// For a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
+/// Ends a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
+
+/// Colours verdicts at the beginnings of lines of std::cout until it ends: met green, missed and failed red,
+/// warnings yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
+class Colours {
+ public:
+  Colours();
+  ~Colours();
+  Colours(const Colours&) = delete;
+
+ private:
+  std::streambuf* plain_;
+  std::unique_ptr<std::streambuf> colouring_; ///< null: nothing is coloured
+};
 
 } // namespace springproof::compare

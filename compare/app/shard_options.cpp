@@ -25,20 +25,20 @@ std::vector<std::string> command_line(const CLI::App& command,
 
 } // namespace
 
-CLI::Option* add_shard_options(CLI::App& command, const std::shared_ptr<ShardOptions>& options,
-                               CLI::Option* out, const std::vector<CLI::Option*>& not_divided) {
+CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
+                               const std::vector<CLI::Option*>& not_divided) {
   CLI::Option* part =
       command
-          .add_option("--shard", options->part,
+          .add_option("--shard", options.part,
                       "I/N: solve part I of N alone, into --out; `springproof merge` puts the parts together")
           ->needs(out)
           ->check([](const std::string& text) {
             return shard_from(text) ? "" : "must be I/N with I from 1 to N, such as 2/4, but is " + text;
           });
-  CLI::Option* merged = command.add_option("--merged", options->folders)->group("")->excludes(part);
+  CLI::Option* merged = command.add_option("--merged", options.folders)->group("")->excludes(part);
   for (CLI::Option* option : not_divided) part->excludes(option);
-  command.parse_complete_callback([&command, options, part, merged, out] {
-    options->command = command_line(command, {part, merged, out, command.get_option_no_throw("--workers")});
+  command.parse_complete_callback([&command, &options, part, merged, out] {
+    options.command = command_line(command, {part, merged, out, command.get_option_no_throw("--workers")});
   });
   return merged;
 }
@@ -52,7 +52,6 @@ void print_shard(const Shard& shard, std::size_t n_done, std::size_t n_all, std:
 int solve_shard(const ShardOptions& options, const std::vector<Question>& all, FileNames names,
                 const std::string& out, const SolveOptions& solve_options) {
   const Shard shard = shard_from(options.part).value();
-  const Stopwatch stopwatch;
   const FinishedCases finished(out, all, names);
   if (mpi_rank() == 0) remove_record(out);
   const std::vector<int> shard_of = divide(all, shard.count);
@@ -61,7 +60,7 @@ int solve_shard(const ShardOptions& options, const std::vector<Question>& all, F
     if (shard_of[q] == shard.index) part.push_back(all[q]);
   const std::vector<Answers> answers = answer_all(part, finished, solve_fem, solve_options);
   if (mpi_rank() != 0) return 0;
-  write_record(out, {shard, options.command, digest_of(all), stopwatch.seconds()});
+  write_record(out, {shard, options.command, digest_of(all)});
   const auto n_failed =
       std::count_if(answers.begin(), answers.end(), [](const Answers& found) { return found.failed(); });
   print_shard(shard, part.size(), all.size(), static_cast<std::size_t>(n_failed), out);

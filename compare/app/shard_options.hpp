@@ -9,17 +9,16 @@ namespace springproof::compare {
 
 /// What a command that can be divided knows of it.
 struct ShardOptions {
-  std::string part; ///< of `--shard`; empty: the whole
-  std::vector<std::string>
-      folders; ///< of the shards whose results are taken in place of solving; for `merge`
+  std::string part;                 ///< argument of `--shard`; empty: the whole
+  std::vector<std::string> folders; ///< shards that `merge` takes results from
   std::vector<std::string> command; ///< its name and the arguments that all shards have in common
 };
 
 /// Adds `--shard I/N`, which needs --out, and the hidden option that `merge` uses.
 /// @param not_divided  options of the whole command's output, which a shard has not
 /// @return the hidden option
-CLI::Option* add_shard_options(CLI::App& command, const std::shared_ptr<ShardOptions>& options,
-                               CLI::Option* out, const std::vector<CLI::Option*>& not_divided);
+CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
+                               const std::vector<CLI::Option*>& not_divided);
 
 /// The line that a shard prints when it has finished.
 void print_shard(const Shard& shard, std::size_t n_done, std::size_t n_all, std::size_t n_failed,

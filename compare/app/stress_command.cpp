@@ -8,13 +8,11 @@
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
-#include "compare/write/json.hpp"
-#include "compare/write/write_stress.hpp"
+#include "compare/table/json.hpp"
+#include "compare/hard/stress.hpp"
 
 #include <filesystem>
 #include <iostream>
-#include <map>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -30,23 +28,13 @@ struct StressOptions {
   bool json = false;
 };
 
-/// Files of the hard cases by their names.
-std::map<std::string, std::string> hard_cases() {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(cases_folder()) / "hard"))
-    if (entry.path().extension() == ".toml") files[entry.path().stem().string()] = entry.path().string();
-  return files;
-}
-
 /// @param name  of a hard case, or a path
 std::string file_of(const std::string& name) {
   if (fs::path(name).extension() == ".toml") return name;
+  const std::map<std::string, std::string> hard = case_files_in("hard");
+  if (const auto found = hard.find(name); found != hard.end()) return found->second;
   std::vector<std::string> known;
-  for (const auto& [known_name, file] : hard_cases())
-    if (known_name == name)
-      return file;
-    else
-      known.push_back(known_name);
+  for (const auto& [known_name, file] : hard) known.push_back(known_name);
   const auto nearest = cases::nearest_name(name, known);
   throw cases::InputError(
       "stress: there is no hard case \"" + name + "\"" +
@@ -54,13 +42,12 @@ std::string file_of(const std::string& name) {
                : ", allowed are " + cases::alternatives(known) + ", or the path of a .toml file"));
 }
 
-/// Every case is read before any is solved. Without names, the heavy ones are left out unless all are asked
-/// for.
+/// Reads every case before any is solved: without names all, the heavy ones only if they are asked for.
 std::vector<cases::Case> read_all(const StressOptions& options, std::vector<std::string>& skipped) {
   std::vector<std::string> files;
   for (const std::string& name : options.names) files.push_back(file_of(name));
   if (files.empty())
-    for (const auto& [name, file] : hard_cases()) files.push_back(file);
+    for (const auto& [name, file] : case_files_in("hard")) files.push_back(file);
   std::vector<cases::Case> hard;
   for (const std::string& file : files) {
     cases::Case next = cases::read_hard_case(file);
@@ -147,16 +134,15 @@ int run(const StressOptions& options) {
 } // namespace
 
 void add_stress_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<StressOptions>();
-  CLI::App* command = program.add_subcommand("stress", "the hard cases: does each end as it must?");
+  const auto [command, options] =
+      add_command<StressOptions>(program, chosen, "stress", "the hard cases: does each end as it must?", run);
   command->add_option("case", options->names,
                       "names of hard cases, or paths of their files; all but the heavy ones when left out");
   command->add_flag("--all", options->all, "the heavy ones too");
   command->add_option("--threads", options->n_threads, "of the springs' solver on grids of cells")
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", options->out, "folder for stress.txt and stress.json");
-  command->add_flag("--json", options->json, "one JSON document on standard output, and nothing else there");
-  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+  add_json_option(*command, options->json);
 }
 
 } // namespace springproof::compare

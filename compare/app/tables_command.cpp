@@ -1,4 +1,4 @@
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
@@ -6,14 +6,11 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/write_report.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/thesis/write_audit.hpp"
-#include "compare/thesis/write_files.hpp"
-#include "compare/thesis/write_text.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
+#include "compare/thesis/write.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
-#include <memory>
 
 namespace springproof::compare {
 
@@ -24,37 +21,31 @@ struct TablesOptions {
   std::string out;
   int workers = 0; ///< one per core
   bool json = false, trace = false;
-  std::shared_ptr<ShardOptions> shards = std::make_shared<ShardOptions>();
+  ShardOptions shards;
 };
 
-ThesisResults solve_tables(const TablesOptions& options) {
+/// Solves what the tables need, or takes it from the shards that are merged.
+ThesisResults results_of(const TablesOptions& options) {
+  const std::vector<std::string>& shards = options.shards.folders;
   const int n_workers = options.workers > 0 ? options.workers : cores();
   const auto answer = [&](const std::vector<Question>& questions) {
+    if (!shards.empty()) return answers_of(read_shards(shards), questions, FileNames::of_questions);
     std::vector<Answers> answers = answer_all(questions, FinishedCases("", {}), solve_fem, {n_workers});
     for (Answers& one : answers) one = gathered(std::move(one));
     return answers;
   };
-  return regenerate(options.tables, answer, std::to_string(n_workers));
-}
-
-ThesisResults merge_tables(const TablesOptions& options) {
-  const Shards shards = read_shards(options.shards->folders);
-  return regenerate(
-      options.tables,
-      [&](const std::vector<Question>& questions) {
-        return answers_of(shards, questions, FileNames::of_questions);
-      },
-      fmt::format("{} shards", shards.folders.size()));
+  return regenerate(options.tables, answer,
+                    shards.empty() ? std::to_string(n_workers) : fmt::format("{} shards", shards.size()));
 }
 
 int tables(const TablesOptions& options) {
-  if (!options.shards->part.empty())
-    return solve_shard(*options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
+  if (!options.shards.part.empty())
+    return solve_shard(options.shards, questions_of(jobs_of_tables(options.tables)), FileNames::of_questions,
                        options.out, {options.workers});
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   claim_subfolder(options.out, "figures");
-  ThesisResults results = options.shards->folders.empty() ? solve_tables(options) : merge_tables(options);
+  ThesisResults results = results_of(options);
   if (mpi_rank() != 0) return 0;
   Stopwatch stopwatch;
   if (options.json)
@@ -80,22 +71,18 @@ int tables(const TablesOptions& options) {
 } // namespace
 
 void add_tables_command(CLI::App& program, Action& chosen) {
-  auto options = std::make_shared<TablesOptions>();
-  CLI::App* command =
-      program.add_subcommand("tables", "regenerate the thesis's tables, ours beside the published");
+  const auto [command, options] = add_command<TablesOptions>(
+      program, chosen, "tables", "regenerate the thesis's tables, ours beside the published", tables);
   command->add_option("table", options->tables,
                       "numbers of tables; without any: all, designs and advice too");
   CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for report.html, the figures, the tables as text, CSV and JSON, and fields as .vtu");
-  command->add_option("--workers", options->workers, "processes that solve cases; without it one per core")
-      ->check(CLI::Range(1, 1024));
+  add_workers_option(*command, options->workers);
   command->add_flag("--trace", options->trace,
                     "the audit in place of the tables: every reference, and the command that repeats it");
-  CLI::Option* json = command->add_flag("--json", options->json,
-                                        "one JSON document on standard output, and nothing else there");
+  CLI::Option* json = add_json_option(*command, options->json);
   add_shard_options(*command, options->shards, out, {json});
-  command->callback([options, &chosen] { chosen = [options] { return tables(*options); }; });
 }
 
 } // namespace springproof::compare

@@ -2,68 +2,45 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/measure/measure.hpp"
 #include "compare/provenance/machine.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <list>
+#include <tuple>
 
 namespace springproof::compare {
 
 namespace {
 
-const MeasuredValue* find_measure(const Comparison& comparison, const std::string& name) {
-  for (const MeasuredValue& measured : comparison.measures)
-    if (measured.name == name) return &measured;
-  return nullptr;
+std::string why(const char* side, const cases::Solution& failed) {
+  const std::string reached = fmt::format(" (reached: {:.2f} of the load)", failed.load_reached);
+  return fmt::format("{}: {}{}", side, failed.message, failed.load_reached > 0 ? reached : "");
 }
 
-std::string why(const cases::Solution& failed) {
-  if (!(failed.load_reached > 0)) return failed.message;
-  return fmt::format("{} (reached: {:.2f} of the load)", failed.message, failed.load_reached);
-}
-
-bool is_sound(const cases::Solution& springs) {
-  return springs.status == cases::Status::converged &&
-         springs.outcome == cases::Outcome::stable_equilibrium && springs.inverted_cells == 0;
-}
-
-LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<CubeSolve>& solves) {
+LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Comparison>& tests) {
   LoadSetErrors errors;
-  ErrorSum lengths_and_angles, volumes;
+  WorstError lengths_and_angles, volumes;
   for (std::size_t t = 0; t < cube_tests.size(); ++t) {
     if (cube_tests[t].load_set != load_set) continue;
-    const auto& [fem, msm] = solves.at(t);
-    errors.is_stable = errors.is_stable && is_sound(msm.answers.msm.solution);
-    const cases::Case& definition = fem.scene.definition;
-    for (const cases::Measure& measure : definition.measures) {
-      const MeasuredPair pair = measured_pair(fem, msm, measure.name);
-      const std::optional<double> error = pair.error();
-      errors.measures.push_back({definition.name, measure.name, error, error ? "" : pair.reason});
+    const Comparison& test = tests.at(t);
+    const std::string reason = why_without_errors(test.answers, test.answers);
+    errors.is_stable = errors.is_stable && is_stable(test.answers.msm.solution);
+    for (std::size_t m = 0; m < test.measures.size(); ++m) {
+      const auto& [name, error] = std::tie(test.measures[m].name, test.measures[m].error_same_mesh_percent);
+      errors.measures.push_back({test.scene.definition.name, name, error, reason});
       if (!error && errors.failure.empty())
-        errors.failure = fmt::format("{} {}: {}", load_set, cube_tests[t].test, pair.reason);
+        errors.failure = fmt::format("{} {}: {}", load_set, cube_tests[t].test, reason);
       if (!error) continue;
-      if (measure.kind == cases::MeasureKind::volume)
-        volumes.add(*error);
-      else if (lengths_and_angles.add(*error))
-        errors.worst_test = t;
+      const bool is_volume = cases::is<cases::measures::Volume>(test.scene.definition.measures[m]);
+      (is_volume ? volumes : lengths_and_angles).add(*error, t);
     }
   }
   if (!errors.failure.empty()) return errors;
   errors.worst = lengths_and_angles.worst;
+  errors.worst_test = lengths_and_angles.place;
   errors.mean = lengths_and_angles.mean();
   errors.worst_volume = volumes.worst;
   return errors;
-}
-
-DesignAttempt designed(const std::string& name, const msm::DesignRequest& request) {
-  DesignAttempt result{name, msm::design(request)};
-  result.options = request.options;
-  const double edge = msm::cube_edge(request.cell);
-  if (edge > 0 && result.design->is_of_four_stiffnesses())
-    result.stability = msm::stability_range(result.design->stiffness, edge);
-  return result;
 }
 
 /// [msm] of these stiffnesses.
@@ -79,7 +56,7 @@ cases::Msm given(const msm::CellStiffness& k) {
 DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases::Design method) {
   request.options.design = method;
   try {
-    return designed(name, request);
+    return attempt_of(name, msm::design(request), request.options, request.cell);
   } catch (const cases::InputError& error) {
     return {name, std::nullopt, error.what()};
   } catch (const cases::SolveError& error) {
@@ -89,17 +66,9 @@ DesignAttempt attempt(const std::string& name, msm::DesignRequest request, cases
 
 } // namespace
 
-MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure) {
-  const cases::Solution &on_fem = fem.answers.fem.solution, &on_msm = msm.answers.msm.solution;
-  if (on_fem.status != cases::Status::converged) return {{}, {}, "finite elements: " + why(on_fem)};
-  const MeasuredValue *of_fem = find_measure(fem, measure), *of_msm = find_measure(msm, measure);
-  if (!of_fem) return {{}, {}, "the case has no measure " + measure};
-  if (on_msm.status != cases::Status::converged) return {of_fem->fem, {}, "springs: " + why(on_msm)};
-  return {of_fem->fem, of_msm ? of_msm->msm : std::nullopt, ""};
-}
-
-std::optional<double> MeasuredPair::error() const {
-  return fem && msm ? error_percent(*fem, *msm, 0) : std::nullopt;
+std::string why_without_errors(const Answers& fem, const Answers& msm) {
+  if (!fem.fem.converged()) return why("finite elements", fem.fem.solution);
+  return msm.msm.converged() ? "" : why("springs", msm.msm.solution);
 }
 
 cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge) {
@@ -111,23 +80,30 @@ cases::Case cube_case(const CubeTest& test, const cases::Material& material, dou
                        msm::small_strain_material(definition.material).youngs_modulus * edge * edge;
   definition.material = material;
   std::get<cases::Box>(definition.body).size *= edge; // from cells of 1 mm
-  for (cases::Load& load : definition.loads) load.value *= scale;
+  for (cases::Load& load : definition.loads) load.scale(scale);
   for (cases::Measure& measure : definition.measures)
-    for (cases::Region* region : {&measure.node, &measure.top, &measure.bottom, &measure.centre})
-      if (region->near) *region->near *= edge;
+    cases::for_each_region(measure, [&](cases::Region& region, bool) {
+      if (region.near) *region.near *= edge;
+    });
   return definition;
 }
 
-std::optional<double> worst_if_stable(const CubeErrors& cube) {
-  return cube.is_stable() ? cube.worst() : std::nullopt;
+CubeErrors cube_errors(const std::vector<Comparison>& tests) {
+  return {load_set_errors("small", tests), load_set_errors("large", tests)};
 }
 
-CubeErrors cube_errors(const std::vector<CubeSolve>& solves) {
-  return {load_set_errors("small", solves), load_set_errors("large", solves)};
+DesignAttempt attempt_of(const std::string& name, const msm::DesignResult& design, const cases::Msm& options,
+                         const msm::CellVertices& cell) {
+  DesignAttempt attempt{name, design};
+  attempt.options = options;
+  if (const double edge = msm::cube_edge(cell); edge > 0 && design.is_of_four_stiffnesses())
+    attempt.stability = msm::stability_range(design.stiffness, edge);
+  return attempt;
 }
 
 DesignAttempt attempt_one(const msm::DesignRequest& request) {
-  return designed(cases::name_of(request.options.design), request);
+  return attempt_of(cases::name_of(request.options.design), msm::design(request), request.options,
+                    request.cell);
 }
 
 std::vector<DesignAttempt> attempt_all(const msm::DesignRequest& request) {
@@ -157,34 +133,29 @@ std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request) {
 void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request) {
   const double edge = msm::cube_edge(request.cell);
   if (!(edge > 0)) throw cases::InputError("--measure solves the thesis's cube, whose cells are cubes");
-  std::vector<Comparison> fem;
-  for (const CubeTest& test : cube_tests)
-    fem.push_back(compare_case(cube_case(test, request.material, edge), {cases::Side::fem}));
+  std::vector<std::pair<cases::Scene, Answers>> tests;
+  for (const CubeTest& test : cube_tests) {
+    cases::Scene scene = cases::make_scene(cube_case(test, request.material, edge));
+    Answers fem = solve_reference(scene);
+    tests.emplace_back(std::move(scene), std::move(fem));
+  }
+  if (mpi_rank() != 0) return;
   for (DesignAttempt& a : attempts) {
     if (!a.design) continue;
-    const msm::CellStiffness& k = a.design->stiffness;
-    std::list<Comparison> springs; // whose elements are referred to
-    std::vector<CubeSolve> solves;
-    for (const Comparison& test : fem) {
-      cases::Case definition = test.scene.definition;
-      definition.msm = a.design->terms ? a.options : given(k);
-      springs.push_back(compare_case(definition, {cases::Side::msm}));
-      solves.push_back({test, springs.back()});
+    std::vector<Comparison> tried;
+    for (auto& [scene, fem] : tests) {
+      scene.definition.msm = a.design->springs.cells() ? given(a.design->stiffness) : a.options;
+      tried.push_back(try_springs(scene, fem));
     }
-    a.cube = cube_errors(solves);
+    a.cube = cube_errors(tried);
   }
 }
 
 const DesignAttempt* recommended(const std::vector<DesignAttempt>& attempts) {
-  const DesignAttempt* best = nullptr;
-  std::optional<double> least;
-  for (const DesignAttempt& a : attempts) {
-    const auto worst = a.cube ? worst_if_stable(*a.cube) : std::nullopt;
-    if (!worst || (least && *worst >= *least)) continue;
-    best = &a;
-    least = worst;
-  }
-  return best;
+  std::vector<Standing> standings;
+  for (const DesignAttempt& a : attempts) standings.push_back(a.cube ? a.cube->standing() : Standing{});
+  const auto found = recommended_of(standings);
+  return found ? &attempts[*found] : nullptr;
 }
 
 double stable_strain(const msm::StabilityRange& range) {

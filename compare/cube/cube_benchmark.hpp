@@ -1,11 +1,10 @@
 #pragma once
 
-#include "compare/gates/comparison.hpp"
+#include "compare/study/study.hpp"
 #include "msm/design/homogeneous.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 /// The thesis's cube, on which designs are measured: 10x10x10 cells under tension, shear and torsion, with a
 /// small and a large set of loads. `design --measure`, the advice of `tables` and the README's picture all
@@ -20,33 +19,8 @@
 /// modulus nor on the cells' edge.
 namespace springproof::compare {
 
-/// A measure on the two sides of a case that were solved apart.
-struct MeasuredPair {
-  std::optional<double> fem, msm;
-  std::string reason;                  ///< why one is missing; empty when both are there
-  std::optional<double> error() const; ///< error_percent() of both
-};
-
-/// @param fem, msm  the same case, with its finite elements and its springs solved
-MeasuredPair measured_pair(const Comparison& fem, const Comparison& msm, const std::string& measure);
-
-/// Worst and mean of |error|, in the unit of the errors.
-struct ErrorSum {
-  int n = 0;
-  double total = 0;
-  std::optional<double> worst{};
-
-  /// @param error  finite    @return whether it is the worst so far; of equal ones the first
-  bool add(double error) {
-    const double size = std::abs(error);
-    ++n;
-    total += size;
-    if (worst && size <= *worst) return false;
-    worst = size;
-    return true;
-  }
-  std::optional<double> mean() const { return n > 0 ? std::optional(total / n) : std::nullopt; }
-};
+/// Why two sides have no errors, which are in either's answers; empty: they have.
+std::string why_without_errors(const Answers& fem, const Answers& msm);
 
 struct CubeTest {
   const char *test, *load_set;
@@ -89,18 +63,12 @@ struct CubeErrors {
     return small.worst && large.worst ? std::max(small.worst_volume, large.worst_volume) : std::nullopt;
   }
   bool is_stable() const { return small.is_stable && large.is_stable; }
+  /// By the worst error over both load sets; of equal ones the first is recommended.
+  Standing standing() const { return {is_stable() ? worst() : std::nullopt}; }
 };
 
-/// A test with its finite elements solved, and with springs solved.
-struct CubeSolve {
-  const Comparison &fem, &msm;
-};
-
-/// Worst error of a design that is stable in every test; nothing for any other.
-std::optional<double> worst_if_stable(const CubeErrors& cube);
-
-/// @param solves  in the order of cube_tests
-CubeErrors cube_errors(const std::vector<CubeSolve>& solves);
+/// @param tests  both sides of each, in the order of cube_tests
+CubeErrors cube_errors(const std::vector<Comparison>& tests);
 
 /// What a method answers, how far its lattice is stable, and how well the cube does with it.
 struct DesignAttempt {
@@ -111,6 +79,11 @@ struct DesignAttempt {
   std::optional<CubeErrors> cube{};               ///< when measured
   cases::Msm options{};                           ///< what was asked for
 };
+
+/// A design that was found, with its lattice's stability, which is known of cubes of four stiffnesses.
+/// @param cell  mm
+DesignAttempt attempt_of(const std::string& name, const msm::DesignResult& design, const cases::Msm& options,
+                         const msm::CellVertices& cell);
 
 /// The request's own method.  @throws InputError, SolveError
 DesignAttempt attempt_one(const msm::DesignRequest& request);
@@ -126,8 +99,7 @@ std::vector<DesignAttempt> attempt_springs(const msm::DesignRequest& request);
 /// @throws InputError unless the cell is a cube
 void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequest& request);
 
-/// The measured attempt with the smallest worst error over both load sets, among those that are stable in
-/// every test; of equal ones the first. Null when there is none. The advice of `tables` has the same rule.
+/// The measured attempt that is to be used; null when there is none.
 const DesignAttempt* recommended(const std::vector<DesignAttempt>& attempts);
 
 /// Smaller of the logarithmic strains to which a lattice can be stretched and compressed.

@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "msm/design/homogeneous.hpp"
 #include "msm/design/multi_load.hpp"

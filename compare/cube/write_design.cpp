@@ -1,13 +1,14 @@
 #include "compare/cube/write_design.hpp"
 
-#include "compare/provenance/paragraph.hpp"
+#include "cases/case/readers.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/json.hpp"
-#include "compare/write/springs_text.hpp"
+#include "compare/write/write.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/ostream.h>
 #include <utility>
 
@@ -19,24 +20,16 @@ namespace {
 
 /// The ends of stable stretch, compression and simple shear. An end of the search is a bound, not a limit
 /// that was found.
-std::array<std::string, 3> limits(const std::optional<msm::StabilityRange>& range) {
+/// @param beyond  what stands before a bound: of a stretch, a compression, a shear
+std::array<std::string, 3> limits(const std::optional<msm::StabilityRange>& range,
+                                  const std::array<const char*, 3>& beyond) {
   if (!range) return {"-", "-", "-"};
-  const auto limit = [](double found, double end) {
-    return found == end ? fmt::format("beyond {:.2f}", end) : fmt::format("{:.3f}", found);
+  const auto limit = [](double found, double end, const char* before) {
+    return found == end ? fmt::format("{}{:.2f}", before, end) : fmt::format("{:.3f}", found);
   };
-  return {limit(range->stretch, msm::search_ends.stretch),
-          limit(range->compression, msm::search_ends.compression),
-          limit(range->shear, msm::search_ends.shear)};
-}
-
-/// The ends of stretch and compression in a column of a table.
-std::array<std::string, 2> short_limits(const std::optional<msm::StabilityRange>& range) {
-  if (!range) return {"-", "-"};
-  const auto limit = [](double found, double end, const char* beyond) {
-    return found == end ? fmt::format("{}{:.2f}", beyond, end) : fmt::format("{:.3f}", found);
-  };
-  return {limit(range->stretch, msm::search_ends.stretch, ">"),
-          limit(range->compression, msm::search_ends.compression, "<")};
+  return {limit(range->stretch, msm::search_ends.stretch, beyond[0]),
+          limit(range->compression, msm::search_ends.compression, beyond[1]),
+          limit(range->shear, msm::search_ends.shear, beyond[2])};
 }
 
 std::array<double, 3> newton_per_metre(const msm::CellStiffness& k) {
@@ -154,7 +147,7 @@ void write_compared(std::ostream& out, const DesignAttempt& a) {
   const msm::CellStiffness& k = a.design->stiffness;
   const msm::LatticeModuli& m = a.design->moduli;
   const auto [edge, face, internal] = newton_per_metre(k);
-  const auto [stretch, compression] = short_limits(a.stability);
+  const auto [stretch, compression, shear] = limits(a.stability, {">", "<", ">"}); // in a column
   if (a.design->by_fibre) {
     fmt::print(out, "{}\n", a.name);
     write_fibre_lattice(out, *a.design->by_fibre);
@@ -169,6 +162,44 @@ void write_compared(std::ostream& out, const DesignAttempt& a) {
     fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(exponents_of(*k.exponents), ", "));
   if (a.design->springs.terms()) write_paragraph(out, springs_text(*a.design), indent, indent);
   write_warnings(out, *a.design);
+}
+
+/// The measured attempts that are stable in every test, but one.
+std::vector<DesignAttempt> rivals_of(const DesignAttempt& best, const std::vector<DesignAttempt>& attempts) {
+  std::vector<DesignAttempt> rivals;
+  for (const DesignAttempt& a : attempts)
+    if (&a != &best && a.cube && a.cube->standing().worst) rivals.push_back(a);
+  return rivals;
+}
+
+/// "alpha_1 under large loads": where the worst error is.
+std::string place_of_worst(const CubeErrors& cube) {
+  for (const auto& [name, errors] : {std::pair("small", &cube.small), std::pair("large", &cube.large)})
+    for (const CubeError& m : errors->measures)
+      if (m.error_percent && std::abs(*m.error_percent) == cube.worst())
+        return fmt::format("{} under {} loads", m.measure, name);
+  return "";
+}
+
+/// What speaks for the design without a name.
+std::string reason_for(const DesignAttempt& by_default, const DesignAttempt& best) {
+  const auto strain = [](const DesignAttempt& a) { return a.stability ? stable_strain(*a.stability) : 0; };
+  if (!(strain(by_default) > strain(best)))
+    return "its rule asks for a large lattice that stays stable, not for this cube alone";
+  return fmt::format("its lattice is stable to logarithmic strains of {:.2f}, that of {} to {:.2f}",
+                     strain(by_default), best.name, strain(best));
+}
+
+std::string default_text(const DesignAttempt& best, const std::vector<DesignAttempt>& attempts,
+                         const msm::DesignRequest& request) {
+  const std::string name =
+      cases::name_of(cases::default_design({request.material}, request.options.poissons_ratio));
+  if (name == best.name) return " A case that names no design takes it too.";
+  for (const DesignAttempt& a : attempts)
+    if (a.name == name && a.cube && a.cube->worst())
+      return fmt::format(" A case that names no design takes {}, with {:.2f} %: {}.", name, *a.cube->worst(),
+                         reason_for(a, best));
+  return fmt::format(" A case that names no design takes {}.", name);
 }
 
 } // namespace
@@ -195,7 +226,7 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
                "  along its axes   E {:.6g} MPa, nu {:.4f}, G {:.6g} MPa\n",
                m.c11, m.c12, m.c44, m.zener, m.youngs_modulus, m.poissons_ratio, m.shear_modulus);
   if (attempt.stability) {
-    const auto [stretch, compression, shear] = limits(attempt.stability);
+    const auto [stretch, compression, shear] = limits(attempt.stability, {"beyond ", "beyond ", "beyond "});
     fmt::print(out, "  stable           stretch to {}, compression to {}, simple shear to {}\n", stretch,
                compression, shear);
   }
@@ -209,6 +240,25 @@ void write_comparison_text(std::ostream& out, const std::vector<DesignAttempt>& 
   for (const DesignAttempt& a : attempts) write_compared(out, a);
   fmt::print(out, "longer, shorter: stretches along an axis to which the lattice is stable\n");
   write_cube_errors(out, attempts);
+}
+
+std::string recommendation_text(const std::vector<DesignAttempt>& attempts,
+                                const msm::DesignRequest& request) {
+  const DesignAttempt* best = recommended(attempts);
+  if (!best) return "None is recommended: no design is stable in every test of the cube.";
+  const cases::LinearElastic material = msm::small_strain_material(request.material);
+  std::string text = fmt::format(
+      "Use {} for E = {:.4g} MPa and nu = {:.4g}: its worst error on the thesis's cube is {:.2f} % ({}), its "
+      "worst volume error {:.2f} %.",
+      best->name, material.youngs_modulus, request.options.poissons_ratio.value_or(material.poissons_ratio),
+      *best->cube->worst(), place_of_worst(*best->cube), best->cube->worst_volume().value_or(0));
+  const std::vector<DesignAttempt> rivals = rivals_of(*best, attempts);
+  if (const DesignAttempt* next = recommended(rivals))
+    text +=
+        fmt::format(" That is the smallest of the {} designs that are stable in every test; the next is {} "
+                    "with {:.2f} %.",
+                    rivals.size() + 1, next->name, *next->cube->worst());
+  return text + default_text(*best, attempts, request);
 }
 
 Json errors_to_json(const LoadSetErrors& errors) {
@@ -235,6 +285,31 @@ Json attempt_to_json(const DesignAttempt& attempt) {
     document["stability"]["searched"] = range_to_json(msm::search_ends);
   }
   if (attempt.cube) document["cube"] = cube_to_json(*attempt.cube);
+  return document;
+}
+
+namespace {
+
+/// Kinds of cells that differ; 0 where all are alike, and for a network.
+std::size_t n_kinds(const msm::SpringBody& springs) {
+  if (springs.terms()) return springs.terms()->kinds.size();
+  return springs.cells() && springs.cells()->size() > 1 ? springs.cells()->size() : 0;
+}
+
+} // namespace
+
+Json springs_of_case(const Comparison& comparison) {
+  const auto& design = comparison.answers.design;
+  if (!design || !comparison.answers.msm_source.empty()) return nullptr;
+  const cases::Msm& options = comparison.scene.definition.msm;
+  const bool is_network = options.design == cases::Design::network; // without cells
+  const std::string name = cases::name_of(options.design);
+  Json document = attempt_to_json(
+      is_network ? DesignAttempt{name, design, {}, {}, {}, options}
+                 : attempt_of(name, *design, options, cases::cell_vertices(comparison.scene.mesh, 0)));
+  document["design"] = name;
+  document["kinds_of_cells"] = n_kinds(design->springs);
+  if (is_network) document["moduli"] = nullptr;
   return document;
 }
 

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/surface_motion.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include <cmath>
 

@@ -166,7 +166,7 @@ void find_order(StudiedMeasure& studied, std::size_t own, double formal_order) {
 
 /// Each mesh's norm is that of its own field, of which the body's nodes show a part: the limit is that of
 /// these values, and is uncertain by what they are and by what the field at the nodes is.
-void find_reference(StudiedMeasure& studied, cases::MeasureKind kind, const FieldNorm& norm,
+void find_reference(StudiedMeasure& studied, const cases::measures::Kind& kind, const FieldNorm& norm,
                     const std::variant<FieldLimit, std::string>& field, double formal_order) {
   auto limit = find_limit(studied.values, 2, formal_order);
   const auto* of_field = std::get_if<FieldLimit>(&field);
@@ -201,14 +201,14 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
   }
   const cases::Sharing* const sharing =
       meshes.solutions.empty() ? nullptr : meshes.solutions[0].sharing.get();
-  const auto norm_of = [&](cases::MeasureKind kind) -> FieldNorm {
+  const auto norm_of = [&](const cases::measures::Kind& kind) -> FieldNorm {
     return [&, kind](const VectorField& on_nodes) { return field_norm(kind, scene.mesh, on_nodes, sharing); };
   };
   std::variant<FieldLimit, std::string> field = meshes.reason;
   const auto& measures = scene.definition.measures;
   if (!fields.empty() && std::any_of(measures.begin(), measures.end(),
                                      [](const cases::Measure& m) { return is_field_norm(m.kind); }))
-    field = find_limit(fields, norm_of(cases::MeasureKind::displacement_field_l2), order);
+    field = find_limit(fields, norm_of(cases::measures::DisplacementFieldL2{}), order);
   for (const cases::Measure& measure : measures) {
     StudiedMeasure& studied = study.measures.emplace_back();
     studied.name = measure.name;

@@ -1,13 +1,13 @@
 #include "compare/error_bars/time_study.hpp"
 
-#include "cases/scene/histories.hpp"
+#include "cases/scene/in_time.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/provenance/print.hpp"
+#include "compare/table/json.hpp"
 #include "mechanics/dynamics/scheme.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -31,13 +31,19 @@ std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases
                     error_percent(extrapolated, *value, zero_of(measure, scene, whole.solution))};
 }
 
-nlohmann::ordered_json halved_to_json(const std::optional<HalvedStep>& halved) {
+Json halved_to_json(const std::optional<HalvedStep>& halved) {
   if (!halved) return nullptr;
   return {{"value", halved->value},
           {"half_step", halved->with_half},
           {"extrapolated", halved->extrapolated},
-          {"error_percent", halved->error_percent ? nlohmann::ordered_json(*halved->error_percent)
-                                                  : nlohmann::ordered_json()}};
+          {"error_percent", halved->error_percent}};
+}
+
+Json error_to_json(const TimeError& error) {
+  return {{"measure", error.measure},
+          {"unit", error.unit},
+          {"fem", halved_to_json(error.fem)},
+          {"msm", halved_to_json(error.msm)}};
 }
 
 std::vector<std::string> failures_of(const Answers& halves) {
@@ -84,17 +90,11 @@ void write_time_study_text(std::ostream& out, const TimeStudy& study) {
   for (const std::string& failure : study.failures) print(out, "  FAILED: {}\n", failure);
 }
 
-nlohmann::ordered_json time_study_to_json(const TimeStudy& study) {
-  nlohmann::ordered_json measures = nlohmann::ordered_json::array();
-  for (const TimeError& error : study.errors)
-    measures.push_back({{"measure", error.measure},
-                        {"unit", error.unit},
-                        {"fem", halved_to_json(error.fem)},
-                        {"msm", halved_to_json(error.msm)}});
+Json time_study_to_json(const TimeStudy& study) {
   return {{"order", study.order},
           {"load_jumps", study.has_jumps},
           {"failures", study.failures},
-          {"measures", measures}};
+          {"measures", json_list(study.errors, error_to_json)}};
 }
 
 } // namespace springproof::compare

@@ -4,8 +4,8 @@
 #include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/write_springs.hpp"
+#include "compare/table/table.hpp"
+#include "compare/write/write_fields.hpp"
 
 #include <fmt/ostream.h>
 

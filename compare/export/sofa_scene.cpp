@@ -2,7 +2,7 @@
 
 #include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>

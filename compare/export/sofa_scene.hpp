@@ -10,7 +10,7 @@ struct ExportedMotion {
   cases::Dynamics dynamics;
   msm::Inertia inertia;
   double stiffness_damping;                    ///< s, of the body's material
-  bool has_one_stiffness_damping;              ///< of all materials
+  bool has_one_stiffness_damping;              ///< whether all materials have this one
   std::vector<cases::Scene::MovedNodes> moved; ///< by their histories
   msm::Points start;                           ///< mm, one per point; empty: it starts undeformed
 };

@@ -2,10 +2,13 @@
 
 #include "compare/solve/answers.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
 #include <string>
 #include <vector>
 
-/// Hard cases: the jobs that they are solved by, and what became of each model, held against what must.
+/// Hard cases: the jobs that they are solved by, what became of each model, held against what must, and its
+/// report.
 namespace springproof::compare {
 
 /// One model's way through a hard case.
@@ -29,7 +32,24 @@ struct StressResult {
 /// @throws InputError when no scene can be made of the case
 std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads);
 
+/// What a model's answer to a hard case differs in from what is expected of it and from the case's limits;
+/// empty: nothing.
+std::vector<std::string> misses(const cases::Stress& limits, const cases::ExpectedOutcome& expected,
+                                const Answer& answer);
+
 /// Holds the answers to a hard case's jobs, in their order, against what it expects.
 StressResult judge_stress(const cases::Case& hard_case, int n_threads, const std::vector<Answer>& answers);
+
+/// A case's name and sentence, one line per model, and what differs.
+void write_stress_text(std::ostream& out, const StressResult& result);
+
+/// Which cases were left out, and how many of the others ended as expected.
+/// @param skipped  names of heavy cases that were not asked for
+void write_stress_summary(std::ostream& out, const std::vector<StressResult>& results,
+                          const std::vector<std::string>& skipped);
+
+/// The document of `stress --json`.
+nlohmann::ordered_json stress_to_json(const std::vector<StressResult>& results,
+                                      const std::vector<std::string>& skipped);
 
 } // namespace springproof::compare

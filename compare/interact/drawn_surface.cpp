@@ -1,7 +1,6 @@
 #include "compare/interact/drawn_surface.hpp"
 
-#include "cases/mesh/read_surface.hpp"
-#include "compare/interact/page_bytes.hpp"
+#include "cases/mesh/read_vtk.hpp"
 
 #include <stdexcept>
 
@@ -9,8 +8,7 @@ namespace springproof::compare {
 
 namespace {
 
-/// The surface in fewer triangles. None of a small surface, and of one that cannot be had in fewer: the page
-/// then draws all of it.
+/// The surface in fewer triangles; none if it is small or cannot be had in fewer: the page draws all of it.
 std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh& fine,
                                                        const cases::HexMesh& mesh) {
   if (fine.triangles.size() <= coarse_triangles) return {};

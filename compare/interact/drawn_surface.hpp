@@ -2,9 +2,23 @@
 
 #include "mechanics/surface/embedded_surface.hpp"
 
+#include <cstring>
 #include <string>
 
 namespace springproof::compare {
+
+/// Adds a number for the page, little endian: its machine and the server's are one.
+template<class To, class From>
+void append(std::string& bytes, From value) {
+  const To number = static_cast<To>(value);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+inline void append(std::string& bytes, const Eigen::Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
+}
 
 /// What the page draws of a body.
 struct DrawnSurface {
@@ -14,7 +28,7 @@ struct DrawnSurface {
   /// their nodes' places in `nodes` (8 each), the triangles (3 each) and the spheres' vertices; the coarse
   /// one has no spheres. Little endian.
   std::string bytes;
-  std::vector<int> nodes; ///< of the body, that carry vertices
+  std::vector<int> nodes; ///< the body's nodes that carry vertices
 };
 
 constexpr std::size_t coarse_triangles = 5000;

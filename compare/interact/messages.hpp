@@ -22,8 +22,9 @@ using PageMessage = std::variant<AskFrame, Grab, Drag, Release, Restart>;
 /// The longest text that is a message, bytes.
 constexpr std::size_t longest_message = 512;
 
-/// Of {"type": "frame" | "grab" | "drag" | "release" | "restart"}; a grab has "origin" and "direction", a
-/// drag has "by", each of three finite numbers up to 1e9, the direction not 0; and there are no other keys.
+/// The message in {"type": "frame" | "grab" | "drag" | "release" | "restart"}; a grab has "origin" and
+/// "direction", a drag has "by", each of three finite numbers up to 1e9, the direction not 0; and there are
+/// no other keys.
 /// @return nothing where the text is anything else
 std::optional<PageMessage> message_from(const std::string& text);
 

@@ -2,11 +2,10 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/in_time.hpp"
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -16,8 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A picture needs fewer digits than a measure, and a step no more than a few halvings to be given up in
-/// time.
+/// Settings for pictures: fewer digits than a measure needs, and few halvings, so that a step ends in time.
 mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;

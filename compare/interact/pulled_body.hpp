@@ -13,12 +13,12 @@ namespace springproof::compare {
 struct PullSettings {
   std::size_t n_spheres = 271; ///< that cover the surface, as in the thesis (section 6.2.2.3)
   double stiffness = 0.1;      ///< N/mm, of the spring between the pointer and the body, > 0
-  int n_threads = 1;           ///< of the multigrid path
+  int n_threads = 1;           ///< threads of the multigrid path
 };
 
-/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface. The
-/// pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is known
-/// after the step; applied as a load of that step it gives the same solution. A recording of forces can
+/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface.
+/// The pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is
+/// known after the step; applied as a load of that step it gives the same solution. A recording of forces can
 /// therefore be replayed in any model.
 class PulledBody {
  public:
@@ -35,7 +35,7 @@ class PulledBody {
   /// Back to the start of the motion, with nothing held.
   void restart();
 
-  /// One step of the case. One that cannot be solved is told in failure(); then the body is back at its
+  /// Takes one step of the case. If it cannot be solved, failure() says why and the body is back at its
   /// start.
   void step();
 
@@ -48,7 +48,7 @@ class PulledBody {
   double time() const { return motion_->now().time; } ///< s, since the last restart
   long n_steps() const { return n_steps_; }           ///< since the last restart
   int n_failures() const { return n_failures_; }
-  const std::string& failure() const { return failure_; } ///< of the last failed step
+  const std::string& failure() const { return failure_; } ///< message of the last failed step
   /// What the last step was left with, relative to the forces of the motion; steps that were left with more
   /// than their tolerance, because their iterations are bounded, and the most that one was.
   double residual() const { return motion_->work().residual; }
@@ -73,7 +73,7 @@ class PulledBody {
   long n_unfinished_ = 0;
   double largest_residual_ = 0;
   std::optional<int> held_;
-  msm::Pull* pull_ = nullptr; ///< of the body; none: nothing is held
+  msm::Pull* pull_ = nullptr; ///< the body's; none: nothing is held
   /// mm: displacement of the place when it was grabbed, and what it is drawn to; N.
   Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;
   msm::Points displacement_;

@@ -6,9 +6,9 @@
 
 namespace springproof::compare {
 
-/// Of a recording of pulls: a row per step in which something was pulled. The step is counted from 1, its end
-/// is at the time (s); the place is the part of the surface within a sphere, of which are told the centre and
-/// the radius at rest (mm); the force in N.
+/// Columns of a recording of pulls, a row per step in which something was pulled: the step, counted from 1,
+/// the time of its end (s), centre and radius (mm) of the sphere whose surface is pulled, at rest, and the
+/// force (N).
 inline const std::string recording_header = "step,time,x,y,z,radius,fx,fy,fz";
 constexpr std::size_t most_recorded = 200'000; ///< steps with a pull
 
@@ -22,8 +22,7 @@ struct Hold {
 
 /// @param text  CSV     @param path  for messages     @param step, end  of the case, s
 /// @return at least one, in the order of their steps
-/// @throws cases::InputError with the line, when it is no recording of the case's step, or ends after the
-/// case
+/// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
 std::vector<Hold> read_recording(const std::string& text, const std::string& path, double step, double end);
 
 } // namespace springproof::compare

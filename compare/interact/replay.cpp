@@ -2,7 +2,7 @@
 
 #include "cases/scene/loads.hpp"
 #include "compare/interact/read_recording.hpp"
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 #include "mechanics/surface/patch.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t most_loaded = 1'000'000; ///< vertices of the surface and nodes, of all places
 
-/// A component of a hold's force, N: constant in each step, with jumps just after the steps' ends, which some
-/// schemes look at.
+/// A component of a hold's force (N), constant in each step. Jumps come just after the ends of steps, at
+/// which some schemes evaluate forces.
 cases::History history_of(const Hold& hold, int axis, double step) {
   const auto just_after = [&](long n) { return (static_cast<double>(n) + 1e-6) * step; };
   cases::History history;
@@ -54,9 +54,8 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
       throw cases::InputError(
           fmt::format("{}: pulls {} nodes and vertices in all, may pull {}: fewer places or smaller ones",
                       path, n_loaded, most_loaded));
-    patch.load.kind = cases::LoadKind::nodal_force;
     for (int axis = 0; axis < 3; ++axis) {
-      patch.load.value = Vector3d::Unit(axis); // N, times the factor
+      patch.load.kind = cases::loads::NodalForce{Vector3d::Unit(axis)}; // N, times the factor
       patch.load.history = history_of(hold, axis, dynamics->step);
       scene.loads.push_back(patch);
     }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -14,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <deque>
+#include <fmt/format.h>
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
 #include <stdexcept>
@@ -39,10 +39,7 @@ constexpr auto time_to_accept_again = std::chrono::milliseconds(100);
 std::string random_text() {
   std::array<unsigned char, 16> bytes;
   if (RAND_bytes(bytes.data(), bytes.size()) != 1) throw std::runtime_error("there is no randomness");
-  std::string text;
-  for (const unsigned char byte : bytes)
-    for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
-  return text;
+  return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {

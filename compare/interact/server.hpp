@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace springproof::compare {
@@ -37,10 +36,10 @@ class PageServer {
   ~PageServer();
 
   std::string address() const; ///< with the token: "http://127.0.0.1:PORT/?token=..."
-  /// Of any thread; returns at once.
+  /// May be called from any thread; returns at once.
   void send_frame(std::shared_ptr<const std::string> frame);
-  /// Serves until SIGINT, SIGTERM, SIGHUP (unless it is ignored, as by nohup), or the page has left, or so
-  /// many seconds have passed (0: no such limit).
+  /// Serves until SIGINT, SIGTERM, a SIGHUP that is not ignored (nohup), the page's end, or so many seconds.
+  /// @param seconds  0: no limit
   void run(double seconds = 0);
   ServerCounts counts() const;
 

@@ -1,7 +1,7 @@
 #include "compare/interact/simulation.hpp"
 
 #include "compare/interact/drawn_surface.hpp"
-#include "compare/interact/page_bytes.hpp"
+#include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -190,6 +190,17 @@ std::shared_ptr<const std::string> Simulation::frame() {
   for (const int node : carrying_) append(*bytes, displacement[cases::index(node)]);
   ++summary_.n_frames;
   return bytes;
+}
+
+void Simulation::write_recording(std::ostream& out) const {
+  CsvWriter csv(out, 17); // doubles come back as they were
+  out << recording_header << '\n';
+  for (const RecordedPull& pull : recording_) {
+    const Vector3d& place = body_.surface().rest.vertices[cases::index(pull.vertex)];
+    const double time = static_cast<double>(pull.step) * scene_.definition.dynamics->step;
+    csv.row(pull.step, time, place.x(), place.y(), place.z(), body_.spheres().radius, pull.force.x(),
+            pull.force.y(), pull.force.z());
+  }
 }
 
 SimulationSummary Simulation::summary() const {

@@ -4,7 +4,6 @@
 #include "compare/interact/pulled_body.hpp"
 #include "compare/interact/read_recording.hpp"
 
-#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -15,18 +14,18 @@ namespace springproof::compare {
 /// A force of a recording: of one step on one place.
 struct RecordedPull {
   long step;             ///< its number since the start of the motion: the force acts in it, up to its end
-  int vertex;            ///< of the surface
+  int vertex;            ///< number in the surface
   Eigen::Vector3d force; ///< N
 };
 
 struct SimulationSummary {
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
   int n_failures = 0;                           ///< steps that could not be solved, each a restart
-  std::string failure;                          ///< of the last one
+  std::string failure;                          ///< message of the last one
   long n_inverted_frames = 0;                   ///< frames that showed inverted cells
   long n_unfinished = 0;                        ///< see PulledBody::n_unfinished()
   double largest_residual = 0;
-  double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< of a step, wall clock; of the last 100,000
+  double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< wall clock of the last 100,000 steps
 };
 
 /// A body's motion in a thread of its own, in real time where a step takes less than its own length. It never
@@ -38,24 +37,23 @@ class Simulation {
              std::function<void(std::shared_ptr<const std::string>)> on_frame);
   ~Simulation();
 
-  /// Of any thread. Nothing moves before the first start().
+  /// May be called from any thread. Nothing moves before the first start().
   void start();
   void pause(); ///< and releases what is held
   void send(const PageMessage& message);
   void stop(); ///< joins the thread
 
-  /// {"name", "masses", "springs", "unknowns", "step_s", "vertices", "triangles", "nodes", "spheres",
-  /// "radius"}
+  /// {"name", "description", "masses", "cells", "unknowns", "step_s", "triangles", "spheres", "radius"}
   const std::string& description() const { return description_; }
   /// What the page draws: see DrawnSurface, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
 
-  /// After stop(). A recording is of the motion since its last start.
+  /// What has been, after stop(). A recording is of the motion since its last start.
   SimulationSummary summary() const;
-  const std::vector<RecordedPull>& recording() const { return recording_; }
+  bool has_recording() const { return !recording_.empty(); }
   bool is_recording_full() const { return recording_.size() == most_recorded; }
-  const mechanics::EmbeddedSurface& surface() const { return body_.surface(); }
-  double radius() const { return body_.spheres().radius; } ///< mm, of what is pulled about a vertex
+  /// Writes what read_recording() reads.
+  void write_recording(std::ostream& out) const;
 
   static constexpr std::size_t frame_numbers = 12; ///< float64 at the beginning of a frame
 
@@ -75,11 +73,11 @@ class Simulation {
   std::thread thread_;
 
   long n_drags_taken_ = 0;      ///< before the last step
-  std::vector<double> step_ms_; ///< of the last steps, a ring
+  std::vector<double> step_ms_; ///< the last steps, a ring
   SimulationSummary summary_;
   std::vector<RecordedPull> recording_;
   double steps_per_second_ = 0;
-  long last_step_ = 0; ///< of the motion since its last start
+  long last_step_ = 0; ///< step of the motion since its last start
 
   void describe();
   void run();

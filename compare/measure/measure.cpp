@@ -16,10 +16,12 @@
 
 namespace springproof::compare {
 
-using cases::MeasureKind;
+namespace measures = cases::measures;
 using Eigen::Vector3d;
 
 namespace {
+
+using Points = std::vector<Vector3d>;
 
 constexpr double relative_zero = 1e-8; ///< of a size, and less: a solve leaves 1e-9 of its forces
 
@@ -27,69 +29,82 @@ double component_of(const Vector3d& vector, cases::Component component) {
   return component == cases::Component::norm ? vector.norm() : vector[static_cast<int>(component)];
 }
 
+// The value of a measure of single nodes, of which `x` are the places at rest and `u` the displacements, mm.
+
+double of_nodes(const measures::Coordinate& measure, const Points& x, const Points& u) {
+  return Vector3d(x[0] + u[0])[static_cast<int>(measure.axis)];
+}
+
+double of_nodes(const measures::Displacement& measure, const Points&, const Points& u) {
+  return component_of(u[0], measure.component);
+}
+
+double of_nodes(const measures::Tilt& measure, const Points& x, const Points& u) {
+  const Vector3d edge = Vector3d(x[0] + u[0]) - Vector3d(x[1] + u[1]); // from bottom to top
+  return degrees_per_radian *
+         std::atan2(edge[static_cast<int>(measure.toward)], edge[static_cast<int>(measure.up)]);
+}
+
+double of_nodes(const measures::Twist& measure, const Points& x, const Points& u) {
+  const Vector3d axis = Vector3d::Unit(static_cast<int>(measure.axis));
+  const auto across = [&](const Vector3d& v) { return Vector3d(v - axis.dot(v) * axis); };
+  const Vector3d before = across(x[0] - x[1]); // from the centre to the node
+  const Vector3d after = across(Vector3d(x[0] + u[0]) - Vector3d(x[1] + u[1]));
+  return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
+}
+
+// What an angle is of; others count no turns.
+
+TurnedSegment segment_of(const measures::Tilt& measure, const Points& x, const std::vector<int>& nodes) {
+  return {x[0] - x[1], static_cast<int>(measure.up), static_cast<int>(measure.toward), {nodes[0], nodes[1]}};
+}
+
+TurnedSegment segment_of(const measures::Twist& measure, const Points& x, const std::vector<int>& nodes) {
+  const int axis = static_cast<int>(measure.axis);
+  return {x[0] - x[1], (axis + 1) % 3, (axis + 2) % 3, {nodes[0], nodes[1]}};
+}
+
+template<class Kind>
+std::optional<TurnedSegment> segment_of(const Kind&, const Points&, const std::vector<int>&) {
+  return std::nullopt;
+}
+
 /// A measure of a few nodes, on any displacement of them.
 class NodeMeasure {
  public:
   NodeMeasure(const cases::Measure& measure, const cases::Scene& scene) : measure_(measure), scene_(scene) {
-    const auto number = [&](const cases::Region& region) { return cases::select_node(scene.mesh, region); };
-    if (measure.kind == MeasureKind::tilt) {
-      top_ = number(measure.top);
-      bottom_ = number(measure.bottom);
-    } else {
-      node_ = number(measure.node);
-    }
-    if (measure.kind == MeasureKind::twist) centre_ = number(measure.centre);
+    cases::for_each_region(measure, [&](const cases::Region& region, bool) {
+      nodes_.push_back(cases::select_node(scene.mesh, region));
+      rest_.push_back(scene.mesh.nodes[cases::index(nodes_.back())]);
+    });
+    segment_ = std::visit(
+        [&](const auto& kind) -> std::optional<TurnedSegment> { return segment_of(kind, rest_, nodes_); },
+        measure.kind);
   }
+
+  bool is_angle() const { return segment_.has_value(); }
 
   /// @param displacement  of a node by its number, mm
   template<class Displacement>
   double at(const Displacement& displacement) const {
-    const auto deformed = [&](int node) -> Vector3d { return rest(node) + displacement(node); };
-    switch (measure_.kind) {
-    case MeasureKind::coordinate:
-      return deformed(node_)[static_cast<int>(measure_.axis)];
-    case MeasureKind::displacement:
-      return component_of(displacement(node_), measure_.component);
-    case MeasureKind::tilt: {
-      const Vector3d edge = deformed(top_) - deformed(bottom_);
-      return degrees_per_radian *
-             std::atan2(edge[static_cast<int>(measure_.toward)], edge[static_cast<int>(measure_.axis)]);
-    }
-    case MeasureKind::twist: {
-      const Vector3d axis = Vector3d::Unit(static_cast<int>(measure_.axis));
-      const auto across = [&](const Vector3d& v) { return Vector3d(v - axis.dot(v) * axis); };
-      const Vector3d before = across(rest(node_) - rest(centre_));
-      const Vector3d after = across(deformed(node_) - deformed(centre_));
-      return degrees_per_radian * std::atan2(axis.dot(before.cross(after)), before.dot(after));
-    }
-    case MeasureKind::volume:
-    case MeasureKind::displacement_field_l2:
-    case MeasureKind::displacement_field_max:
-    case MeasureKind::reaction:
-    case MeasureKind::strain_energy:
-    case MeasureKind::stress:
-    case MeasureKind::strain:
-    case MeasureKind::curvature:
-      break; // not reached: they are of no single nodes
-    }
-    return std::nan("");
+    Points moved;
+    for (const int node : nodes_) moved.push_back(displacement(node));
+    const auto value = [&](const auto& kind) {
+      if constexpr (std::decay_t<decltype(kind)>::from == measures::From::nodes)
+        return of_nodes(kind, rest_, moved);
+      else
+        return std::nan(""); // not reached: no NodeMeasure is made of it
+    };
+    return std::visit(value, measure_.kind);
   }
 
   /// Of an angle, its value with whole turns.
   /// @param displacement  mm, one per node that is here   @param time  s; none: of statics
-  double with_turns(double value, const std::vector<Vector3d>& displacement, const cases::Sharing* sharing,
+  double with_turns(double value, const Points& displacement, const cases::Sharing* sharing,
                     std::optional<double> time) const {
+    if (!segment_) return value;
     const auto factor = [&](const cases::Moved& moved) { return time ? moved.history.at(*time) : 1; };
-    const bool is_tilt = measure_.kind == MeasureKind::tilt;
-    if (!is_tilt && measure_.kind != MeasureKind::twist) return value;
-    const int axis = static_cast<int>(measure_.axis);
-    TurnedSegment segment =
-        is_tilt
-            ? TurnedSegment{rest(top_) - rest(bottom_),
-                            axis,
-                            static_cast<int>(measure_.toward),
-                            {top_, bottom_}}
-            : TurnedSegment{rest(node_) - rest(centre_), (axis + 1) % 3, (axis + 2) % 3, {node_, centre_}};
+    TurnedSegment segment = *segment_;
     segment.along[3 - segment.from - segment.towards] = 0;
     // A tilt counts from upwards, not from where the segment is at rest.
     const double at_rest = at([](int) { return Vector3d(0, 0, 0); });
@@ -99,9 +114,9 @@ class NodeMeasure {
  private:
   const cases::Measure& measure_;
   const cases::Scene& scene_;
-  int node_ = 0, top_ = 0, bottom_ = 0, centre_ = 0;
-
-  Vector3d rest(int node) const { return scene_.mesh.nodes[cases::index(node)]; }
+  std::vector<int> nodes_; ///< in the order in which the measure names them
+  Points rest_;            ///< mm
+  std::optional<TurnedSegment> segment_;
 };
 
 /// Sums of every rank's numbers; where nobody shares the solution, they are all.
@@ -113,7 +128,7 @@ Numbers sum_of_ranks(Numbers here, const cases::Solution& solution) {
 }
 
 /// Of the cells that hold the measure's point.
-double at_point(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution,
+double at_point(const measures::OfCells& measure, const cases::Scene& scene, const cases::Solution& solution,
                 const std::vector<cases::SymmetricTensor>& of_cells) {
   const cases::Range here = cases::share_here(scene.mesh, solution.sharing.get()).cells;
   std::array<double, 7> sums{}; // of the tensors, and the number of them
@@ -124,10 +139,11 @@ double at_point(const cases::Measure& measure, const cases::Scene& scene, const 
   sums = sum_of_ranks(sums, solution);
   cases::SymmetricTensor mean;
   for (std::size_t i = 0; i < 6; ++i) mean[i] = sums[i] / sums[6];
-  return compare::component_of(mean, measure.tensor_component); // not the one above, of a vector
+  return compare::component_of(mean, measure.component); // not the one above, of a vector
 }
 
-double reaction(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
+double reaction(const measures::Reaction& measure, const cases::Scene& scene,
+                const cases::Solution& solution) {
   const cases::Share here = cases::share_here(scene.mesh, solution.sharing.get());
   Vector3d sum = Vector3d::Zero();
   for (const int node : cases::select(scene.mesh, measure.region).nodes)
@@ -180,48 +196,90 @@ double volume(const cases::Solution& solution) {
   return solution.sharing ? solution.sharing->sum(here) : here;
 }
 
-/// Of the values that a measure has at single times, whatever number of their course the case asks for.
+/// Up to which size the values that a measure has at single times are zero, whatever number of their course
+/// the case asks for.
+struct ZeroOfValues {
+  const cases::Scene& scene;
+  const cases::Solution& solution;
+
+  double operator()(const measures::Coordinate&) const { return relative_zero * size(); }
+  double operator()(const measures::Displacement&) const { return length(); }
+  double operator()(const measures::DisplacementFieldL2&) const { return length(); }
+  double operator()(const measures::DisplacementFieldMax&) const { return length(); }
+  double operator()(const measures::Tilt&) const { return degrees_per_radian * length() / size(); }
+  double operator()(const measures::Twist&) const { return degrees_per_radian * length() / size(); }
+  double operator()(const measures::Reaction&) const {
+    return relative_zero * sum_of_reactions(scene, solution);
+  }
+  double operator()(const measures::Stress&) const {
+    return relative_zero * largest_norm(solution.fields->stress, solution);
+  }
+  double operator()(const measures::Strain&) const {
+    return relative_zero * largest_norm(solution.fields->strain, solution);
+  }
+  double operator()(const measures::Curvature&) const { return length() / (size() * size()); }
+  double operator()(const measures::Volume&) const { return 0; }       // none is zero
+  double operator()(const measures::StrainEnergy&) const { return 0; } // nor that of what is deformed
+
+  double length() const { return zero_of_displacements(scene, solution); }
+  double size() const { return cases::bounding_box(scene.mesh.nodes).sizes().norm(); }
+};
+
 double zero_of_values(const cases::Measure& measure, const cases::Scene& scene,
                       const cases::Solution& solution) {
-  const auto size = [&] {
-    Eigen::AlignedBox3d body;
-    for (const Vector3d& node : scene.mesh.nodes) body.extend(node);
-    return body.sizes().norm();
-  };
-  switch (measure.kind) {
-  case MeasureKind::coordinate:
-    return relative_zero * size();
-  case MeasureKind::displacement:
-  case MeasureKind::displacement_field_l2:
-  case MeasureKind::displacement_field_max:
-    return zero_of_displacements(scene, solution);
-  case MeasureKind::tilt:
-  case MeasureKind::twist:
-    return degrees_per_radian * zero_of_displacements(scene, solution) / size();
-  case MeasureKind::reaction:
-    return relative_zero * sum_of_reactions(scene, solution);
-  case MeasureKind::stress:
-    return relative_zero * largest_norm(solution.fields->stress, solution);
-  case MeasureKind::strain:
-    return relative_zero * largest_norm(solution.fields->strain, solution);
-  case MeasureKind::curvature:
-    return zero_of_displacements(scene, solution) / (size() * size());
-  case MeasureKind::volume:
-  case MeasureKind::strain_energy:
-    break; // a volume is not zero, nor is the energy of what is deformed
-  }
-  return 0;
+  return std::visit(ZeroOfValues{scene, solution}, measure.kind);
 }
+
+/// The value of each kind of measure.
+struct Evaluation {
+  const cases::Measure& measure;
+  const cases::Scene& scene;
+  const cases::Solution& solution;
+
+  double operator()(const measures::Coordinate&) const { return at_nodes(); }
+  double operator()(const measures::Displacement&) const { return at_nodes(); }
+  double operator()(const measures::Tilt&) const { return at_nodes(); }
+  double operator()(const measures::Twist&) const { return at_nodes(); }
+  double operator()(const measures::Volume&) const { return volume(solution); }
+  double operator()(const measures::DisplacementFieldL2&) const {
+    return solution.norms ? solution.norms->root_mean_square : norm();
+  }
+  double operator()(const measures::DisplacementFieldMax&) const {
+    return solution.norms ? solution.norms->largest : norm();
+  }
+  double operator()(const measures::Reaction& kind) const { return reaction(kind, scene, solution); }
+  double operator()(const measures::StrainEnergy&) const { return solution.fields->total_energy; }
+  double operator()(const measures::Stress& kind) const { return of_cells(kind, solution.fields->stress); }
+  double operator()(const measures::Strain& kind) const { return of_cells(kind, solution.fields->strain); }
+  double operator()(const measures::Curvature& kind) const {
+    return largest_curvature(kind, scene, solution);
+  }
+
+  double at_nodes() const {
+    const NodeMeasure of_nodes(measure, scene);
+    const double value = of_nodes.at([&](int node) -> Vector3d {
+      return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
+                              : solution.displacement[cases::index(node)];
+    });
+    const auto& dynamics = scene.definition.dynamics;
+    return of_nodes.with_turns(value, solution.displacement, solution.sharing.get(),
+                               dynamics ? std::optional(dynamics->end) : std::nullopt);
+  }
+  double norm() const {
+    return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
+  }
+  double of_cells(const measures::OfCells& kind, const std::vector<cases::SymmetricTensor>& tensors) const {
+    return kind.statistic ? of_region(kind, scene, solution, tensors)
+                          : at_point(kind, scene, solution, tensors);
+  }
+};
 
 } // namespace
 
-bool is_field_norm(MeasureKind kind) {
-  return kind == MeasureKind::displacement_field_l2 || kind == MeasureKind::displacement_field_max;
-}
-
-double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
+double field_norm(const measures::Kind& kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
                   const cases::Sharing* sharing) {
-  if (kind == MeasureKind::displacement_field_l2) return root_mean_square(mesh, field, sharing);
+  if (std::holds_alternative<measures::DisplacementFieldL2>(kind))
+    return root_mean_square(mesh, field, sharing);
   double largest = 0; // of none
   if (!field.empty()) {
     const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
@@ -232,56 +290,22 @@ double field_norm(MeasureKind kind, const cases::HexMesh& mesh, const std::vecto
 
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution) {
   if (!cases::is_of_fields(measure.kind)) return true;
-  return solution.fields && (solution.fields->has_stress || measure.kind != MeasureKind::stress);
+  return solution.fields && (solution.fields->has_stress || !cases::is<measures::Stress>(measure));
 }
 
 double evaluate(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution) {
   if (!can_evaluate(measure, solution))
     throw std::logic_error(measure.name + ": a solution without fields has no value of it");
-  switch (measure.kind) {
-  case MeasureKind::coordinate:
-  case MeasureKind::displacement:
-  case MeasureKind::tilt:
-  case MeasureKind::twist: {
-    const NodeMeasure of_nodes(measure, scene);
-    const double value = of_nodes.at([&](int node) -> Vector3d {
-      return solution.sharing ? solution.sharing->at(cases::index(node), solution.displacement)
-                              : solution.displacement[cases::index(node)];
-    });
-    const auto& dynamics = scene.definition.dynamics;
-    return of_nodes.with_turns(value, solution.displacement, solution.sharing.get(),
-                               dynamics ? std::optional(dynamics->end) : std::nullopt);
-  }
-  case MeasureKind::volume:
-    return volume(solution);
-  case MeasureKind::displacement_field_l2:
-  case MeasureKind::displacement_field_max:
-    if (const auto& own = solution.norms)
-      return measure.kind == MeasureKind::displacement_field_l2 ? own->root_mean_square : own->largest;
-    return field_norm(measure.kind, scene.mesh, solution.displacement, solution.sharing.get());
-  case MeasureKind::reaction:
-    return reaction(measure, scene, solution);
-  case MeasureKind::strain_energy:
-    return solution.fields->total_energy;
-  case MeasureKind::stress:
-  case MeasureKind::strain: {
-    const auto& of_cells =
-        measure.kind == MeasureKind::stress ? solution.fields->stress : solution.fields->strain;
-    return measure.statistic ? of_region(measure, scene, solution, of_cells)
-                             : at_point(measure, scene, solution, of_cells);
-  }
-  case MeasureKind::curvature:
-    return largest_curvature(measure, scene, solution);
-  }
-  return std::nan(""); // not reached: every kind is above
+  return std::visit(Evaluation{measure, scene, solution}, measure.kind);
 }
 
 TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
                      const cases::Solution& solution) {
   const cases::Trajectory& seen = *solution.trajectory;
   const double zero = zero_of_values(measure, scene, solution);
-  if (measure.kind == MeasureKind::volume) return {seen.time, seen.volume, zero};
-  if (is_field_norm(measure.kind)) return {{seen.time.back()}, {evaluate(measure, scene, solution)}, zero};
+  if (cases::is<measures::Volume>(measure)) return {seen.time, seen.volume, zero};
+  if (cases::is_field_norm(measure.kind))
+    return {{seen.time.back()}, {evaluate(measure, scene, solution)}, zero};
   const NodeMeasure of_nodes(measure, scene);
   TimeSeries series{seen.time, {}, zero};
   for (std::size_t step = 0; step < seen.time.size(); ++step)
@@ -289,7 +313,7 @@ TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
       const auto place = std::lower_bound(seen.nodes.begin(), seen.nodes.end(), node) - seen.nodes.begin();
       return seen.displacement[step * seen.nodes.size() + cases::index(place)];
     }));
-  if (measure.kind != MeasureKind::tilt && measure.kind != MeasureKind::twist) return series;
+  if (!of_nodes.is_angle()) return series;
   if (!seen.bodies.empty() && seen.bodies.front().step == 0)
     series.value.front() = of_nodes.with_turns(series.value.front(), seen.bodies.front().displacement,
                                                nullptr, seen.time.front());
@@ -306,8 +330,10 @@ std::optional<double> value_of(const cases::Measure& measure, const cases::Scene
 std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
                               const cases::Solution& solution) {
   if (!can_evaluate(measure, solution)) return "the solution is of displacements alone, without its fields";
-  if (measure.over_time && solution.trajectory)
-    return why_without_number(*measure.over_time, series_of(measure, scene, solution));
+  if (measure.over_time && solution.trajectory) {
+    const auto number = number_over_time(*measure.over_time, series_of(measure, scene, solution));
+    return std::holds_alternative<double>(number) ? "" : std::get<std::string>(number);
+  }
   const auto value = value_of(measure, scene, solution);
   return value && std::isfinite(*value) ? "" : "it is not a finite number";
 }
@@ -316,7 +342,7 @@ bool is_trajectory_norm(const cases::Measure& measure) {
   return measure.over_time == cases::OverTime::trajectory_l2;
 }
 
-std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh& mesh,
+std::optional<double> field_error_percent(const measures::Kind& kind, const cases::HexMesh& mesh,
                                           const std::vector<Vector3d>& reference,
                                           const std::vector<Vector3d>& other, double zero,
                                           const cases::Sharing* sharing) {
@@ -329,7 +355,7 @@ std::optional<double> field_error_percent(MeasureKind kind, const cases::HexMesh
 
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm) {
-  if (is_field_norm(measure.kind))
+  if (cases::is_field_norm(measure.kind))
     return field_error_percent(measure.kind, scene.mesh, fem.displacement, msm.displacement,
                                zero_of(measure, scene, fem), fem.sharing.get());
   if (is_trajectory_norm(measure) && fem.trajectory && msm.trajectory)
@@ -341,7 +367,7 @@ std::optional<double> measure_error_percent(const cases::Measure& measure, const
 
 double zero_of_displacements(const cases::Scene& scene, const cases::Solution& solution) {
   const auto largest_of = [&](const std::vector<Vector3d>& field, const cases::Sharing* sharing) {
-    return field_norm(MeasureKind::displacement_field_max, scene.mesh, field, sharing);
+    return field_norm(measures::DisplacementFieldMax{}, scene.mesh, field, sharing);
   };
   const auto& motion = solution.trajectory; // every rank has all of it, and its end is one of its bodies
   if (!motion) return relative_zero * largest_of(solution.displacement, solution.sharing.get());
@@ -353,37 +379,13 @@ double zero_of_displacements(const cases::Scene& scene, const cases::Solution& s
 
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem) {
   if (!can_evaluate(measure, fem)) return 0; // one that failed beside meshes that have a limit
-  if (measure.over_time && has_own_unit(*measure.over_time)) return 0;
+  if (measure.over_time && !unit_over_time(*measure.over_time, "").empty()) return 0; // has its own
   return zero_of_values(measure, scene, fem);
 }
 
 std::string unit_of(const cases::Measure& measure) {
-  const auto of_values = [&] {
-    switch (measure.kind) {
-    case MeasureKind::tilt:
-    case MeasureKind::twist:
-      return "deg";
-    case MeasureKind::volume:
-      return "mm3";
-    case MeasureKind::reaction:
-      return "N";
-    case MeasureKind::strain_energy:
-      return "N mm";
-    case MeasureKind::stress:
-      return "MPa";
-    case MeasureKind::strain:
-      return "1";
-    case MeasureKind::curvature:
-      return "1/mm";
-    case MeasureKind::coordinate:
-    case MeasureKind::displacement:
-    case MeasureKind::displacement_field_l2:
-    case MeasureKind::displacement_field_max:
-      break;
-    }
-    return "mm";
-  };
-  return measure.over_time ? unit_over_time(*measure.over_time, of_values()) : of_values();
+  const char* const unit = std::visit([](const auto& kind) { return kind.unit; }, measure.kind);
+  return measure.over_time ? unit_over_time(*measure.over_time, unit) : unit;
 }
 
 std::optional<double> error_percent(double fem, double msm, double zero) {

@@ -39,12 +39,12 @@ std::string why_without_value(const cases::Measure& measure, const cases::Scene&
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
 /// @param sharing  the ranks that share the field; null: all of it is here
-double field_norm(cases::MeasureKind kind, const cases::HexMesh& mesh,
+double field_norm(const cases::measures::Kind& kind, const cases::HexMesh& mesh,
                   const std::vector<Eigen::Vector3d>& field, const cases::Sharing* sharing = nullptr);
 
 /// Error of a displacement in a field's norm, percent of the reference's; never negative.
 /// @param zero  up to which size the reference's norm is zero
-std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::HexMesh& mesh,
+std::optional<double> field_error_percent(const cases::measures::Kind& kind, const cases::HexMesh& mesh,
                                           const std::vector<Eigen::Vector3d>& reference,
                                           const std::vector<Eigen::Vector3d>& other, double zero,
                                           const cases::Sharing* sharing = nullptr);
@@ -54,8 +54,7 @@ std::optional<double> field_error_percent(cases::MeasureKind kind, const cases::
 std::optional<double> measure_error_percent(const cases::Measure& measure, const cases::Scene& scene,
                                             const cases::Solution& fem, const cases::Solution& msm);
 
-/// Whether a measure's error is that of a difference of fields.
-bool is_field_norm(cases::MeasureKind kind);
+using cases::is_field_norm;
 
 /// Whether a measure's error is that of a difference of its courses over time.
 bool is_trajectory_norm(const cases::Measure& measure);

@@ -20,8 +20,8 @@ namespace {
 /// Whether a cell has a face in the measure's region; all of them where it has none.
 class CellsOfRegion {
  public:
-  CellsOfRegion(const cases::Measure& measure, const cases::HexMesh& mesh)
-      : mesh_(mesh), is_whole_(!measure.region.near && measure.region.name.empty()) {
+  CellsOfRegion(const cases::measures::OfCells& measure, const cases::HexMesh& mesh)
+      : mesh_(mesh), is_whole_(!measure.has_region()) {
     if (is_whole_) return;
     for (const auto& face : cases::select(mesh, measure.region).faces) faces_.insert(cases::sorted(face));
   }
@@ -46,8 +46,8 @@ double curvature(const Vector3d& before, const Vector3d& here, const Vector3d& a
 
 } // namespace
 
-double of_region(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& solution,
-                 const std::vector<cases::SymmetricTensor>& of_cells) {
+double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
+                 const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells) {
   const CellsOfRegion region(measure, scene.mesh);
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Range here = cases::share_here(scene.mesh, sharing).cells;
@@ -56,7 +56,7 @@ double of_region(const cases::Measure& measure, const cases::Scene& scene, const
   double largest = -std::numeric_limits<double>::infinity(), sum = 0, weight = 0;
   for (std::size_t c = here.begin; c < here.end; ++c) {
     if (!region.has(c)) continue;
-    values.push_back(component_of(of_cells[c - here.begin], measure.tensor_component));
+    values.push_back(component_of(of_cells[c - here.begin], measure.component));
     weights.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
     largest = mechanics::larger(largest, values.back());
     sum += weights.back() * values.back();
@@ -71,7 +71,7 @@ double of_region(const cases::Measure& measure, const cases::Scene& scene, const
   return std::sqrt(all(squared) / weight);
 }
 
-double largest_curvature(const cases::Measure& measure, const cases::Scene& scene,
+double largest_curvature(const cases::measures::Curvature& measure, const cases::Scene& scene,
                          const cases::Solution& solution) {
   const auto axis = static_cast<int>(measure.axis);
   const std::vector<int> nodes = cases::select(scene.mesh, measure.region).nodes;

@@ -121,44 +121,18 @@ std::optional<Swings> swings_of(const TimeSeries& series) {
       (series.time.back() - series.time.front()) / static_cast<double>(series.time.size() - 1);
   if (half_period < 2 * step) return std::nullopt;
   const double decrement = -line_through(ways).slope; // of half a swing: pi zeta / sqrt(1 - zeta²)
-  const double ratio = decrement / std::acos(-1.0);
+  const double ratio = decrement / M_PI;
   const double left = std::exp(-decrement); // of a swing's size half a period later, on the other side
   const double last = all.back().value, before = all[all.size() - 2].value;
   return Swings{0.5 / half_period, ratio / std::hypot(1, ratio), (last + left * before) / (1 + left)};
 }
 
-std::string why_without_number(cases::OverTime what, const TimeSeries& series) {
-  using cases::OverTime;
-  if (what == OverTime::end ? !std::isfinite(series.value.back()) : !are_finite(series.value))
-    return "a value of its course is not a finite number";
-  switch (what) {
-  case OverTime::peak_time:
-    return std::abs(peak_of(series).value - series.value.front()) > rounding_of(series) ? ""
-                                                                                        : "it does not move";
-  case OverTime::overshoot: {
-    const double way = settled_value(series) - series.value.front();
-    return std::abs(way) > rounding_of(series) ? "" : "it settles where it began";
-  }
-  case OverTime::frequency:
-  case OverTime::damping_ratio:
-    if (swings_of(series)) return "";
-    return extremes(series).size() < 3
-               ? "it does not swing: its course has fewer than three turning points of more than 5 % of its "
-                 "range"
-               : "its swings take fewer than four steps each: noise, or too long a step";
-  case OverTime::end:
-  case OverTime::settled:
-  case OverTime::peak:
-  case OverTime::trajectory_l2:
-    break;
-  }
-  return "";
-}
-
-std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& series) {
+std::variant<double, std::string> number_over_time(cases::OverTime what, const TimeSeries& series) {
   using cases::OverTime;
   assert(!series.value.empty() && series.value.size() == series.time.size());
-  if (!why_without_number(what, series).empty()) return std::nullopt;
+  if (what == OverTime::end ? !std::isfinite(series.value.back()) : !are_finite(series.value))
+    return "a value of its course is not a finite number";
+  const auto is_way = [&](double to) { return std::abs(to - series.value.front()) > rounding_of(series); };
   switch (what) {
   case OverTime::end:
     break;
@@ -167,19 +141,31 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
   case OverTime::peak:
     return peak_of(series).value;
   case OverTime::peak_time:
+    if (!is_way(peak_of(series).value)) return "it does not move";
     return peak_of(series).time;
   case OverTime::overshoot: {
     const double settled = settled_value(series);
+    if (!is_way(settled)) return "it settles where it began";
     return 100 * (peak_of(series).value - settled) / (settled - series.value.front());
   }
   case OverTime::frequency:
-    return swings_of(series)->frequency;
   case OverTime::damping_ratio:
-    return swings_of(series)->damping_ratio;
+    if (const auto swings = swings_of(series))
+      return what == OverTime::frequency ? swings->frequency : swings->damping_ratio;
+    return extremes(series).size() < 3
+               ? "it does not swing: its course has fewer than three turning points of more than 5 % of its "
+                 "range"
+               : "its swings take fewer than four steps each: noise, or too long a step";
   case OverTime::trajectory_l2:
     return root_mean_square(series.time, series.value);
   }
   return series.value.back();
+}
+
+std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& series) {
+  const auto number = number_over_time(what, series);
+  const double* value = std::get_if<double>(&number);
+  return value ? std::optional(*value) : std::nullopt;
 }
 
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other) {
@@ -212,8 +198,25 @@ std::string unit_over_time(cases::OverTime what, const std::string& unit) {
   return unit;
 }
 
-bool has_own_unit(cases::OverTime what) {
-  return unit_over_time(what, "") != "";
+std::optional<NumericalDamping> numerical_damping(const cases::Measure& measure, const cases::Scene& scene,
+                                                  const cases::Solution& solution) {
+  const auto& dynamics = scene.definition.dynamics;
+  const bool is_damped = dynamics && dynamics->scheme.scheme == cases::Scheme::implicit_euler;
+  if (!is_damped || !solution.trajectory || !measure.over_time) return std::nullopt;
+  const auto swings = swings_of(series_of(measure, scene, solution));
+  if (!swings) return std::nullopt;
+  const double omega = 2 * M_PI * swings->frequency;
+  return NumericalDamping{swings->frequency,
+                          mechanics::swings_in_steps(dynamics->scheme, omega * dynamics->step).damping_ratio,
+                          swings->damping_ratio};
+}
+
+std::optional<SlowestInSteps> slowest_in_steps(const cases::Scene& scene, const cases::Solution& solution) {
+  if (!solution.trajectory || !solution.trajectory->slowest) return std::nullopt;
+  const cases::Vibration& slowest = *solution.trajectory->slowest;
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  return SlowestInSteps{slowest, dynamics.step,
+                        mechanics::swings_in_steps(dynamics.scheme, slowest.omega * dynamics.step)};
 }
 
 } // namespace springproof::compare

@@ -1,7 +1,5 @@
 #include "compare/modes/eigenspaces.hpp"
 
-#include "compare/solve/solvers.hpp"
-
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -11,8 +9,7 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double same_eigenvalue = 1e-6; // of the largest: multiplicities as printed, far above round-off
-constexpr double same_subspace = 1e-6;   // on the cosine of the largest angle
+constexpr double same_subspace = 1e-6; // on the cosine of the largest angle
 
 /// @param product  of one's transposed basis and the other's: the cosines of their angles are its singular
 /// values
@@ -20,9 +17,6 @@ bool are_the_same(const Eigen::MatrixXd& product) {
   return product.rows() == product.cols() &&
          Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff() > 1 - same_subspace;
 }
-
-constexpr int n_rigid_modes = 6;
-constexpr int n_beyond = 8; // computed beyond the wanted ones, so that the last eigenspace wanted is whole
 
 /// Deforming eigenspaces that end within the wanted modes.
 std::vector<Eigenspace> whole_spaces(const Spectrum& spectrum, int last) {
@@ -50,29 +44,20 @@ ModePair match(const Eigenspace& fem, const FreeBodyModes& modes, const std::vec
 
 } // namespace
 
-Spectrum full_spectrum(const Eigen::MatrixXd& matrix) {
-  return solvers().full_spectrum(matrix);
-}
-
-Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs) {
-  return solvers().lowest_spectrum(std::move(matrix), n_pairs);
-}
-
-Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
-                           int n_pairs) {
-  return solvers().lowest_vibrations(std::move(stiffness), std::move(mass), n_pairs);
-}
-
-std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending) {
-  const double gap = same_eigenvalue * ascending.cwiseAbs().maxCoeff();
+std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending, double gap, double relative_gap) {
   std::vector<Eigenspace> spaces;
   int first = 0;
   for (int i = 1; i <= ascending.size(); ++i) {
-    if (i < ascending.size() && ascending(i) - ascending(i - 1) <= gap) continue;
+    if (i < ascending.size() && ascending(i) - ascending(i - 1) <= gap + relative_gap * ascending(i))
+      continue;
     spaces.push_back({ascending.segment(first, i - first).mean(), first, i - first});
     first = i;
   }
   return spaces;
+}
+
+std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending) {
+  return cluster(ascending, 1e-6 * ascending.cwiseAbs().maxCoeff(), 0);
 }
 
 Eigen::MatrixXd basis(const Spectrum& spectrum, const Eigenspace& space) {
@@ -136,7 +121,7 @@ FreeBodyModes free_body_modes(const Eigen::SparseMatrix<double>& fem, const Eige
   const int size = static_cast<int>(fem.rows());
   const int last = std::min(size, n_rigid_modes + n_modes);
   const int n_pairs = std::min(size, last + n_beyond);
-  FreeBodyModes modes{lowest_spectrum(fem, n_pairs), lowest_spectrum(msm, n_pairs), {}};
+  FreeBodyModes modes{solvers().lowest_spectrum(fem, n_pairs), solvers().lowest_spectrum(msm, n_pairs), {}};
   const std::vector<Eigenspace> candidates = whole_spaces(modes.msm, n_pairs);
   for (const Eigenspace& space : whole_spaces(modes.fem, last))
     modes.pairs.push_back(match(space, modes, candidates));

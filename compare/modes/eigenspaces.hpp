@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "mechanics/petsc/spectrum.hpp"
+#include "compare/solve/solvers.hpp"
 #include "msm/design/linear_method.hpp"
 
 #include <Eigen/SparseCore>
@@ -14,24 +14,22 @@ namespace springproof::compare {
 
 using mechanics::petsc::Spectrum;
 
-/// All eigenpairs of a small dense matrix, and the lowest of a sparse one: mechanics/petsc/spectrum.hpp.
-Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
-Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
-
-/// The lowest vibrations of a body, K x = omega² M x: values omega² (1/s², of N/mm and t), vectors of x . M x
-/// = 1. As lowest_spectrum() otherwise; a free body's rigid modes are those of 0.
-/// @param mass  positive definite, of the stiffness's size
-Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
-                           int n_pairs);
-
 struct Eigenspace {
-  double eigenvalue; ///< mean of the cluster, N/mm
+  double eigenvalue; ///< mean of the cluster, N/mm; of vibrations Hz
   int offset;        ///< first of its columns in the ascending spectrum
   int dimension;
 };
 
-/// Neighbouring eigenvalues less than 1e-6 of the largest apart belong to one eigenspace.
+/// Neighbouring values v less than gap + relative_gap v apart belong to one eigenspace.
+std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending, double gap, double relative_gap);
+
+/// The same of eigenvalues less than 1e-6 of the largest apart: multiplicities as printed, far above
+/// round-off.
 std::vector<Eigenspace> cluster(const Eigen::VectorXd& ascending);
+
+constexpr int n_rigid_modes = 6;
+/// How many modes are computed beyond the wanted ones, so that the last space is whole and can be matched.
+constexpr int n_beyond = 8;
 
 /// An FEM and an MSM eigenspace of the same dimension that span the same subspace.
 struct Equivalence {

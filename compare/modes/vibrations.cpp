@@ -2,14 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/masses.hpp"
-#include "compare/modes/eigenspaces.hpp"
-#include "compare/provenance/paragraph.hpp"
-#include "compare/provenance/print.hpp"
-#include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
-#include "compare/write/write_fields.hpp"
 #include "msm/vibrating_lattice.hpp"
 
 #include <Eigen/QR>
@@ -17,24 +10,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace springproof::compare {
 
 namespace {
 
-constexpr int n_rigid_motions = 6;
-constexpr int n_more =
-    8; // computed beyond the wanted ones, so that the last space is whole and can be matched
 /// Of omega² over the mean diagonal of K over that of M: rounding leaves 1e-16 of what should be 0, and a
 /// beam of a thousand thick cells has 1e-9.
 constexpr double no_stiffness = 1e-12;
-constexpr double same_frequency = 1e-3;
 constexpr double least_overlap = 0.5; ///< of modes that are called one; those of a body are near 1
 
 double hertz_of(double omega_squared) {
-  return std::sqrt(omega_squared) / (2 * std::acos(-1.0));
+  return std::sqrt(omega_squared) / (2 * M_PI);
 }
 
 /// Orthonormal columns that span the same space.
@@ -58,21 +46,17 @@ Eigen::MatrixXd weighted(const Vibrations& vibrations, const std::vector<int>& m
   return orthonormal(masses.cwiseSqrt().asDiagonal() * vibrations.shapes(Eigen::all, modes));
 }
 
-std::vector<int> modes_of(const ModeSpace& space) {
+std::vector<int> modes_of(const Eigenspace& space) {
   std::vector<int> modes(cases::index(space.dimension));
-  std::iota(modes.begin(), modes.end(), space.first);
+  std::iota(modes.begin(), modes.end(), space.offset);
   return modes;
-}
-
-double mean(const Eigen::VectorXd& hertz, const std::vector<int>& modes) {
-  return hertz(modes).mean();
 }
 
 /// The springs' spaces of the largest parts in the finite elements' one, until there are as many modes.
 std::vector<int> best_modes(const Eigen::MatrixXd& fem, const Vibrations& msm,
                             const Eigen::VectorXd& masses) {
-  std::vector<std::pair<double, ModeSpace>> candidates;
-  for (const ModeSpace& space : spaces_of(msm.hertz)) {
+  std::vector<std::pair<double, Eigenspace>> candidates;
+  for (const Eigenspace& space : cluster(msm.hertz, 0, same_frequency)) {
     const double part = (fem.transpose() * weighted(msm, modes_of(space), masses)).squaredNorm();
     candidates.emplace_back(part / space.dimension, space);
   }
@@ -93,7 +77,7 @@ DesignVibrations of_design(const cases::Scene& scene, const Vibrations& fem, con
   DesignVibrations found{cases::name_of(scene.definition.msm.design), {}, {}, {}};
   try {
     const msm::Lattice lattice = msm::make_lattice(scene.mesh, design_for(scene).springs);
-    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, 2 * n_modes + n_more);
+    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, 2 * n_modes + n_beyond);
     found.modes = match_modes(fem, found.msm, masses, n_modes);
   } catch (const cases::InputError& error) {
     found.refusal = error.what();
@@ -104,18 +88,6 @@ DesignVibrations of_design(const cases::Scene& scene, const Vibrations& fem, con
 }
 
 } // namespace
-
-std::vector<ModeSpace> spaces_of(const Eigen::VectorXd& hertz) {
-  std::vector<ModeSpace> spaces;
-  for (int mode = 0; mode < hertz.size(); ++mode) {
-    const bool is_same = mode > 0 && hertz[mode] - hertz[mode - 1] <= same_frequency * hertz[mode];
-    if (is_same)
-      ++spaces.back().dimension;
-    else
-      spaces.push_back({mode, 1});
-  }
-  return spaces;
-}
 
 Eigen::VectorXd mode_masses(const cases::Scene& scene) {
   const std::vector<double> of_points = cases::point_masses(scene, cases::PointMass::cells);
@@ -131,7 +103,7 @@ Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::Vect
     throw cases::InputError(
         "vibrations: every node is held in all components, and nothing vibrates; hold fewer");
   const Spectrum spectrum =
-      lowest_vibrations(body.stiffness, body.mass, std::min(size, n_modes + n_rigid_motions));
+      solvers().lowest_vibrations(body.stiffness, body.mass, std::min(size, n_modes + n_rigid_modes));
   const double zero =
       no_stiffness * body.stiffness.diagonal().cwiseAbs().mean() / body.mass.diagonal().mean();
   if (spectrum.values.minCoeff() < -zero)
@@ -149,15 +121,15 @@ Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::Vect
 std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& msm,
                                       const Eigen::VectorXd& masses, int n_modes) {
   std::vector<MatchedModes> matched;
-  for (const ModeSpace& space : spaces_of(fem.hertz)) {
-    if (space.first + space.dimension > n_modes) break;
+  for (const Eigenspace& space : cluster(fem.hertz, 0, same_frequency)) {
+    if (space.offset + space.dimension > n_modes) break;
     const std::vector<int> of_fem = modes_of(space);
     const Eigen::MatrixXd basis = weighted(fem, of_fem, masses);
     const std::vector<int> of_msm = best_modes(basis, msm, masses);
     if (of_msm.size() < of_fem.size()) break; // the springs have no more modes
     const Eigen::MatrixXd product = basis.transpose() * weighted(msm, of_msm, masses);
     const double cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
-    const double fem_hz = mean(fem.hertz, of_fem), msm_hz = mean(msm.hertz, of_msm);
+    const double fem_hz = fem.hertz(of_fem).mean(), msm_hz = msm.hertz(of_msm).mean();
     matched.push_back(
         {fem_hz, space.dimension, {}, std::min(1., cosine), {}, of_fem.front(), of_msm.front()});
     if (cosine < least_overlap) continue;
@@ -176,77 +148,12 @@ VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cas
   const Eigen::VectorXd masses = mode_masses(scene);
   // One space of the finite elements more than is matched shows whether the last one is whole.
   VibrationStudy study{scene.definition.name,
-                       vibrations_of(solvers().vibrating_elements(scene), masses, n_modes + n_more),
+                       vibrations_of(solvers().vibrating_elements(scene), masses, n_modes + n_beyond),
                        {}};
   if (designs.empty()) study.designs.push_back(of_design(scene, study.fem, masses, n_modes));
   for (const cases::Design design : designs)
     study.designs.push_back(of_design(with_design(scene, design), study.fem, masses, n_modes));
   return study;
-}
-
-void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
-  print(out, "{}: vibrations about rest", study.name);
-  if (study.fem.n_rigid > 0) print(out, ", {} rigid motions left out", study.fem.n_rigid);
-  print(out, "\n");
-  for (const DesignVibrations& design : study.designs) {
-    if (!design.refusal.empty()) {
-      write_paragraph(out, design.design + ": " + design.refusal, "  ", "    ");
-      continue;
-    }
-    print(out, "  {}\n  {:>12}{:>6}{:>12}{:>10}{:>10}\n", design.design, "fem Hz", "dim", "msm Hz", "error %",
-          "overlap");
-    for (const MatchedModes& mode : design.modes)
-      print(out, "  {:>12.6g}{:>6}{:>12}{:>10}{:>10.4f}\n", mode.fem_hz, mode.dimension,
-            mode.msm_hz ? fmt::format("{:.6g}", *mode.msm_hz) : "none",
-            mode.error_percent ? fmt::format("{:+.2f}", *mode.error_percent) : "", mode.overlap);
-  }
-}
-
-nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study) {
-  using Json = nlohmann::ordered_json;
-  Json designs = Json::array();
-  for (const DesignVibrations& design : study.designs) {
-    Json modes = Json::array();
-    for (const MatchedModes& mode : design.modes)
-      modes.push_back({{"fem_hz", mode.fem_hz},
-                       {"multiplicity", mode.dimension},
-                       {"msm_hz", mode.msm_hz},
-                       {"overlap", mode.overlap},
-                       {"error_percent", mode.error_percent}});
-    designs.push_back({{"design", design.design}, {"refusal", design.refusal}, {"modes", modes}});
-  }
-  const Json first = designs.front()["modes"];
-  return {{"case", study.name},
-          {"rigid_motions", study.fem.n_rigid},
-          {"fem_hz", std::vector<double>(study.fem.hertz.begin(), study.fem.hertz.end())},
-          {"designs", designs},
-          {"modes", first}};
-}
-
-void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::HexMesh& mesh) {
-  std::vector<cases::PointField> fields;
-  const auto add = [&](const std::string& name, const Eigen::VectorXd& shape) {
-    std::vector<Eigen::Vector3d> points;
-    const double size = shape.cwiseAbs().maxCoeff();
-    for (Eigen::Index n = 0; n < shape.size() / 3; ++n) points.emplace_back(shape.segment<3>(3 * n) / size);
-    fields.push_back({name, points});
-  };
-  write_csv_file(folder + "/" + study.name + "_modes.csv", [&](CsvWriter& csv) {
-    csv.row("design", "mode", "fem_hz", "multiplicity", "msm_hz", "overlap", "error_percent");
-    for (const DesignVibrations& design : study.designs)
-      for (const MatchedModes& mode : design.modes) {
-        csv.row(design.design, mode.fem_mode + 1, mode.fem_hz, mode.dimension, mode.msm_hz, mode.overlap,
-                mode.error_percent);
-        if (&design == &study.designs.front())
-          add(fmt::format("fem_mode_{}", mode.fem_mode + 1), study.fem.shapes.col(mode.fem_mode));
-        if (!mode.msm_hz) continue;
-        add(fmt::format("{}_mode_{}", design.design, mode.fem_mode + 1),
-            design.msm.shapes.col(mode.msm_mode));
-      }
-  });
-  write_file(folder + "/" + study.name + "_modes.vtu",
-             [&](std::ostream& out) { write_vtu(out, mesh, fields); });
 }
 
 } // namespace springproof::compare

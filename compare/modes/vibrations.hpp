@@ -1,12 +1,11 @@
 #pragma once
 
 #include "cases/scene/scene.hpp"
+#include "compare/modes/eigenspaces.hpp"
 #include "mechanics/vibrating_body.hpp"
 
 #include <Eigen/Core>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,12 +20,9 @@ struct Vibrations {
   int n_rigid = 0; ///< motions without stiffness, which are left out
 };
 
-/// Modes of neighbouring frequencies less than 1e-3 of the frequency apart, which count as one space: which
-/// of its vectors are modes, rounding or the mesh decides.
-struct ModeSpace {
-  int first, dimension;
-};
-std::vector<ModeSpace> spaces_of(const Eigen::VectorXd& hertz);
+/// Modes of neighbouring frequencies less than this part of the frequency apart count as one space
+/// (cluster()): rounding or the mesh decides which of its vectors are modes.
+constexpr double same_frequency = 1e-3;
 
 /// The modes of a space of the finite elements, and the springs' that overlap it most.
 struct MatchedModes {
@@ -72,16 +68,5 @@ std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& m
 /// @throws InputError; SolveError of the finite elements
 VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,
                                 int n_modes);
-
-void write_vibrations_text(std::ostream& out, const VibrationStudy& study);
-
-/// {"case", "fem_hz", "designs": [{"design", "refusal", "modes": [...]}], "modes": those of the first
-/// design}; a mode is {"fem_hz", "multiplicity", "msm_hz", "overlap", "error_percent"}.
-nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study);
-
-/// FOLDER/NAME_modes.csv, and FOLDER/NAME_modes.vtu with the shapes that were matched.
-/// @throws InputError if a file cannot be written
-void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::HexMesh& mesh);
 
 } // namespace springproof::compare

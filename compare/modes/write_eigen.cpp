@@ -1,18 +1,15 @@
 #include "compare/modes/write_eigen.hpp"
 
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/ostream.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -41,11 +38,31 @@ void write_coupling(std::ostream& out, const Eigen::MatrixXd& coupling) {
   }
 }
 
-Json spaces_to_json(const std::vector<Eigenspace>& spaces) {
-  Json list = Json::array();
-  for (const Eigenspace& space : spaces)
-    list.push_back({{"eigenvalue", space.eigenvalue}, {"multiplicity", space.dimension}});
-  return list;
+Json space_to_json(const Eigenspace& space) {
+  return {{"eigenvalue", space.eigenvalue}, {"multiplicity", space.dimension}};
+}
+
+Json pair_to_json(const ModePair& pair) {
+  return {{"fem_eigenvalue", pair.fem.eigenvalue},
+          {"fem_multiplicity", pair.fem.dimension},
+          {"msm_eigenvalue", pair.msm.eigenvalue},
+          {"msm_multiplicity", pair.msm.dimension},
+          {"ratio", pair.ratio},
+          {"angle_degrees", pair.angle_degrees}};
+}
+
+Json mode_to_json(const MatchedModes& mode) {
+  return {{"fem_hz", mode.fem_hz},
+          {"multiplicity", mode.dimension},
+          {"msm_hz", mode.msm_hz},
+          {"overlap", mode.overlap},
+          {"error_percent", mode.error_percent}};
+}
+
+/// Writes shapes of modes on a mesh as arrows.
+void write_shapes(const std::string& path, const cases::HexMesh& mesh,
+                  const std::vector<cases::PointField>& shapes) {
+  write_file(path, [&](std::ostream& out) { write_vtu(out, mesh, shapes); });
 }
 
 /// A panel's blocks: a dot for every pair of eigenvectors whose spaces are not orthogonal, lines between the
@@ -128,8 +145,7 @@ void write_mode_sheet(const std::string& folder, const std::string& name, const 
   }
   const double height = 300 * static_cast<double>((titles.size() + 2) / 3);
   draw(folder, name, "mode_sheet", {{"titles", titles}, {"width", 900.}, {"height", height}});
-  write_file(folder + "/" + name + ".vtu",
-             [&](std::ostream& out) { write_vtu(out, cell_mesh(rest), fields); });
+  write_shapes(folder + "/" + name + ".vtu", cell_mesh(rest), fields);
 }
 
 } // namespace
@@ -161,22 +177,14 @@ Json eigenspaces_to_json(const EigenspaceAnalysis& analysis) {
   for (const auto row : analysis.coupling.rowwise())
     coupling.push_back(std::vector<double>(row.begin(), row.end()));
   return {{"h", analysis.h},
-          {"fem", spaces_to_json(analysis.fem_spaces)},
-          {"msm", spaces_to_json(analysis.msm_spaces)},
+          {"fem", json_list(analysis.fem_spaces, space_to_json)},
+          {"msm", json_list(analysis.msm_spaces, space_to_json)},
           {"equivalent", equivalent},
           {"coupling", coupling}};
 }
 
 Json free_modes_to_json(const FreeBodyModes& modes) {
-  Json list = Json::array();
-  for (const ModePair& pair : modes.pairs)
-    list.push_back({{"fem_eigenvalue", pair.fem.eigenvalue},
-                    {"fem_multiplicity", pair.fem.dimension},
-                    {"msm_eigenvalue", pair.msm.eigenvalue},
-                    {"msm_multiplicity", pair.msm.dimension},
-                    {"ratio", pair.ratio},
-                    {"angle_degrees", pair.angle_degrees}});
-  return list;
+  return json_list(modes.pairs, pair_to_json);
 }
 
 void plot_dot_diagrams(const std::string& folder, const std::string& name,
@@ -205,19 +213,72 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
                             const cases::HexMesh& mesh) {
   std::vector<cases::PointField> fields;
-  write_csv_file(folder + "/body_modes.csv", [&](CsvWriter& csv) {
-    csv.row("# mode", "fem_eigenvalue", "msm_eigenvalue", "ratio", "angle_degrees");
-    for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
-      const ModePair& pair = modes.pairs[m];
-      csv.row(m + 1, pair.fem.eigenvalue, pair.msm.eigenvalue, pair.ratio, pair.angle_degrees);
-      for (const auto& [model, spectrum, space] :
-           {std::tuple("fem", &modes.fem, &pair.fem), std::tuple("msm", &modes.msm, &pair.msm)})
-        fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
-                          as_points(canonical_basis(basis(*spectrum, *space)).col(0))});
-    }
-  });
-  write_file(folder + "/body_modes.vtu", [&](std::ostream& out) { write_vtu(out, mesh, fields); });
+  Json rows = free_modes_to_json(modes);
+  for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
+    rows[m]["# mode"] = m + 1;
+    for (const auto& [model, spectrum, space] : {std::tuple("fem", &modes.fem, &modes.pairs[m].fem),
+                                                 std::tuple("msm", &modes.msm, &modes.pairs[m].msm)})
+      fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
+                        as_points(canonical_basis(basis(*spectrum, *space)).col(0))});
+  }
+  const Columns columns{{"# mode"}, {"fem_eigenvalue"}, {"msm_eigenvalue"}, {"ratio"}, {"angle_degrees"}};
+  write_file(folder + "/body_modes.csv", [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+  write_shapes(folder + "/body_modes.vtu", mesh, fields);
   draw(folder, "body_modes", "body_modes");
+}
+
+void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
+  print(out, "{}: vibrations about rest", study.name);
+  if (study.fem.n_rigid > 0) print(out, ", {} rigid motions left out", study.fem.n_rigid);
+  print(out, "\n");
+  for (const DesignVibrations& design : study.designs) {
+    if (!design.refusal.empty()) {
+      write_paragraph(out, design.design + ": " + design.refusal, "  ", "    ");
+      continue;
+    }
+    print(out, "  {}\n  {:>12}{:>6}{:>12}{:>10}{:>10}\n", design.design, "fem Hz", "dim", "msm Hz", "error %",
+          "overlap");
+    for (const MatchedModes& mode : design.modes)
+      print(out, "  {:>12.6g}{:>6}{:>12}{:>10}{:>10.4f}\n", mode.fem_hz, mode.dimension,
+            mode.msm_hz ? fmt::format("{:.6g}", *mode.msm_hz) : "none",
+            mode.error_percent ? fmt::format("{:+.2f}", *mode.error_percent) : "", mode.overlap);
+  }
+}
+
+Json vibrations_to_json(const VibrationStudy& study) {
+  const Json designs = json_list(study.designs, [](const DesignVibrations& design) -> Json {
+    return {{"design", design.design},
+            {"refusal", design.refusal},
+            {"modes", json_list(design.modes, mode_to_json)}};
+  });
+  return {{"case", study.name},
+          {"rigid_motions", study.fem.n_rigid},
+          {"fem_hz", std::vector<double>(study.fem.hertz.begin(), study.fem.hertz.end())},
+          {"designs", designs},
+          {"modes", designs.front()["modes"]}};
+}
+
+void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
+                            const cases::HexMesh& mesh) {
+  std::vector<cases::PointField> fields;
+  const auto add = [&](const std::string& model, const MatchedModes& mode, const Eigen::VectorXd& shape) {
+    fields.push_back({fmt::format("{}_mode_{}", model, mode.fem_mode + 1),
+                      as_points(shape / shape.cwiseAbs().maxCoeff())});
+  };
+  Json rows = Json::array();
+  for (const DesignVibrations& design : study.designs)
+    for (const MatchedModes& mode : design.modes) {
+      rows.push_back(mode_to_json(mode));
+      rows.back()["design"] = design.design;
+      rows.back()["mode"] = mode.fem_mode + 1;
+      if (&design == &study.designs.front()) add("fem", mode, study.fem.shapes.col(mode.fem_mode));
+      if (mode.msm_hz) add(design.design, mode, design.msm.shapes.col(mode.msm_mode));
+    }
+  const std::string path = folder + "/" + study.name + "_modes";
+  const Columns columns{{"design"}, {"mode"},    {"fem_hz"},       {"multiplicity"},
+                        {"msm_hz"}, {"overlap"}, {"error_percent"}};
+  write_file(path + ".csv", [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+  write_shapes(path + ".vtu", mesh, fields);
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/modes/eigenspaces.hpp"
+#include "compare/modes/vibrations.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
@@ -33,6 +33,17 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 
 /// Into a folder: the body's modes side by side, body_modes.csv and body_modes.vtu, and their plot.
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
+                            const cases::HexMesh& mesh);
+
+void write_vibrations_text(std::ostream& out, const VibrationStudy& study);
+
+/// {"case", "fem_hz", "designs": [{"design", "refusal", "modes": [...]}], "modes": those of the first
+/// design}; a mode is {"fem_hz", "multiplicity", "msm_hz", "overlap", "error_percent"}.
+nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study);
+
+/// FOLDER/NAME_modes.csv, and FOLDER/NAME_modes.vtu with the shapes that were matched.
+/// @throws InputError if a file cannot be written
+void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
                             const cases::HexMesh& mesh);
 
 } // namespace springproof::compare

@@ -6,6 +6,7 @@
 #include "cases/scene/masses.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
 #include "msm/lattice.hpp"
 #include "msm/problem.hpp"
@@ -71,8 +72,7 @@ void write_forces(std::ostream& out, const cases::Scene& scene) {
       if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
 }
 
-/// A number as Fortran prints it. An exponent of three digits pushes out the E ("1.234567-101"): that is no
-/// displacement but a zero.
+/// A number as Fortran prints it. One whose exponent of three digits pushes out the E ("1.234567-101") is 0.
 double fortran_number(const std::string& field) {
   return field.find('E') == std::string::npos ? 0 : std::strtod(field.c_str(), nullptr);
 }
@@ -105,19 +105,24 @@ std::string last_error(std::istream& in) {
   return error.empty() ? "it gave no reason" : error;
 }
 
-/// Runs CalculiX.
-/// @return what it leaves in its .dat file; nothing when there is no `ccx`   @throws SolveError when it stops
+/// What CalculiX leaves of a run.
+struct CalculixRun {
+  std::ifstream data, progress; ///< its files .dat and .sta
+  std::string error;            ///< the last that it printed
+};
+
+/// Runs CalculiX.  @return nothing when there is no `ccx`   @throws SolveError when it stops
 template<class WriteInput>
-std::optional<std::ifstream> data_of_calculix(const ScratchFolder& scratch, const WriteInput& write_input) {
+std::optional<CalculixRun> run_calculix(const ScratchFolder& scratch, const WriteInput& write_input) {
   write_file(scratch.path() / "case.inp", write_input);
   const auto end = call_program(
       {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
   if (!end) return std::nullopt;
   std::istringstream log(end->said);
-  std::ifstream data(scratch.path() / "case.dat");
-  const std::string error = last_error(log);
-  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
-  return data;
+  CalculixRun run{std::ifstream(scratch.path() / "case.dat"), std::ifstream(scratch.path() / "case.sta"),
+                  last_error(log)};
+  if (end->status != 0 || !run.data) throw cases::SolveError("CalculiX stopped: " + run.error);
+  return run;
 }
 
 /// Volumes of the body's cells, each the sum of its descendants, which refinement numbers one after another.
@@ -141,13 +146,58 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   return largest(u - v) / largest(u);
 }
 
+/// An amplitude for every load: before and after its points it is what it is at them.
+void write_motion_input(std::ostream& out, const cases::Scene& scene) {
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  write_model(out, scene);
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    const cases::History& history = scene.loads[l].load.history;
+    fmt::print(out, "*AMPLITUDE, NAME=LOAD{}\n", l);
+    if (history.points.empty()) fmt::print(out, "0., 1.\n{}, 1.\n", number(dynamics.end));
+    for (const auto& [time, factor] : history.points)
+      fmt::print(out, "{}, {}\n", number(time), number(factor));
+  }
+  fmt::print(out, "*STEP, INC={}\n*DYNAMIC, DIRECT, ALPHA=0.\n{}, {}\n", 10 * dynamics.n_steps(),
+             number(dynamics.step), number(dynamics.end));
+  cases::Scene alone = scene;
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    alone.loads = {scene.loads[l]};
+    fmt::print(out, "*CLOAD, AMPLITUDE=LOAD{}\n", l);
+    write_forces(out, alone);
+  }
+  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
+}
+
+/// Why CalculiX cannot follow a dynamic case.
+std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition) {
+  if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
+      !definition.region_materials.empty())
+    return "its input has one linear elastic material";
+  if (!definition.masses.empty()) return "its input has no weights";
+  if (definition.fem.element != cases::Element::q1 || definition.fem.mass != cases::ElementMass::consistent)
+    return "it has the element q1, with consistent masses";
+  const cases::TimeScheme& scheme = definition.dynamics->scheme;
+  if (scheme.scheme != cases::Scheme::newmark || scheme.beta != 0.25 || scheme.gamma != 0.5)
+    return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
+  if (definition.fem.formulation != cases::Formulation::small_strain) return "its motion is linear";
+  if (definition.dynamics->start != cases::MotionStart::rest) return "its motion begins at rest";
+  if (definition.material_dynamics.mass_damping > 0 || definition.material_dynamics.stiffness_damping > 0)
+    return "its implicit steps have no damping";
+  for (const cases::Load& load : definition.loads)
+    if (load.on() == cases::loads::On::masses || load.history.frequency != 0)
+      return "its loads have histories in points, and none is gravity";
+  for (const cases::Measure& measure : definition.measures)
+    if (cases::is<cases::measures::Volume>(measure)) return "volumes over time are not read";
+  return std::nullopt;
+}
+
 } // namespace
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
   if (definition.dynamics) return reason_without_calculix_motion(definition);
   if (std::any_of(definition.loads.begin(), definition.loads.end(),
-                  [](const cases::Load& load) { return load.kind == cases::LoadKind::gravity; }))
+                  [](const cases::Load& load) { return load.on() == cases::loads::On::masses; }))
     return "its input has no gravity";
   if (!definition.region_materials.empty()) return "its input has one material";
   if (std::holds_alternative<cases::TransverselyIsotropic>(definition.material))
@@ -176,96 +226,12 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
 }
 
-void write_calculix_frequency_input(std::ostream& out, const cases::Scene& scene, int n_modes) {
-  write_model(out, scene);
-  fmt::print(out, "*STEP\n*FREQUENCY\n{}\n*END STEP\n", n_modes);
-}
-
-/// Its lines have the number of a mode, omega², omega, the frequency and an imaginary part.
-std::vector<double> read_calculix_frequencies(std::istream& in) {
-  std::vector<double> hertz;
-  bool is_in_table = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.find("E I G E N V A L U E   O U T P U T") != std::string::npos) is_in_table = true;
-    if (line.find("P A R T I C I P A T I O N") != std::string::npos) is_in_table = false;
-    std::istringstream words(line);
-    std::size_t mode = 0;
-    double omega_squared = 0, omega = 0, frequency = 0;
-    if (is_in_table && words >> mode >> omega_squared >> omega >> frequency && mode == hertz.size() + 1)
-      hertz.push_back(frequency);
-  }
-  return hertz;
-}
-
-std::optional<std::string> reason_without_calculix_frequencies(const cases::Case& definition) {
-  if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
-      !definition.region_materials.empty())
-    return "its input has one linear elastic material";
-  if (!definition.masses.empty()) return "its input has no weights";
-  if (definition.fem.element != cases::Element::q1 || definition.fem.mass != cases::ElementMass::consistent)
-    return "it has the element q1, with consistent masses";
-  return std::nullopt;
-}
-
-std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes) {
-  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
-  const ScratchFolder scratch("ccx");
-  auto data = data_of_calculix(
-      scratch, [&](std::ostream& out) { write_calculix_frequency_input(out, refined, n_modes); });
-  if (!data) return {};
-  const std::vector<double> hertz = read_calculix_frequencies(*data);
-  if (static_cast<int>(hertz.size()) < n_modes)
-    throw cases::SolveError(fmt::format("CalculiX printed {} frequencies of {}", hertz.size(), n_modes));
-  return hertz;
-}
-
-std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition) {
-  if (auto reason = reason_without_calculix_frequencies(definition)) return reason;
-  const cases::TimeScheme& scheme = definition.dynamics->scheme;
-  if (scheme.scheme != cases::Scheme::newmark || scheme.beta != 0.25 || scheme.gamma != 0.5)
-    return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
-  if (definition.fem.formulation != cases::Formulation::small_strain) return "its motion is linear";
-  if (definition.dynamics->start != cases::MotionStart::rest) return "its motion begins at rest";
-  if (definition.material_dynamics.mass_damping > 0 || definition.material_dynamics.stiffness_damping > 0)
-    return "its implicit steps have no damping";
-  if (!definition.moved.empty()) return "its input has no moved regions";
-  for (const cases::Load& load : definition.loads)
-    if (load.kind == cases::LoadKind::gravity || load.history.frequency != 0)
-      return "its loads have histories in points, and none is gravity";
-  for (const cases::Measure& measure : definition.measures)
-    if (measure.kind == cases::MeasureKind::volume) return "volumes over time are not read";
-  return std::nullopt;
-}
-
-/// An amplitude for every load: before and after its points it is what it is at them.
-void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene) {
-  const cases::Dynamics& dynamics = *scene.definition.dynamics;
-  write_model(out, scene);
-  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
-    const cases::History& history = scene.loads[l].load.history;
-    fmt::print(out, "*AMPLITUDE, NAME=LOAD{}\n", l);
-    if (history.points.empty()) fmt::print(out, "0., 1.\n{}, 1.\n", number(dynamics.end));
-    for (const auto& [time, factor] : history.points)
-      fmt::print(out, "{}, {}\n", number(time), number(factor));
-  }
-  fmt::print(out, "*STEP, INC={}\n*DYNAMIC, DIRECT, ALPHA=0.\n{}, {}\n", 10 * dynamics.n_steps(),
-             number(dynamics.step), number(dynamics.end));
-  cases::Scene alone = scene;
-  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
-    alone.loads = {scene.loads[l]};
-    fmt::print(out, "*CLOAD, AMPLITUDE=LOAD{}\n", l);
-    write_forces(out, alone);
-  }
-  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
-}
-
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene) {
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   const ScratchFolder scratch("ccx");
-  auto data =
-      data_of_calculix(scratch, [&](std::ostream& out) { write_calculix_motion_input(out, refined); });
-  if (!data) return {};
-  std::vector<CalculixOutput> steps = read_calculix_blocks(*data, refined.mesh.nodes.size());
+  auto run = run_calculix(scratch, [&](std::ostream& out) { write_motion_input(out, refined); });
+  if (!run) return {};
+  std::vector<CalculixOutput> steps = read_calculix_blocks(run->data, refined.mesh.nodes.size());
   const auto n_steps = static_cast<std::size_t>(scene.definition.dynamics->n_steps());
   if (steps.size() != n_steps)
     throw cases::SolveError(fmt::format("CalculiX printed {} steps of {}", steps.size(), n_steps));
@@ -337,24 +303,18 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   if (scene.definition.dynamics) return follow_with_calculix(scene);
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   const ScratchFolder scratch("ccx");
-  write_file(scratch.path() / "case.inp", [&](std::ostream& out) { write_calculix_input(out, refined); });
-  const auto end = call_program(
-      {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
-  if (!end) {
+  auto run = run_calculix(scratch, [&](std::ostream& out) { write_calculix_input(out, refined); });
+  if (!run) {
     solution.message = not_installed;
     return solution; // skipped
   }
-  std::istringstream log(end->said);
-  std::ifstream data(scratch.path() / "case.dat"), progress(scratch.path() / "case.sta");
-  const std::string error = last_error(log);
-  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + error);
-  const CalculixOutput output = read_calculix_output(data, refined.mesh.nodes.size());
+  const CalculixOutput output = read_calculix_blocks(run->data, refined.mesh.nodes.size()).back();
   solution.load_reached = output.load_reached;
-  solution.newton_iterations = count_iterations(progress);
+  solution.newton_iterations = count_iterations(run->progress);
   const std::vector<bool> fixed = cases::constrained_dofs(refined);
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
   if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
-    throw cases::SolveError("CalculiX stopped: " + error, solution);
+    throw cases::SolveError("CalculiX stopped: " + run->error, solution);
 
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
@@ -366,17 +326,23 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   return solution;
 }
 
-Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem) {
+Peer ask_calculix(const cases::Scene& scene, const Answer& fem) {
+  const cases::Solution ours = gathered(fem.solution);
   Peer peer{"CalculiX", {}, std::nullopt};
-  Stopwatch stopwatch;
-  try {
-    peer.answer.solution = solve_with_calculix(scene);
-  } catch (const std::runtime_error& error) { // a solve that failed, a folder that cannot be made or written
-    peer.answer.solution = failed_solution(error);
-  }
-  peer.answer.solve_seconds = stopwatch.lap();
-  if (peer.answer.solution.status == cases::Status::converged && fem.status == cases::Status::converged)
-    peer.largest_difference = largest_difference(fem, peer.answer.solution);
+  peer.answer = shared_from_rank_0<Answer>(scene.mesh, [&] {
+    Answer answer;
+    Stopwatch stopwatch;
+    try {
+      answer.solution = solve_with_calculix(scene);
+    } catch (
+        const std::runtime_error& error) { // a solve that failed, a folder that cannot be made or written
+      answer.solution = failed_solution(error);
+    }
+    answer.solve_seconds = stopwatch.lap();
+    if (answer.converged() && fem.converged())
+      peer.largest_difference = largest_difference(ours, answer.solution);
+    return answer;
+  });
   return peer;
 }
 

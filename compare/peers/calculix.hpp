@@ -4,9 +4,8 @@
 
 #include <ostream>
 
-/// CalculiX, an independent finite-element program, solves a case too. Its element C3D8 is the
-/// fully integrated trilinear hexahedron: linear in a static step it is our small_strain q1, with NLGEOM our
-/// saint_venant_kirchhoff q1.
+/// CalculiX, an independent finite-element program, solves a case too. Its fully integrated trilinear
+/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1.
 namespace springproof::compare {
 
 /// Why CalculiX cannot solve this case; nothing if it can.
@@ -18,19 +17,6 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 /// @param scene  already refined
 void write_calculix_input(std::ostream& out, const cases::Scene& scene);
 
-/// Why CalculiX cannot tell the frequencies of this case; nothing if it can.
-std::optional<std::string> reason_without_calculix_frequencies(const cases::Case& definition);
-
-/// The lowest frequencies (Hz) of a body with supports and without loads, rigid motions among them;
-/// consistent masses. Seven digits.
-/// @param scene  without a reason_without_calculix_frequencies(), of a density
-/// @return nothing when there is no `ccx`   @throws SolveError when it stops
-std::vector<double> frequencies_by_calculix(const cases::Scene& scene, int n_modes);
-
-/// Its input, of a scene that is refined already; and what it leaves in a .dat file.
-void write_calculix_frequency_input(std::ostream& out, const cases::Scene& scene, int n_modes);
-std::vector<double> read_calculix_frequencies(std::istream& in);
-
 /// Displacements of a CalculiX .dat file (mm), and the part of the load, or the time (s), they belong to.
 struct CalculixOutput {
   std::vector<Eigen::Vector3d> displacement;
@@ -40,20 +26,12 @@ struct CalculixOutput {
 /// Reads what *NODE PRINT leaves in a .dat file, block after block: seven digits a component.
 /// @throws SolveError if a node has no displacement in some block, or there is no block
 std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n_nodes);
-/// The last block.
-inline CalculixOutput read_calculix_output(std::istream& in, std::size_t n_nodes) {
-  return read_calculix_blocks(in, n_nodes).back();
-}
-
-/// Why CalculiX cannot follow this dynamic case; nothing if it can.
-std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition);
 
 /// All nodes after every step of a linear motion from rest: *DYNAMIC at the case's own step, with alpha = 0,
 /// which is newmark (1/4, 1/2); loads by their histories.
-/// @param scene  without a reason_without_calculix_motion(), of a density
+/// @param scene  without a reason_without_calculix(), of a density
 /// @return nothing when there is no `ccx`   @throws SolveError when it stops
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene);
-void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene);
 
 /// Runs `ccx` in a temporary folder, one thread. Skipped, with the reason as its message, when there is no
 /// such program or it cannot express the case; residual and linear iterations stay 0, since CalculiX does not
@@ -61,8 +39,9 @@ void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene);
 /// @throws SolveError when it stops before the full load
 cases::Solution solve_with_calculix(const cases::Scene& scene);
 
-/// The same with the time it took, held against our finite elements. A solve that fails is a failed answer.
-/// @param fem  our solution of the same scene
-Peer ask_calculix(const cases::Scene& scene, const cases::Solution& fem);
+/// The same with the time it took, held against our finite elements, on rank 0. A solve that fails is a
+/// failed answer. Collective.
+/// @param fem  our answer to the same scene
+Peer ask_calculix(const cases::Scene& scene, const Answer& fem);
 
 } // namespace springproof::compare

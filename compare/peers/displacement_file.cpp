@@ -3,10 +3,9 @@
 #include "cases/case/error.hpp"
 #include "cases/case/rows.hpp"
 #include "cases/mesh/read_vtk.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 #include <utility>

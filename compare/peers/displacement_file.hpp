@@ -32,14 +32,12 @@ std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, 
 const std::vector<Eigen::Vector3d>& finite_displacements(const cases::PointCloud& cloud,
                                                          const std::string& path);
 
-/// How near a given node must lie to the node of the case's mesh that it stands for, mm, besides the rounding
-/// of its own position: 1e-6 of the diagonal of the mesh's bounding box, which six digits of a position that
-/// is no further from the origin keep.
+/// Distance (mm) within which a given node stands for a node of the mesh, besides the rounding of its
+/// position: 1e-6 of the diagonal of the mesh's bounding box, which six digits keep near the origin.
 double same_place(const cases::HexMesh& mesh);
 
 /// Displacements in the order of the mesh's nodes, matched by position.
-/// @throws InputError if a given node lies at no node of the mesh, if one is given twice, or if one is not
-/// given
+/// @throws InputError if a given node lies at no node of the mesh, or a node is given twice or not at all
 std::vector<Eigen::Vector3d>
 match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
 

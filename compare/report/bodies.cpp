@@ -1,7 +1,7 @@
 #include "compare/report/bodies.hpp"
 
-#include "compare/report/lengths.hpp"
-#include "compare/write/json.hpp"
+#include "compare/measure/surfaces.hpp"
+#include "compare/table/json.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,9 +13,27 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// Coordinates one after the other, in whole numbers of a unit.
+struct Lengths {
+  double unit_mm = 1;
+  std::vector<long> values;
+  bool operator==(const Lengths& other) const { return unit_mm == other.unit_mm && values == other.values; }
+};
+
+/// Points in the power of ten that leaves the largest coordinate five digits; 1 mm where all are 0.
+Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
+  double largest = 0;
+  for (const Eigen::Vector3d& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  Lengths result;
+  if (largest > 0) result.unit_mm = std::pow(10.0, std::floor(std::log10(largest)) - 4);
+  for (const Eigen::Vector3d& x : points)
+    for (const double coordinate : x) result.values.push_back(std::lround(coordinate / result.unit_mm));
+  return result;
+}
+
 /// The part of a mesh that can be seen.
 struct Surface {
-  std::vector<std::size_t> nodes; ///< of the mesh, in the surface's order
+  std::vector<std::size_t> nodes; ///< numbers in the mesh, in the surface's order
   std::vector<long> faces;
   Lengths rest;
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
@@ -50,8 +68,7 @@ Json body_side_to_json(const DeformedBody& body, std::vector<Surface>& bodies) {
   return {{"body", index}, {"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
 }
 
-/// How far the slider reaches: to where the largest displacement is half the body, but twofold at least and a
-/// hundredfold at most.
+/// End of the slider: at which the largest displacement is half the body, but from twofold to a hundredfold.
 double largest_scale(const Overlay& overlay) {
   double largest = 0;
   for (const DeformedBody* body : {&overlay.fem, &overlay.springs})
@@ -73,6 +90,35 @@ Json measures_to_json(const std::vector<MeasuredValue>& measures) {
 }
 
 } // namespace
+
+Json skin_to_json(const Comparison& comparison) {
+  const cases::Scene& scene = comparison.scene;
+  if (scene.surface.triangles.empty()) return nullptr;
+  const mechanics::EmbeddedSurface surface = embedded_surface(scene);
+  const Lengths rest = lengths(surface.rest.vertices);
+  Json skin{{"unit_mm", rest.unit_mm}, {"rest", rest.values}, {"triangles", Json::array()}};
+  for (const auto& triangle : surface.rest.triangles)
+    for (const int vertex : triangle) skin["triangles"].push_back(vertex);
+  const auto add = [&](const char* side, const Answer& answer) {
+    if (!answer.converged()) return true;
+    if (answer.solution.sharing) return false;
+    std::vector<Eigen::Vector3d> moves;
+    for (const mechanics::EmbeddedPoint& vertex : surface.vertices)
+      moves.push_back(mechanics::displacement_at(vertex, answer.solution.displacement));
+    const Lengths displacement = lengths(moves);
+    skin[side] = {{"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
+    return true;
+  };
+  if (!add("fem", comparison.answers.fem) || !add("springs", comparison.answers.msm)) return nullptr;
+  Json marks = Json::array();
+  for (const cases::Landmark& landmark : scene.definition.landmarks) {
+    const Eigen::Vector3d& point = landmark.point;
+    marks.push_back(
+        Json{{"name", landmark.name}, {"point", std::vector<double>{point[0], point[1], point[2]}}});
+  }
+  skin["marks"] = marks;
+  return skin;
+}
 
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay) {
   BodyView view{id, std::move(overlay), "", comparison.scene.definition.description, "", comparison.measures};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/error_bars/measured_values.hpp"
-#include "compare/thesis/plot_bodies.hpp"
+#include "compare/thesis/figures.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,7 +11,7 @@ namespace springproof::compare {
 
 /// One body of a page, to be turned.
 struct BodyView {
-  std::string id;      ///< of the element on the page
+  std::string id;      ///< id of the element on the page
   Overlay overlay;     ///< its title stands below the body
   std::string group{}; ///< heading over the bodies that have the same
   std::string description{}, command{};
@@ -29,5 +29,12 @@ BodyView view_of(const Comparison& comparison, const std::string& id, Overlay ov
 /// numbers of a unit that leaves them five digits. Bodies are surfaces alone, and views of the same body
 /// share it. A side without an answer is left out.
 nlohmann::ordered_json views_to_json(const std::vector<BodyView>& views);
+
+/// The surface that a case names, at rest and as each model has moved it, for the page's script: {"unit_mm",
+/// "rest": [x, y, z, ...], "triangles": [a, b, c, ...], "fem": {"unit_mm", "displacement": [...]}, "springs":
+/// {...}, "marks": [{"name", "point"}]}. Lengths are whole numbers of a unit, points and marks in mm. A side
+/// without an answer is left out.
+/// @return null where the case names no surface, or ranks share the answers
+nlohmann::ordered_json skin_to_json(const Comparison& comparison);
 
 } // namespace springproof::compare

@@ -87,10 +87,6 @@ function colour_at(share) {
   return colour_scale[low].clone().lerp(colour_scale[low + 1], at - low);
 }
 
-// What one control sets for all bodies. The eye is a direction: rays are parallel.
-const seen_from = [0.5, -0.9, 0.4];
-const shown = { scale: 1, colour: "error", fem: true, springs: true, eye: new THREE.Vector3(...seen_from) };
-
 let shared_renderer = null; // made when the first view needs it
 function renderer() {
   if (!shared_renderer) {
@@ -100,28 +96,109 @@ function renderer() {
   return shared_renderer;
 }
 
-class View {
+// A picture to turn: the pointer and the arrow keys turn all pictures of its group, { eye, pictures }. The eye is a direction: rays
+// are parallel.
+class TurnedPicture {
+  constructor(canvas, group) {
+    Object.assign(this, { canvas, group, radius: 1, scene: new THREE.Scene() });
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { enableZoom: false, enablePan: false, enableKeys: false });
+    this.controls.addEventListener("change", () => this.turned());
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    // No frame around what the pointer holds; the controls focus the canvas then.
+    canvas.addEventListener("pointerdown", () => canvas.classList.add("held"));
+    canvas.addEventListener("blur", () => canvas.classList.remove("held"));
+  }
+  // Keeps what lies in a sphere inside the picture, whichever way it is turned.
+  frame(sphere) {
+    this.radius = sphere.radius || 1;
+    this.controls.target.copy(sphere.center);
+    this.look();
+  }
+  look() {
+    const { eye } = this.group;
+    this.camera.position.copy(this.controls.target).addScaledVector(eye, this.radius / eye.length());
+    Object.assign(this.camera, { near: -10 * this.radius, far: 10 * this.radius });
+    this.is_looking = true; // its change is not a turn by the pointer
+    this.controls.update();
+    this.is_looking = false;
+  }
+  turned() {
+    if (this.is_looking) return;
+    this.group.eye.copy(this.camera.position).sub(this.controls.target).normalize();
+    this.group.pictures.forEach((picture) => {
+      if (picture !== this) picture.look();
+      picture.draw();
+    });
+  }
+  key(event) {
+    const [around, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] || [];
+    if (around === undefined) return;
+    event.preventDefault();
+    this.canvas.classList.remove("held");
+    const { eye, pictures } = this.group, step = Math.PI / 18, turn = new THREE.Spherical().setFromCartesianCoords(eye.y, eye.z, eye.x);
+    turn.theta += around * step;
+    turn.phi = Math.min(Math.max(turn.phi - up * step, 0.05), Math.PI - 0.05);
+    const { x, y, z } = new THREE.Vector3().setFromSpherical(turn);
+    eye.set(z, x, y);
+    pictures.forEach((picture) => { picture.look(); picture.draw(); });
+  }
+  draw() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    const density = window.devicePixelRatio || 1;
+    this.canvas.width = Math.round(width * density);
+    this.canvas.height = Math.round(height * density);
+    const half = this.radius / Math.min(width, height);
+    Object.assign(this.camera, { left: -half * width, right: half * width, top: half * height, bottom: -half * height });
+    this.camera.updateProjectionMatrix();
+    this.light_up();
+    renderer().setSize(this.canvas.width, this.canvas.height, false);
+    renderer().render(this.scene, this.camera);
+    this.canvas.getContext("2d").drawImage(renderer().domElement, 0, 0);
+  }
+}
+
+// Whether this browser has WebGL; if it has none, the section says so.
+function can_draw(section, what) {
+  try {
+    return renderer() !== null;
+  } catch (error) {
+    section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws " + what));
+    return false;
+  }
+}
+
+// Draws anew when the page has another size or other colours.
+function draw_with_page(pictures) {
+  const draw = () => pictures.forEach((picture) => picture.draw());
+  window.addEventListener("resize", draw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+}
+
+// The colours of errors from 0 to the largest.
+const error_legend = (largest, note) => make("div", { class: "error-legend" }, make("span", null, "0"), make("span", {
+  class: "scale-bar", style: `background: linear-gradient(to right, ${viridis.join(", ")})` }), make("span", null, largest), note);
+
+const live_views = new Map(); // id -> View
+// What one control sets for all bodies.
+const seen_from = [0.5, -0.9, 0.4];
+const shown = { scale: 1, colour: "error", fem: true, springs: true, eye: new THREE.Vector3(...seen_from), pictures: live_views };
+
+class View extends TurnedPicture {
   constructor(record) {
-    this.record = record;
-    this.figure = document.getElementById("view-" + record.id);
-    this.canvas = this.figure.querySelector("canvas");
+    const figure = document.getElementById("view-" + record.id);
+    super(figure.querySelector("canvas"), shown);
+    Object.assign(this, { record, figure });
     this.fem = record.fem && new Side(record.fem);
     this.springs = record.springs && new Side(record.springs);
     this.errors = this.fem && this.springs ? errors_of(this.springs, this.fem) : null;
-    this.scene = new THREE.Scene();
     if (this.fem) this.add_fem();
     if (this.springs) this.add_springs();
     // What lies behind fades into the page: lines alone say nothing of depth.
     this.scene.fog = new THREE.Fog(0xffffff);
-    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
-    Object.assign(this.controls, { enableZoom: false, enablePan: false, enableKeys: false });
-    this.controls.addEventListener("change", () => this.turned());
-    this.canvas.addEventListener("keydown", (event) => this.key(event));
-    // No frame around what the pointer holds; the controls focus the canvas then.
-    this.canvas.addEventListener("pointerdown", () => this.canvas.classList.add("held"));
-    this.canvas.addEventListener("blur", () => this.canvas.classList.remove("held"));
     this.update();
   }
   add_fem() {
@@ -161,70 +238,22 @@ class View {
     this.figure.querySelector(".scale").textContent = `displacements × ${this.scale.toFixed(1)}`;
     const legend = this.figure.querySelector(".error-legend");
     if (legend) legend.hidden = !this.has_skin;
-    this.frame();
-    this.draw();
-  }
-  // Keeps the deformed body and the body at rest inside the picture, whichever way it is turned.
-  frame() {
-    const box = new THREE.Box3();
+    const box = new THREE.Box3(); // of the deformed body and the body at rest
     for (const side of [this.fem, this.springs]) if (side) {
       box.union(new THREE.Box3().setFromBufferAttribute(side.positions));
       box.union(new THREE.Box3().setFromArray(side.rest));
     }
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    this.radius = sphere.radius || 1;
-    this.controls.target.copy(sphere.center);
-    this.look();
+    this.frame(box.getBoundingSphere(new THREE.Sphere()));
+    this.draw();
   }
-  look() {
-    this.camera.position.copy(this.controls.target).addScaledVector(shown.eye, this.radius / shown.eye.length());
-    Object.assign(this.camera, { near: -10 * this.radius, far: 10 * this.radius });
-    this.scene.fog.near = 0.8 * this.radius;
-    this.scene.fog.far = 2.3 * this.radius;
-    this.is_looking = true; // its change is not a turn by the pointer
-    this.controls.update();
-    this.is_looking = false;
-  }
-  turned() {
-    if (this.is_looking) return;
-    shown.eye.copy(this.camera.position).sub(this.controls.target).normalize();
-    redraw_bodies((view) => {
-      if (view !== this) view.look();
-      view.draw();
-    });
-  }
-  key(event) {
-    const [around, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] || [];
-    if (around === undefined) return;
-    event.preventDefault();
-    this.canvas.classList.remove("held");
-    const step = Math.PI / 18, turn = new THREE.Spherical().setFromCartesianCoords(shown.eye.y, shown.eye.z, shown.eye.x);
-    turn.theta += around * step;
-    turn.phi = Math.min(Math.max(turn.phi - up * step, 0.05), Math.PI - 0.05);
-    const eye = new THREE.Vector3().setFromSpherical(turn);
-    shown.eye.set(eye.z, eye.x, eye.y);
-    redraw_bodies((view) => { view.look(); view.draw(); });
-  }
-  draw() {
-    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
-    if (width === 0 || height === 0) return;
-    const density = window.devicePixelRatio || 1;
-    this.canvas.width = Math.round(width * density);
-    this.canvas.height = Math.round(height * density);
-    const half = this.radius / Math.min(width, height);
-    Object.assign(this.camera, { left: -half * width, right: half * width, top: half * height, bottom: -half * height });
-    this.camera.updateProjectionMatrix();
+  light_up() {
+    Object.assign(this.scene.fog, { near: 0.8 * this.radius, far: 2.3 * this.radius });
     this.scene.fog.color.set(page_colour("--paper"));
-    renderer().setSize(this.canvas.width, this.canvas.height, false);
-    renderer().render(this.scene, this.camera);
-    this.canvas.getContext("2d").drawImage(renderer().domElement, 0, 0);
   }
 }
 
 const view_records = new Map((report.views ? report.views.views : []).map((record) => [record.id, record]));
-const live_views = new Map(); // id -> View
-const redraw_bodies = (of_view) => live_views.forEach(of_view);
-const update_bodies = () => redraw_bodies((view) => view.update());
+const update_bodies = () => live_views.forEach((view) => view.update());
 function show_body(id) {
   if (!live_views.has(id)) live_views.set(id, new View(view_records.get(id)));
   return live_views.get(id);

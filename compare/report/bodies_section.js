@@ -41,9 +41,7 @@ function legend_of(record) {
   const errors = errors_of(new Side(record.springs), new Side(record.fem));
   if (!errors) return null;
   const largest = 100 * largest_of(errors);
-  return make("div", { class: "error-legend" }, make("span", null, "0"), make("span", { class: "scale-bar",
-    style: `background: linear-gradient(to right, ${viridis.join(", ")})` }), make("span", null, `${general(largest, 2)} %`),
-  make("small", null, "distance of both models, of the largest displacement"));
+  return error_legend(`${general(largest, 2)} %`, make("small", null, "distance of both models, of the largest displacement"));
 }
 
 const measure_rows = (measures) => body(measures.map((m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]),
@@ -71,19 +69,11 @@ function bodies() {
     const watcher = new IntersectionObserver((entries) => {
       const seen = entries.filter((entry) => entry.isIntersecting);
       if (seen.length === 0) return;
-      try {
-        renderer();
-      } catch (error) {
-        watcher.disconnect();
-        section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the bodies to turn. Drawn " +
-          "pictures of them are beside this page (.png, .svg)."));
-        return;
-      }
-      for (const entry of seen) show_body(entry.target.id.replace(/^view-/, ""));
+      if (!can_draw(section, "the bodies to turn. Drawn pictures of them are beside this page (.png, .svg).")) watcher.disconnect();
+      else for (const entry of seen) show_body(entry.target.id.replace(/^view-/, ""));
     }, { rootMargin: "200px" });
     for (const id of view_records.keys()) watcher.observe(document.getElementById("view-" + id));
-    window.addEventListener("resize", () => redraw_bodies((view) => view.draw()));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw_bodies((view) => view.draw()));
+    draw_with_page(live_views);
   };
   return section;
 }

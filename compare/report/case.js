@@ -5,8 +5,6 @@ const seconds_of = (side) => (missing(side.seconds.solve) ? null : side.seconds.
 
 function verdict() {
   if (!one_case) return null;
-  const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
-    make("small", null, more));
   const side = (name, of, what) => {
     const is_cut_off = of.status === "not_in_equilibrium"; // after the iterations that were asked for: an answer
     if (of.status !== "converged" && !is_cut_off) return tile(name, in_words(of.status), solver_words(of.message));

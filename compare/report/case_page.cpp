@@ -1,14 +1,13 @@
 #include "compare/report/case_page.hpp"
 
 #include "cases/case/names.hpp"
+#include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/ranking/verdict.hpp"
-#include "compare/ranking/write_ranking.hpp"
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
-#include "compare/report/skin.hpp"
-#include "compare/report/springs_of_case.hpp"
-#include "compare/write/json.hpp"
+#include "compare/study/verdict.hpp"
+#include "compare/study/write_ranking.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "compare/ranking/ranking.hpp"
+#include "compare/study/study.hpp"
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 namespace springproof::compare {
@@ -19,8 +18,8 @@ void write_case_page(const std::string& folder, const Comparison& comparison, co
                      const std::vector<std::string>& commands);
 
 /// What the page is rendered from: "heading", "subheading", "verdict", "time", "case" (as in results.json),
-/// "springs" (springs_of_case()), "skin" (skin_to_json()) or else "views" (views_to_json()), "ranking"
-/// (ranking_to_json()), "commands".
+/// "springs" (as attempt_to_json() has a design; null without one of ours), "skin" (skin_to_json()) or else
+/// "views" (views_to_json()), "ranking" (ranking_to_json()), "commands".
 nlohmann::ordered_json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
                                          const std::vector<std::string>& commands);
 

@@ -64,8 +64,6 @@ function calculator() {
     make("label", null, make("span", null, "design"), designs)));
   const output = make("output", { "aria-live": "polite" });
   form.append(output);
-  const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
-    make("small", null, more));
   const answer = () => {
     const young = Number(form.young.value) / 1000, ratio = Number(form.nu.value), edge = Number(form.edge.value); // MPa, -, mm
     if (!(young > 0) || !(edge > 0) || !(ratio >= ratios[0] && ratio <= ratios[ratios.length - 1]) || form.nu.value === "") {

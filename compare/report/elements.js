@@ -59,6 +59,8 @@ const row = (cells, kind) => make("tr", { class: kind }, cells);
 const body = (rows, kind) => make("tbody", { class: kind }, rows);
 const code = (text) => make("code", null, text);
 const folded = (summary, ...content) => make("details", null, make("summary", null, summary), content);
+const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
+  make("small", null, more));
 let n_tables = 0;
 // A table under its title. What is too wide scrolls in its own frame, by keys too.
 function table(name, title, heads, bodies) {

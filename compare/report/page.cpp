@@ -2,7 +2,7 @@
 
 #include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/escape.hpp"
+#include "compare/write/quote.hpp"
 #include "compare/write/write.hpp"
 
 #include <fmt/format.h>

@@ -36,10 +36,9 @@ function skin_eye(centre) {
   return eye.applyAxisAngle(new THREE.Vector3(0, 0, 1), 0.45).normalize();
 }
 
-class SkinPicture {
+class SkinPicture extends TurnedPicture {
   constructor(canvas, geometry, material, marks, all) {
-    Object.assign(this, { canvas, all });
-    this.scene = new THREE.Scene();
+    super(canvas, all);
     const mesh = new THREE.Mesh(geometry, material);
     mesh.frustumCulled = false;
     this.light = new THREE.DirectionalLight(0xffffff, 0.75);
@@ -49,55 +48,14 @@ class SkinPicture {
       mark.position.set(...point);
       this.scene.add(mark);
     }
-    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new THREE.OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, { enableZoom: false, enablePan: false, enableKeys: false });
-    this.controls.target.copy(all.centre);
-    this.look();
-    this.controls.addEventListener("change", () => {
-      if (this.is_looking) return;
-      all.eye.copy(this.camera.position).sub(this.controls.target).normalize();
-      for (const one of all.pictures) {
-        if (one !== this) one.look();
-        one.draw();
-      }
-    });
-    canvas.addEventListener("keydown", (event) => {
-      const [around, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] || [];
-      if (around === undefined) return;
-      event.preventDefault();
-      const turn = new THREE.Spherical().setFromCartesianCoords(all.eye.y, all.eye.z, all.eye.x), step = Math.PI / 18;
-      turn.theta += around * step;
-      turn.phi = Math.min(Math.max(turn.phi - up * step, 0.05), Math.PI - 0.05);
-      const eye = new THREE.Vector3().setFromSpherical(turn);
-      all.eye.set(eye.z, eye.x, eye.y);
-      for (const one of all.pictures) { one.look(); one.draw(); }
-    });
+    this.frame(all.sphere);
   }
-  look() {
-    this.camera.position.copy(this.all.centre).addScaledVector(this.all.eye, this.all.radius);
-    Object.assign(this.camera, { near: -10 * this.all.radius, far: 10 * this.all.radius });
-    this.is_looking = true; // its change is not a turn by the pointer
-    this.controls.update();
-    this.is_looking = false;
-  }
-  draw() {
-    const width = this.canvas.clientWidth, height = this.canvas.clientHeight, density = window.devicePixelRatio || 1;
-    if (width === 0 || height === 0) return;
-    this.canvas.width = Math.round(width * density);
-    this.canvas.height = Math.round(height * density);
-    const half = this.all.radius / Math.min(width, height);
-    Object.assign(this.camera, { left: -half * width, right: half * width, top: half * height, bottom: -half * height });
-    this.camera.updateProjectionMatrix();
-    // Light comes from the viewer's upper left, whichever way the skin is turned.
-    const side = new THREE.Vector3(0, 0, 1).cross(this.all.eye).normalize();
-    this.light.target.position.copy(this.all.centre);
+  // Light comes from the viewer's upper left, whichever way the skin is turned.
+  light_up() {
+    const { eye, sphere } = this.group, side = new THREE.Vector3(0, 0, 1).cross(eye).normalize();
+    this.light.target.position.copy(sphere.center);
     this.light.target.updateMatrixWorld();
-    this.light.position.copy(this.all.centre).addScaledVector(this.all.eye, 1).addScaledVector(side, -0.6).add(new THREE.Vector3(0, 0, 0.6));
-    renderer().setSize(this.canvas.width, this.canvas.height, false);
-    renderer().render(this.scene, this.camera);
-    this.canvas.getContext("2d").drawImage(renderer().domElement, 0, 0);
+    this.light.position.copy(sphere.center).add(eye).addScaledVector(side, -0.6).add(new THREE.Vector3(0, 0, 0.6));
   }
 }
 
@@ -108,22 +66,16 @@ function skin() {
     "aria-label": `The skin, ${title}. The arrow keys turn it.` }), make("figcaption", null, make("b", null, title)), more);
   const shown_figures = [["rest", figure("rest", "before")], sides.fem && ["fem", figure("fem", "after, finite elements")],
     sides.springs && ["springs", figure("springs", "after, springs")],
-    distances && ["distance", figure("distance", "distance of both models", make("div", { class: "error-legend" }, make("span", null, "0"),
-      make("span", { class: "scale-bar", style: `background: linear-gradient(to right, ${viridis.join(", ")})` }),
-      make("span", null, `${general(largest, 2)} mm`)))]].filter((one) => one);
+    distances && ["distance", figure("distance", "distance of both models", error_legend(`${general(largest, 2)} mm`))]]
+    .filter((one) => one);
   const section = make("div", null, make("p", null, "Drag a skin, or use the arrow keys: all turn with it.",
     skin_record.marks.length > 0 && " Balls are the landmarks."),
   make("div", { class: "views" }, shown_figures.map(([, one]) => one)));
   section.draw = () => {
-    try {
-      renderer();
-    } catch (error) {
-      section.replaceChildren(make("p", { class: "problem" }, "This browser has no WebGL, which draws the skin to turn."));
-      return;
-    }
+    if (!can_draw(section, "the skin to turn.")) return;
     const rest = skin_record.rest.map((x) => x * skin_record.unit_mm), triangles = skin_record.triangles;
     const sphere = new THREE.Box3().setFromArray(rest).getBoundingSphere(new THREE.Sphere());
-    const all = { centre: sphere.center, radius: sphere.radius || 1, pictures: [], eye: skin_eye(sphere.center),
+    const all = { sphere, pictures: [], eye: skin_eye(sphere.center),
       mark: new THREE.SphereGeometry(0.012 * sphere.radius, 16, 12), mark_material: new THREE.MeshBasicMaterial({ color: body_colours.fem }) };
     const plain = new THREE.MeshLambertMaterial({ color: skin_colour, side: THREE.DoubleSide });
     for (const [name, one] of shown_figures) {
@@ -134,10 +86,8 @@ function skin() {
         ? new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, emissive: 0x111111 }) : plain,
       name === "rest" ? skin_record.marks : [], all));
     }
-    const draw = () => all.pictures.forEach((picture) => picture.draw());
-    draw();
-    window.addEventListener("resize", draw);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+    all.pictures.forEach((picture) => picture.draw());
+    draw_with_page(all.pictures);
   };
   return section;
 }

@@ -4,9 +4,9 @@
 #include "compare/report/bodies.hpp"
 #include "compare/report/page.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/thesis/write_files.hpp"
-#include "compare/thesis/write_text.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/json.hpp"
+#include "compare/thesis/layout.hpp"
+#include "compare/thesis/write.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
@@ -69,8 +69,8 @@ std::string title_of(const cases::Case& definition) {
   return title;
 }
 
-/// One view for each case, in their order, and those of figure 4.15. The bars' springs all stand against the
-/// finest bar's finite elements.
+/// A view for each case, and those of figure 4.15. All bars' springs stand against the finest finite
+/// elements.
 std::vector<BodyView> body_views(const ThesisResults& results, const std::vector<Figure>& figures) {
   std::vector<BodyView> views;
   const auto add = [&](const Comparison& comparison, const std::string& id, const std::string& group,

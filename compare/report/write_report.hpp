@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/thesis/draw_figures.hpp"
+#include "compare/thesis/figures.hpp"
 #include "compare/thesis/regenerate.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -19,8 +19,7 @@ struct Answer {
 struct Peer {
   std::string program;
   Answer answer; ///< skipped when the program is absent or cannot express the case
-  /// Largest distance of a node's two displaced positions (finite elements, peer) over the largest
-  /// displacement.
+  /// Largest difference of a node's displacements (finite elements, peer) over the largest displacement.
   std::optional<double> largest_difference;
 };
 
@@ -33,28 +32,26 @@ struct RefinedMeshes {
 
 /// How another program's results on a mesh of its own came to the nodes of the case's mesh.
 struct Interpolated {
-  std::size_t n_points = 0; ///< of the results
-  std::size_t n_outside =
-      0; ///< nodes outside of the results' cells, which take the value of the closest place
-  double largest_distance = 0; ///< of these, mm
-  /// The finite elements' displacement, interpolated to the results' points and from there to the nodes: what
-  /// it has lost by two interpolations estimates what the results have lost by one. Skipped where they
-  /// failed.
+  std::size_t n_points = 0;    ///< points of the results
+  std::size_t n_outside = 0;   ///< nodes outside of the results' cells, with the value of the closest place
+  double largest_distance = 0; ///< distance of the farthest of them, mm
+  /// The finite elements' displacement, interpolated to the results' points and back to the nodes: what two
+  /// interpolations lose estimates what one has lost. Skipped where the finite elements failed.
   Answer fem_and_back;
 };
 
-/// All that solving a case has found: the answers of solve(). A peer's answer is added, and another program's
-/// displacements replace the springs', before they are compared.
+/// All that solving a case has found: the answers of solve(), complete and not changed afterwards. Of the
+/// same finite elements and other springs, other answers are made: with_displacements(), rank_designs().
 struct Answers {
   cases::Fem resolved;              ///< [fem] with what "auto" was found to mean
   std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
   Answer fem, msm;
   std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
-  std::optional<RefinedMeshes> refined;    ///< of the finite elements' limit, when asked for
+  std::optional<RefinedMeshes> refined;    ///< meshes of the finite elements' limit, if asked for
   std::optional<Peer> peer;                ///< when asked for
-  std::optional<Interpolated> interpolated{}; ///< of msm_source, when it was
-  std::vector<std::string> msm_warnings{};    ///< of msm_source: what no answer to the case does
+  std::optional<Interpolated> interpolated{}; ///< how msm_source came to the nodes, if it was interpolated
+  std::vector<std::string> msm_warnings{};    ///< what msm_source does and no answer to the case would
 
   /// A side that was asked for did not converge.
   bool failed() const {
@@ -64,6 +61,9 @@ struct Answers {
 };
 
 /// All solutions among the answers, in an order that depends on which there are alone.
+inline std::vector<cases::Solution*> solutions_of(Answer& answer) {
+  return {&answer.solution};
+}
 inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
   std::vector<cases::Solution*> all{&answers.fem.solution, &answers.msm.solution};
   if (answers.peer) all.push_back(&answers.peer->answer.solution);
@@ -76,9 +76,9 @@ inline std::vector<cases::Solution*> solutions_of(Answers& answers) {
 /// What is asked of a case, besides what its file says.
 struct Request {
   std::optional<cases::Side> only; ///< absent: both sides
-  int meshes = 0;                  ///< of the finite elements' limit; 0: as many as [fem] accuracy asks for
+  int meshes = 0;                  ///< meshes of the finite elements' limit; 0: as [fem] accuracy asks
   std::string peer{};              ///< a program that is asked too; empty: none
-  int n_threads = 1;               ///< of the springs' multigrid path; numbers do not depend on it
+  int n_threads = 1;               ///< threads of the springs' multigrid path; numbers do not depend on it
   bool asks(cases::Side side) const { return !only || *only == side; }
 };
 

@@ -19,8 +19,6 @@ namespace springproof::compare {
 
 namespace {
 
-using cases::Element;
-
 /// Measured on two cores of an Intel Xeon with AVX-512, one thread: seconds (of user time, at commits 874c2b4
 /// and 6eb550a) with cases/sweep/cube_shear.toml, 20^3 to 80^3 cells, and with the same block with one edge
 /// moved, which is no grid, 6^3 to 46^3; megabytes with all of cases/sweep, 10^3 to 4x10^5 unknowns, and
@@ -40,11 +38,15 @@ constexpr Factorised finite_elements{25, 650, 6.5};
 constexpr Factorised springs_lattice{5, 245, 3};
 constexpr double factorised_unknowns = 26460;
 
-/// A nested dissection of a body takes memory as n^(4/3) and time as n^2; of 10,000 to 60,000 unknowns less
-/// was seen.
+/// Exponents seen from 10,000 to 60,000 unknowns. A nested dissection of a body takes n^(4/3) and n^2.
 constexpr double memory_power = 1.25, time_power = 1.7;
 
-/// Of the time of finite strain: one factorisation for four or five, three inexact linear solves for five.
+/// Bytes of finite elements in motion beside those of statics, by their types, per entry of a field and per
+/// unknown: 14 vectors of the integrator, masses and dampers, which are matrices where tangents are
+/// assembled.
+constexpr double grid_in_motion = 150, assembled_in_motion = 2400;
+
+/// Parts of the time of finite strain: one factorisation for four or five, three inexact solves for five.
 constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
 
 Estimate linear(const std::string& model, double unknowns, double n_entries, const Linear& per) {
@@ -57,8 +59,7 @@ Estimate factorised(const std::string& model, double unknowns, const Factorised&
           at.seconds * std::pow(ratio, time_power)};
 }
 
-/// Nodes after n uniform refinements: a body has about as many inner nodes as cells, and its surface has the
-/// others.
+/// Nodes after n uniform refinements: about as many inner nodes as cells, and the others on the surface.
 double refined_nodes(const BodySize& body, int n) {
   return body.n_cells * std::pow(8, n) + (body.n_nodes - body.n_cells) * std::pow(4, n);
 }
@@ -69,12 +70,12 @@ Eigen::Array3d nodes_along(const BodySize& body, int n) {
   return std::pow(2, n) * Eigen::Array3d(cells[0], cells[1], cells[2]) + 1;
 }
 
-/// Of a field of the finite elements: rows are filled up to packs of 16, planes have neighbours.
+/// Entries of a finite elements' field: rows are filled up to packs of 16, planes have neighbours.
 double element_entries(const Eigen::Array3d& nodes) {
   return 3 * (16 * std::ceil(nodes.x() / 16) * nodes.y() + 16) * (nodes.z() + 2);
 }
 
-/// Of a field of the springs.
+/// Entries of a springs' field.
 double spring_entries(const Eigen::Array3d& nodes) {
   return 3 * ((nodes.x() + 1) * (nodes.y() + 1) + 56) * (nodes.z() + 2);
 }
@@ -84,63 +85,15 @@ std::string memory_text(double megabytes) {
                          : fmt::format("{:.0f} GB", megabytes / 1e3);
 }
 
-} // namespace
-
-BodySize size_of(const cases::Scene& scene) {
-  BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
-  body.outline.definition = scene.definition;
-  body.outline.mesh.grid = scene.mesh.grid;
-  return body;
-}
-
-std::optional<BodySize> size_of(const cases::Case& definition) {
-  BodySize body{1, 1, {}};
-  body.outline.definition = definition;
-  cases::Grid& grid = body.outline.mesh.grid.emplace();
-  if (const auto* box = std::get_if<cases::Box>(&definition.body)) {
-    grid.cells = box->cells;
-    grid.spacing = box->size.cwiseQuotient(Eigen::Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
-    for (const int n : box->cells) {
-      body.n_cells *= n;
-      body.n_nodes *= n + 1.;
-    }
-  } else if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
-    try {
-      const auto [in_body, of_grid] = cases::count_voxels(*voxels);
-      body.n_cells = std::max(1., in_body);
-      grid.cells = of_grid;
-    } catch (const cases::InputError&) { // make_scene() refuses it in its turn
-      return std::nullopt;
-    }
-    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
-  } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
-    try {
-      const cases::LabelGrid labelled = cases::read_label_grid(*labels);
-      const auto& classes = labelled.class_of_cell;
-      body.n_cells =
-          static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));
-      grid.cells = labelled.cells;
-    } catch (const cases::InputError&) {
-      return std::nullopt;
-    }
-    body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3);
-  } else {
-    return std::nullopt;
-  }
-  return body;
-}
-
-namespace {
-
-/// Of a dynamic case. A step takes about as many iterations of Newton's method as half an equilibrium, and a
-/// linear body's are not factorised again: an upper bound for these.
+/// Estimate of a dynamic case. A step takes about as many iterations of Newton's method as half an
+/// equilibrium, and a linear body's are not factorised again: an upper bound for these.
 Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   if (!definition.dynamics) return equilibrium;
   equilibrium.seconds *= 0.5 * definition.dynamics->n_steps();
   return equilibrium;
 }
 
-/// What is kept of a motion: whole bodies now and then, what measures watch after every step. Twice while it
+/// What is kept of a motion: whole bodies now and then, and what measures watch at every step. Twice, as it
 /// goes from the model to the answer.
 double bytes_of_motion(const BodySize& body) {
   const auto& dynamics = body.outline.definition.dynamics;
@@ -153,25 +106,66 @@ double bytes_of_motion(const BodySize& body) {
 
 } // namespace
 
+BodySize size_of(const cases::Scene& scene) {
+  BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
+  body.outline.definition = scene.definition;
+  body.outline.mesh.grid = scene.mesh.grid;
+  return body;
+}
+
+std::optional<BodySize> size_of(const cases::Case& definition) try {
+  BodySize body{1, 1, {}};
+  body.outline.definition = definition;
+  cases::Grid& grid = body.outline.mesh.grid.emplace();
+  if (const auto* box = std::get_if<cases::Box>(&definition.body)) {
+    grid.cells = box->cells;
+    grid.spacing = box->size.cwiseQuotient(Eigen::Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
+    for (const int n : box->cells) {
+      body.n_cells *= n;
+      body.n_nodes *= n + 1.;
+    }
+    return body;
+  }
+  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
+    const auto [in_body, of_grid] = cases::count_voxels(*voxels);
+    body.n_cells = std::max(1., in_body);
+    grid.cells = of_grid;
+  } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
+    const cases::LabelGrid labelled = cases::read_label_grid(*labels);
+    const auto& classes = labelled.class_of_cell;
+    body.n_cells =
+        static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));
+    grid.cells = labelled.cells;
+  } else {
+    return std::nullopt;
+  }
+  body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
+  return body;
+} catch (const cases::InputError&) { // make_scene() refuses it in its turn
+  return std::nullopt;
+}
+
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
-  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
-  const int halvings = fem.refine + (is_quadratic ? 1 : 0);
+  const int halvings = fem_reference::n_halvings(fem);
   const double unknowns = 3 * refined_nodes(body, halvings);
-  const auto backend = fem_reference::choose_backend(body.outline, unknowns / 3);
+  const auto backend =
+      fem_reference::choose_backend(body.outline, fem_reference::n_element_nodes(fem, body.n_nodes));
   const bool is_on_grid = backend == fem_reference::Backend::grid;
   const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3);
+  const double n_entries = is_on_grid ? element_entries(nodes_along(body, halvings)) : unknowns;
   Estimate estimate;
   if (is_on_grid)
-    estimate = linear("finite elements (matrix-free)", unknowns, element_entries(nodes_along(body, halvings)),
-                      is_quadratic ? grid_quadratic_element : grid_linear_element);
+    estimate = linear("finite elements (matrix-free)", unknowns, n_entries,
+                      fem.element == cases::Element::q2 ? grid_quadratic_element : grid_linear_element);
   else if (is_factorised)
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
-    estimate = linear("finite elements (assembled)", unknowns, unknowns, algebraic_multigrid);
+    estimate = linear("finite elements (assembled)", unknowns, n_entries, algebraic_multigrid);
+  if (body.outline.definition.dynamics)
+    estimate.megabytes += 1e-6 * n_entries * (is_on_grid ? grid_in_motion : assembled_in_motion);
   if (fem.formulation == cases::Formulation::small_strain)
     estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
-  if (body.outline.definition.dynamics) estimate.held_by = HeldBy::first_rank;
   return in_time(estimate, body.outline.definition);
 }
 
@@ -180,7 +174,7 @@ Estimate estimate_springs(const BodySize& body) {
   const cases::Case& definition = body.outline.definition;
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline);
   Estimate estimate;
-  if (is_on_grid && body.n_nodes >= msm::multigrid_from)
+  if (is_on_grid && msm::prefers_multigrid(*body.outline.mesh.grid, body.n_nodes))
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
   else
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
@@ -190,12 +184,10 @@ Estimate estimate_springs(const BodySize& body) {
 }
 
 std::vector<Estimate> estimate_vibrations(const BodySize& body) {
-  const cases::Fem& fem = body.outline.definition.fem;
-  const bool is_quadratic = fem.element == Element::q2 || fem.element == Element::q2_p1;
-  std::vector<Estimate> models{factorised("finite elements (factorised)",
-                                          3 * refined_nodes(body, fem.refine + (is_quadratic ? 1 : 0)),
-                                          finite_elements),
-                               factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
+  const int halvings = fem_reference::n_halvings(body.outline.definition.fem);
+  std::vector<Estimate> models{
+      factorised("finite elements (factorised)", 3 * refined_nodes(body, halvings), finite_elements),
+      factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
   for (Estimate& model : models) model.held_by = HeldBy::first_rank;
   return models;
 }
@@ -280,8 +272,8 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
 }
 
 cases::Scene make_scene_within_memory(const cases::Case& definition) {
-  // Nodes, cells, and what selecting regions takes for a while; of a box, whose nodes are not stored, the
-  // last.
+  // Nodes, cells, and what selecting regions takes for a while: all that a box takes, whose nodes are not
+  // stored.
   const double bytes_a_node = std::holds_alternative<cases::Box>(definition.body) ? 10 : 150;
   if (const auto body = size_of(definition))
     check_memory(

@@ -12,10 +12,10 @@ enum class HeldBy { all_ranks_together, first_rank, every_rank };
 struct Estimate {
   std::string model;    ///< "finite elements (matrix-free)"
   double unknowns = 0;  ///< constrained ones included
-  double megabytes = 0; ///< of 10^6 bytes, above what the program takes by itself
-  double seconds = 0;   ///< of one thread, from the model to the equilibrium
+  double megabytes = 0; ///< 10^6 bytes above what the program takes by itself
+  double seconds = 0;   ///< seconds of one thread, from the model to the equilibrium
   HeldBy held_by = HeldBy::all_ranks_together;
-  double megabytes_of_each = 0; ///< of megabytes: what every rank has whole, whoever holds the rest
+  double megabytes_of_each = 0; ///< part of megabytes that every rank has whole
   std::string remedy = "give the body fewer cells, or refine it less"; ///< where memory is short
 };
 
@@ -25,26 +25,25 @@ struct BodySize {
   cases::Scene outline; ///< the definition and the grid, if the body is one; without nodes
 };
 BodySize size_of(const cases::Scene& scene);
-/// Of a box, of voxels (about) or of a labelled volume, before the mesh is made; nothing for a mesh file, or
-/// where the surface or volume cannot be read.
+/// The size of a box, voxels (about) or a labelled volume before the mesh is made; nothing for another body,
+/// or where the surface or volume cannot be read.
 std::optional<BodySize> size_of(const cases::Case& definition);
 
-/// Of the definition's [fem], refined as it says.
+/// Estimate of the finite elements, refined as [fem] says.
 Estimate estimate_fem(const BodySize& body);
 Estimate estimate_springs(const BodySize& body);
-/// Of both models' lowest vibrations, whose matrices are factorised.
+/// Estimates of both models' lowest vibrations, whose matrices are factorised.
 std::vector<Estimate> estimate_vibrations(const BodySize& body);
 /// The models that a question asks for; of finite elements on several meshes, one for each.
 std::vector<Estimate> estimate(const BodySize& body, const Request& request);
 std::vector<Estimate> estimate(const Question& question);
 
-/// Of all models, one after the other.
+/// Sum of all models, one after the other.
 double total_seconds(const std::vector<Estimate>& models);
-/// Of the largest model: one is gone before the next is made.
+/// Memory of the largest model: one is gone before the next is made.
 double most_megabytes(const std::vector<Estimate>& models);
 
-/// What a user should know before a solve of more than ten seconds: a line with the unknowns, memory and time
-/// of each model; empty for shorter ones.
+/// A line with the unknowns, memory and time of each model; empty for a solve of less than ten seconds.
 std::string long_solve_text(const std::string& name, const std::vector<Estimate>& models);
 
 struct RanksOfMachine {
@@ -57,14 +56,13 @@ double megabytes_within(const MemoryLimit& limit, const Estimate& model,
                         const RanksOfMachine& ranks = ranks_of_machine());
 
 /// @param file  of the case
-/// @throws InputError if a model needs more memory than there is, with unknowns, estimate, limit and what to
-/// change
+/// @throws InputError if a model needs more memory than there is, with what it needs, the limit and a remedy
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit);
 
 /// The scene of a case whose mesh there is memory for.  @throws InputError as check_memory() and make_scene()
 cases::Scene make_scene_within_memory(const cases::Case& definition);
 
-/// Of every question, before any is solved.
+/// Checks every question before any is solved.
 void check_memory(const std::vector<Question>& questions);
 
 /// How many of the questions can be solved at the same time.

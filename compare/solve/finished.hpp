@@ -10,12 +10,25 @@ enum class FileNames {
   of_questions ///< digests, where many questions are of one case
 };
 
-/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question, or one
-/// for each rank that has solved it (kept_parts.hpp). One is
-/// taken up again only if all that its answers depend on is the same: this program, the case as it was parsed
-/// with the mesh that its files gave, the request and PETSC_OPTIONS. A file that is damaged or of another
-/// version counts as none, with a line on standard error. Failed solves are kept for `merge`, and tried again
-/// by a rerun.
+/// Version, commit and digest of the running program. The commit does not tell one build of uncommitted
+/// changes from another; the program's own bytes do.
+const std::string& this_program();
+
+/// Digest of a question's bytes, this program and PETSC_OPTIONS.
+std::string identity_of(const std::string& question);
+
+/// Whole or not at all.  @throws InputError if the file cannot be written
+void write_kept(const std::string& path, const std::string& identity, const std::string& result);
+
+/// @return the result in a file; empty if there is no file, or it is the result of another question
+/// @throws std::runtime_error if it is of another format, or damaged
+std::string read_kept(const std::string& path, const std::string& identity);
+
+/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question, which
+/// rank 0 reads and writes. One is taken up again only if all that its answers depend on is the same: this
+/// program, the case as it was parsed with the mesh that its files gave, the request and PETSC_OPTIONS. A
+/// file that is damaged or of another version counts as none, with a line on standard error. Failed solves
+/// are kept for `merge`, and tried again by a rerun.
 class FinishedCases {
  public:
   /// Claims the folder. Every rank calls it.
@@ -46,7 +59,7 @@ class FinishedCases {
 /// @throws InputError if there is nothing for this question, or it is damaged
 Answers kept_answers(const std::string& folder, const Question& question, FileNames names);
 
-/// Of all that the answers to these questions depend on.
+/// Digest of all that the answers to these questions depend on.
 std::string digest_of(const std::vector<Question>& questions);
 
 } // namespace springproof::compare

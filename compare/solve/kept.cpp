@@ -1,51 +1,117 @@
 #include "compare/solve/kept.hpp"
 
-#include "compare/provenance/machine.hpp"
-#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
-#include "compare/solve/frame.hpp"
 
-#include <cstdlib>
-#include <filesystem>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <openssl/sha.h>
 #include <stdexcept>
 
 namespace springproof::compare {
 
 namespace {
 
-/// First line of a kept file. To be counted up when the fields of compare/solve/fields.hpp change their
-/// meaning.
+/// First line of a kept file. Counted up when the fields of compare/solve/fields.hpp change their meaning.
 const std::string heading = "springproof answers, format 5\n";
+
+bool are_finite(const std::vector<Eigen::Vector3d>& displacement) {
+  return std::all_of(displacement.begin(), displacement.end(),
+                     [](const Eigen::Vector3d& u) { return u.allFinite(); });
+}
+
+bool are_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool are_finite(const std::vector<cases::SymmetricTensor>& tensors) {
+  return std::all_of(tensors.begin(), tensors.end(), [](const cases::SymmetricTensor& tensor) {
+    return std::all_of(tensor.begin(), tensor.end(), [](double value) { return std::isfinite(value); });
+  });
+}
+
+/// Whether fields, if any, have as many finite values as the mesh has nodes and cells.
+bool fit(const std::optional<cases::Fields>& fields, const cases::HexMesh& mesh) {
+  if (!fields) return true;
+  const auto& [reaction, total_energy, has_stress, energy, stress, strain] = *fields;
+  const std::size_t n_of_stress = has_stress ? mesh.cells.size() : 0;
+  return reaction.size() == mesh.nodes.size() && energy.size() == n_of_stress &&
+         stress.size() == n_of_stress && strain.size() == mesh.cells.size() && std::isfinite(total_energy) &&
+         are_finite(reaction) && are_finite(energy) && are_finite(stress) && are_finite(strain);
+}
+
+/// Whether a motion is one of a body with that many nodes at least.
+bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
+  const std::size_t n = motion.time.size();
+  const auto is_node = [&](int node) { return node >= 0 && cases::index(node) < n_nodes; };
+  const auto is_body = [&](const cases::Trajectory::Body& body) {
+    return body.step >= 0 && cases::index(body.step) < n && body.displacement.size() >= n_nodes &&
+           are_finite(body.displacement);
+  };
+  return n > 0 && motion.displacement.size() == n * motion.nodes.size() &&
+         (motion.volume.empty() || motion.volume.size() == n) &&
+         (!motion.slowest || (motion.slowest->omega > 0 && std::isfinite(motion.slowest->omega) &&
+                              std::isfinite(motion.slowest->damping_ratio))) &&
+         std::is_sorted(motion.time.begin(), motion.time.end()) &&
+         std::is_sorted(motion.nodes.begin(), motion.nodes.end()) && are_finite(motion.time) &&
+         are_finite(motion.displacement) && are_finite(motion.volume) &&
+         std::all_of(motion.nodes.begin(), motion.nodes.end(), is_node) &&
+         std::all_of(motion.bodies.begin(), motion.bodies.end(), is_body);
+}
+
+/// @throws std::runtime_error if a solution has not as many values as the mesh has nodes and cells
+void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
+  const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
+    return size == expected || (size == 0 && solution.status != cases::Status::converged);
+  };
+  const bool is_finite = are_finite(solution.displacement) && are_finite(solution.cell_volume);
+  const bool is_moved = !solution.trajectory || is_sound(*solution.trajectory, mesh.nodes.size());
+  if (!fit(solution.fields, mesh))
+    throw std::runtime_error("has fields that are not those of the case's mesh");
+  if (!is_empty_or(solution.displacement.size(), mesh.nodes.size()) ||
+      !is_empty_or(solution.cell_volume.size(), mesh.cells.size()) || !is_finite || !is_moved)
+    throw std::runtime_error("has values that are no solution on the case's mesh");
+}
+
+void check_meshes(const Answer&) {}
+void check_meshes(const Answers& answers) {
+  if (answers.refined && answers.refined->solutions.size() != answers.refined->refine.size())
+    throw std::runtime_error("has not as many refined solutions as meshes");
+}
 
 } // namespace
 
-const std::string& this_program() {
-  static const std::string identity =
-      program_version() + " " + program_commit() + " " + digest(read_file("/proc/self/exe"));
-  return identity;
+std::string digest(const std::string& bytes) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> sum;
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), sum.data());
+  return fmt::format("{:02x}", fmt::join(sum, ""));
 }
 
-std::string identity_of(const std::string& question) {
-  const char* petsc = std::getenv("PETSC_OPTIONS");
-  return digest(cases::to_bytes<cereal::BinaryOutputArchive>(this_program(), std::string(petsc ? petsc : ""),
-                                                             question));
+std::string kept_text(const std::string& identity, const std::string& result) {
+  const std::string sum = digest(identity + ' ' + result);
+  return fmt::format("{}{} {} {}\n", heading, identity, result.size(), sum) + result;
 }
 
-void write_kept(const std::string& path, const std::string& identity, const std::string& result) {
-  const std::string content = framed({identity, result});
-  write_file(path, [&](std::ostream& out) { out << heading << content; });
-}
-
-std::string read_kept(const std::string& path, const std::string& identity) {
-  std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) return "";
-  std::string content = read_file(path);
-  if (content.compare(0, heading.size(), heading) != 0)
+std::string result_in(const std::string& text, const std::string& identity) {
+  if (text.compare(0, heading.size(), heading) != 0)
     throw std::runtime_error("has another format than this program's");
-  content.erase(0, heading.size());
-  const std::optional<Frame> frame = take_frame(content);
-  if (!frame || !content.empty()) throw std::runtime_error("is damaged");
-  return frame->kind == identity ? frame->content : "";
+  const std::size_t begin = heading.size(), end = text.find('\n', begin);
+  const std::string of = text.substr(begin, text.find(' ', begin) - begin);
+  const std::string result = end == std::string::npos ? "" : text.substr(end + 1);
+  if (text != kept_text(of, result)) throw std::runtime_error("is damaged");
+  return of == identity ? result : "";
 }
+
+template<class Result>
+Result result_from(const std::string& bytes, const cases::HexMesh& mesh) {
+  Result result;
+  cases::from_bytes(bytes, result);
+  check_meshes(result);
+  for (const cases::Solution* solution : solutions_of(result)) check(*solution, mesh);
+  return result;
+}
+template Answer result_from(const std::string&, const cases::HexMesh&);
+template Answers result_from(const std::string&, const cases::HexMesh&);
 
 } // namespace springproof::compare

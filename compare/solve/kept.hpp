@@ -1,23 +1,26 @@
 #pragma once
 
-#include <string>
+#include "compare/solve/answers.hpp"
 
-/// Results in files of their own, which a rerun of a command or `merge` takes up: a line with the format,
-/// then a frame whose kind is the digest of all that the result depends on.
+/// Results in files of their own, which a rerun of a command or `merge` takes up: a line with the format, a
+/// line with the identity of the question, the length and the digest of the result, and the result.
 namespace springproof::compare {
 
-/// Version, commit and digest of the running program. The commit does not tell one build of uncommitted
-/// changes from another; the program's own bytes do.
-const std::string& this_program();
+/// SHA-256 of these bytes as 64 hexadecimal digits.
+std::string digest(const std::string& bytes);
 
-/// Digest of a question's bytes, this program and PETSC_OPTIONS.
-std::string identity_of(const std::string& question);
+/// The content of a kept file.  @param identity  digest of all that the result depends on
+std::string kept_text(const std::string& identity, const std::string& result);
 
-/// Whole or not at all.  @throws InputError if the file cannot be written
-void write_kept(const std::string& path, const std::string& identity, const std::string& result);
+/// @param text  of a kept file
+/// @return the result; empty if it is that of another question
+/// @throws std::runtime_error if the text is of another format, or damaged
+std::string result_in(const std::string& text, const std::string& identity);
 
-/// @return the result in a file; empty if there is no file, or it is the result of another question
-/// @throws std::runtime_error if it is of another format, or damaged
-std::string read_kept(const std::string& path, const std::string& identity);
+/// An Answer or Answers on this mesh, from bytes that anybody may have made (cases::to_bytes() makes them).
+/// @throws std::exception if they hold none: another length, an unknown enumerator, fields that are not of
+/// the mesh, a converged solution without a finite displacement of every node and volume of every cell
+template<class Result>
+Result result_from(const std::string& bytes, const cases::HexMesh& mesh);
 
 } // namespace springproof::compare

@@ -1,7 +1,6 @@
 #include "compare/solve/process_pool.hpp"
 
 #include "compare/provenance/call_program.hpp"
-#include "compare/solve/frame.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -12,6 +11,7 @@
 #include <new>
 #include <poll.h>
 #include <spawn.h>
+#include <sstream>
 #include <stdexcept>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -22,8 +22,9 @@ namespace springproof::compare {
 
 namespace {
 
-/// As the program was started with, which is what a worker gets. MPI_Init() adds what would make a worker
-/// take itself for this process, and may have done so before main(): the system keeps the first state.
+/// The environment that the program was started with, which is what a worker gets. MPI_Init() adds what would
+/// make a worker take itself for this process, and may have done so before main(): the system keeps the first
+/// state.
 const std::vector<std::string>& initial_environment() {
   static const std::vector<std::string> variables = [] {
     std::ifstream kept("/proc/self/environ", std::ios::binary);
@@ -39,6 +40,31 @@ std::string describe_end(int status) {
     return fmt::format("its process was ended by signal {} ({})", WTERMSIG(status),
                        strsignal(WTERMSIG(status)));
   return fmt::format("its process ended with status {} and no answer", WEXITSTATUS(status));
+}
+
+/// What a process and its worker send each other: a line with the kind and the length, and the content.
+struct Message {
+  std::string kind, content;
+};
+
+std::string text_of(const Message& message) {
+  return fmt::format("{} {}\n", message.kind, message.content.size()) + message.content;
+}
+
+/// Takes a message from the beginning of `bytes`; nothing as long as it is not complete.
+/// @throws std::runtime_error if it is none
+std::optional<Message> take_message(std::string& bytes) {
+  constexpr std::size_t longest_line = 40;
+  const std::size_t begin = bytes.find('\n') + 1;
+  if (begin == 0 && bytes.size() < longest_line) return std::nullopt;
+  std::istringstream line(bytes.substr(0, std::min(begin, longest_line)));
+  Message message;
+  std::size_t size = 0;
+  if (!(line >> message.kind >> size)) throw std::runtime_error("is no message");
+  if (bytes.size() - begin < size) return std::nullopt;
+  message.content = bytes.substr(begin, size);
+  bytes.erase(0, begin + size);
+  return message;
 }
 
 /// Writes all bytes to a socket.  @return false if its other end is closed
@@ -89,33 +115,30 @@ class Worker {
   /// A worker that has died by now does not read the job: read() will say so.
   void give(std::size_t index, const std::string& job) {
     job_ = index;
-    send_all(socket_, framed({"job", job}));
+    send_all(socket_, text_of({"job", job}));
   }
 
-  struct News {
-    std::optional<JobAnswer> answer; ///< of the job it had
-    bool has_ended;                  ///< or is not to be used any more
-  };
   /// Waits for the next bytes of the answer.
-  News read() {
+  /// @return the answer to its job, if it is complete; a worker that still has its job then is not to be used
+  std::optional<JobAnswer> read() {
     char block[1 << 16];
     const ssize_t n = ::read(socket_, block, sizeof block);
-    if (n < 0 && errno == EINTR) return {std::nullopt, false};
+    if (n < 0 && errno == EINTR) return std::nullopt;
     if (n <= 0) {
       int status = 0;
       waitpid(process_, &status, 0);
       process_ = 0;
-      return {JobAnswer{std::nullopt, describe_end(status)}, true};
+      return JobAnswer{std::nullopt, describe_end(status)};
     }
     received_.append(block, static_cast<std::size_t>(n));
     try {
-      const std::optional<Frame> frame = take_frame(received_);
-      if (!frame) return {std::nullopt, false};
+      const std::optional<Message> message = take_message(received_);
+      if (!message) return std::nullopt;
       job_.reset();
-      if (frame->kind == "ok") return {JobAnswer{frame->content, ""}, false};
-      return {JobAnswer{std::nullopt, frame->content}, false};
-    } catch (const std::runtime_error& error) { // its process is ended and replaced
-      return {JobAnswer{std::nullopt, std::string("its answer ") + error.what()}, true};
+      if (message->kind == "ok") return JobAnswer{message->content, ""};
+      return JobAnswer{std::nullopt, message->content};
+    } catch (const std::runtime_error& error) {
+      return JobAnswer{std::nullopt, std::string("its answer ") + error.what()};
     }
   }
 
@@ -152,12 +175,12 @@ run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!workers[w] || sockets[w].revents == 0) continue;
       const std::size_t job = *workers[w]->job();
-      Worker::News news = workers[w]->read();
-      if (!news.answer) continue;
-      answers[job] = std::move(*news.answer);
+      std::optional<JobAnswer> answer = workers[w]->read();
+      if (!answer) continue;
+      answers[job] = std::move(*answer);
       ++n_answered;
       on_done(job, answers[job]);
-      if (news.has_ended) workers[w].reset();
+      if (workers[w]->job()) workers[w].reset();
       employ(workers[w]);
     }
   }
@@ -179,9 +202,9 @@ void serve_jobs(const std::function<std::string(const std::string& job)>& work) 
   char block[1 << 16];
   for (ssize_t n; (n = read(STDIN_FILENO, block, sizeof block)) > 0 || (n < 0 && errno == EINTR);) {
     received.append(block, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
-    const std::optional<Frame> job = take_frame(received);
+    const std::optional<Message> job = take_message(received);
     if (!job) continue;
-    Frame answer{"ok", ""};
+    Message answer{"ok", ""};
     try {
       answer.content = work(job->content);
     } catch (const std::bad_alloc&) {
@@ -189,7 +212,7 @@ void serve_jobs(const std::function<std::string(const std::string& job)>& work) 
     } catch (const std::exception& error) {
       answer = {"failed", error.what()};
     }
-    if (!send_all(answers, framed(answer))) return;
+    if (!send_all(answers, text_of(answer))) return;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Jobs in worker processes. MPI and PETSc are not made for threads, and a process that crashes takes one job
-/// with it and no more. A job and its answer are any bytes; damage on the way is noticed.
+/// with it and no more. A job and its answer are any bytes.
 namespace springproof::compare {
 
 struct JobAnswer {

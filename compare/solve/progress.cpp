@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds interval(300); ///< between two drawings; what is shorter shows none
 constexpr int bar_width = 20;
-constexpr double long_seconds = 60; ///< of work that is told of where there is no terminal
+constexpr double long_seconds = 60; ///< work that takes more is told of without a terminal
 constexpr double prior_seconds = 2; ///< finished work that corrects estimates half way
 
 std::size_t columns() {
@@ -31,7 +31,7 @@ std::string within_columns(const std::string& text) {
   return text.substr(0, size);
 }
 
-/// In one call, so that nothing comes between; what cannot be shown is not.
+/// Shows a text in one call, so that nothing comes between; what cannot be shown is not.
 void show(const std::string& text) {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
 }

@@ -12,11 +12,10 @@ namespace springproof::compare {
 /// Work, as far as its progress is concerned.
 struct Workload {
   std::size_t n_pieces = 0;
-  double seconds = 0; ///< of one worker, estimated
+  double seconds = 0; ///< estimate for one worker
 };
 
-/// What is left to do, in seconds of wall-clock time. Estimates are corrected by what the finished pieces
-/// took.
+/// Wall-clock seconds that are left to do; estimates are corrected by what the finished pieces took.
 struct Remaining {
   Workload expected;        ///< in all
   Workload finished;        ///< as it was estimated
@@ -25,7 +24,7 @@ struct Remaining {
   double running_since = 0; ///< seconds spent on it, all pieces together
   int n_workers = 1;
 
-  double correction() const; ///< of estimates, towards 1 while little is finished
+  double correction() const; ///< factor of estimates, towards 1 while little is finished
   double seconds() const;    ///< >= 0
   double part_done() const;  ///< 0 to 1
 };
@@ -53,10 +52,10 @@ class ProgressLine {
 
   /// @param name  of the piece: shown   @param note  a line that stays, in front of it; empty: none
   void begin(const std::string& name, double estimated_seconds, const std::string& note = "");
-  /// With nothing else being done, the line is taken away, and others may print.
+  /// Takes the line away if nothing else is being done, and others may print.
   void finish(const std::string& name);
 
-  /// From begin() to finish().
+  /// A piece from begin() to finish().
   class Shown {
    public:
     Shown(ProgressLine& line, std::string name, double estimated_seconds, const std::string& note = "")

@@ -32,13 +32,30 @@ std::vector<cases::Numbered<Value>> numbered(const std::vector<Value>& values) {
   return all;
 }
 
-/// @param all  on rank 0; on the others nothing   @param here  gets what is of the rank's share
-void deal_out(const cases::Fields& all, const cases::Sharing& sharing, cases::Fields& here) {
-  here.reaction = sharing.deal(numbered(all.reaction));
-  here.strain = cases::deal(sharing, numbered(all.strain));
-  if (!here.has_stress) return;
-  here.strain_energy = sharing.deal(numbered(all.strain_energy));
-  here.stress = cases::deal(sharing, numbered(all.stress));
+/// Takes the values of nodes and cells out of a solution.  @return what it was
+cases::Solution without_values(cases::Solution& solution) {
+  cases::Solution whole = solution;
+  solution.displacement.clear();
+  solution.cell_volume.clear();
+  if (auto& fields = solution.fields)
+    fields = cases::Fields{{}, fields->total_energy, fields->has_stress, {}, {}, {}};
+  return whole;
+}
+
+/// Gives every rank its share of the values.
+/// @param whole  on rank 0; on the others nothing   @param here  has no values before
+void deal_out(const cases::Solution& whole, const cases::HexMesh& mesh, cases::Solution& here) {
+  here.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
+  const cases::Sharing& sharing = *here.sharing;
+  here.displacement = sharing.deal(numbered(whole.displacement));
+  here.cell_volume = sharing.deal(numbered(whole.cell_volume));
+  if (!here.fields) return;
+  const cases::Fields all = whole.fields.value_or(cases::Fields{});
+  here.fields->reaction = sharing.deal(numbered(all.reaction));
+  here.fields->strain = cases::deal(sharing, numbered(all.strain));
+  if (!here.fields->has_stress) return;
+  here.fields->strain_energy = sharing.deal(numbered(all.strain_energy));
+  here.fields->stress = cases::deal(sharing, numbered(all.stress));
 }
 
 cases::Fields gathered(cases::Fields fields, const cases::Sharing& sharing) {
@@ -88,28 +105,25 @@ void check_same_on_ranks(const std::string& what, const std::string& text) {
   });
 }
 
-Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find) {
+template<class Result>
+Result shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Result()>& find) {
   if (n_mpi_ranks() == 1) return find();
-  Answer answer;
+  Result result;
+  std::vector<cases::Solution> whole; // on rank 0
   run_on_all_ranks([&] {
-    if (mpi_rank() == 0) answer = find();
+    if (mpi_rank() != 0) return;
+    result = find();
+    for (cases::Solution* solution : solutions_of(result)) whole.push_back(without_values(*solution));
   });
-  cases::Solution& solution = answer.solution;
-  const std::vector<Eigen::Vector3d> displacement = std::move(solution.displacement);
-  const std::vector<double> volume = std::move(solution.cell_volume);
-  const cases::Fields fields = solution.fields.value_or(cases::Fields{});
-  solution.displacement.clear();
-  solution.cell_volume.clear();
-  if (solution.fields)
-    solution.fields = cases::Fields{{}, fields.total_energy, fields.has_stress, {}, {}, {}};
-  cases::from_bytes(from_rank_0(mpi_rank() == 0 ? cases::to_bytes(answer) : ""), answer);
-  if (!answer.converged()) return answer;
-  solution.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
-  solution.displacement = solution.sharing->deal(numbered(displacement));
-  solution.cell_volume = solution.sharing->deal(numbered(volume));
-  if (solution.fields) deal_out(fields, *solution.sharing, *solution.fields);
-  return answer;
+  cases::from_bytes(from_rank_0(mpi_rank() == 0 ? cases::to_bytes(result) : ""), result);
+  whole.resize(solutions_of(result).size());
+  for (std::size_t s = 0; s < whole.size(); ++s)
+    if (cases::Solution& solution = *solutions_of(result)[s]; solution.status == cases::Status::converged)
+      deal_out(whole[s], mesh, solution);
+  return result;
 }
+template Answer shared_from_rank_0(const cases::HexMesh&, const std::function<Answer()>&);
+template Answers shared_from_rank_0(const cases::HexMesh&, const std::function<Answers()>&);
 
 cases::Solution gathered(cases::Solution solution) {
   if (!solution.sharing) return solution;
@@ -118,6 +132,11 @@ cases::Solution gathered(cases::Solution solution) {
   if (solution.fields) solution.fields = gathered(std::move(*solution.fields), *solution.sharing);
   solution.sharing.reset();
   return solution;
+}
+
+Answer gathered(Answer answer) {
+  answer.solution = gathered(std::move(answer.solution));
+  return answer;
 }
 
 Answers gathered(Answers answers) {

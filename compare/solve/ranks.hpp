@@ -4,8 +4,7 @@
 
 #include <functional>
 
-/// What the ranks of MPI's world do together. Every function is collective; on one rank it is what it says
-/// without the others.
+/// What the ranks of MPI's world do together. Every function is collective, and works on one rank too.
 namespace springproof::compare {
 
 /// Rank 0's text on every rank.
@@ -22,13 +21,14 @@ void run_on_all_ranks(const std::function<void()>& action);
 /// @throws InputError on every rank unless the text is the same on all
 void check_same_on_ranks(const std::string& what, const std::string& text);
 
-/// An answer that rank 0 alone finds, shared by all ranks.
+/// An Answer, or Answers, that rank 0 alone finds, shared by all ranks.
 /// @param find  called on rank 0   @throws InputError that it throws, on every rank
-Answer shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Answer()>& find);
+template<class Result>
+Result shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Result()>& find);
 
-/// The solution with all of its values on every rank, for what needs them: other programs, and the commands
-/// of many small cases.
+/// The solution with all of its values on every rank.
 cases::Solution gathered(cases::Solution solution);
+Answer gathered(Answer answer);
 Answers gathered(Answers answers);
 
 } // namespace springproof::compare

@@ -3,7 +3,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/solve/kept.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -71,7 +70,6 @@ std::vector<int> divide(const std::vector<Question>& questions, int n_shards) {
 
 void write_record(const std::string& folder, ShardRecord record) {
   record.program = this_program();
-  record.processor = describe_machine().processor;
   write_file(record_file(folder), [&](std::ostream& out) { out << text_of(record); });
 }
 

@@ -11,7 +11,7 @@ namespace springproof::compare {
 /// @param costs  in any unit, one per piece
 /// @return numbers from 1 to n_shards, one per piece; always the same
 std::vector<int> divide(const std::vector<double>& costs, int n_shards);
-/// By estimated cost.
+/// Divides by estimated cost.
 std::vector<int> divide(const std::vector<Question>& questions, int n_shards);
 
 /// @throws InputError if it cannot be written
@@ -22,15 +22,14 @@ void remove_record(const std::string& folder);
 /// All shards of one command.
 struct Shards {
   std::vector<ShardRecord> records; ///< by number
-  std::vector<std::string> folders; ///< of them
+  std::vector<std::string> folders; ///< folders, likewise
 };
 
 /// @throws InputError if a shard is missing or there twice, or is of another command, other questions,
 /// another number of shards, or another program than the other shards and this one
 Shards read_shards(const std::vector<std::string>& folders);
 
-/// @throws InputError if the results that the merged command needs are not those that the shards were asked
-/// for
+/// @throws InputError if the merged command needs other results than the shards were asked for
 void check_questions(const Shards& shards, const std::string& digest);
 
 /// What the shards found, failed solves too.

@@ -35,10 +35,11 @@ std::optional<Shard> shard_from(const std::string& text) {
 }
 
 std::string text_of(const ShardRecord& record) {
-  const nlohmann::ordered_json json{{"shard", record.shard.index},  {"of", record.shard.count},
-                                    {"command", record.command},    {"questions", record.questions},
-                                    {"seconds", record.seconds},    {"program", record.program},
-                                    {"processor", record.processor}};
+  const nlohmann::ordered_json json{{"shard", record.shard.index},
+                                    {"of", record.shard.count},
+                                    {"command", record.command},
+                                    {"questions", record.questions},
+                                    {"program", record.program}};
   return json.dump(2) + '\n';
 }
 
@@ -48,9 +49,7 @@ ShardRecord record_from(const std::string& text) {
   record.shard = {shard_number(json.at("shard")), shard_number(json.at("of"))};
   json.at("command").get_to(record.command);
   json.at("questions").get_to(record.questions);
-  json.at("seconds").get_to(record.seconds);
   json.at("program").get_to(record.program);
-  json.at("processor").get_to(record.processor);
   if (!exists(record.shard))
     throw std::runtime_error(
         fmt::format("there is no shard {} of {}", record.shard.index, record.shard.count));

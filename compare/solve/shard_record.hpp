@@ -20,9 +20,7 @@ struct ShardRecord {
   Shard shard;
   std::vector<std::string> command; ///< and its arguments that all shards have in common
   std::string questions;            ///< digest of all that the whole command's results depend on
-  double seconds = 0;               ///< that the shard took
-  std::string program{};            ///< filled in by write_record(), as the rest
-  std::string processor{};
+  std::string program{};            ///< filled in by write_record()
 };
 
 std::string text_of(const ShardRecord& record);

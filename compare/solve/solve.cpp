@@ -17,7 +17,7 @@ namespace {
 Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
                               std::optional<msm::DesignResult>& design) {
   if (scene.definition.msm.solver != cases::Solver::snes)
-    return shared_from_rank_0(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
+    return shared_from_rank_0<Answer>(scene.mesh, [&] { return solve_springs(scene, n_threads, design); });
   solvers(); // loading them is no part of the time
   const auto designed = [&] {
     design = design_for(scene);
@@ -31,8 +31,7 @@ Answer solve_springs_on_ranks(const cases::Scene& scene, int n_threads,
   return answer;
 }
 
-/// Every node of the region belongs to a face of it: what is shared by more and more nodes tends to a
-/// traction.
+/// Whether every node of a region is on a face of it: shared by more and more nodes, a force is a traction.
 bool is_area(const cases::Selection& selection) {
   std::vector<int> on_faces;
   for (const auto& face : selection.faces) on_faces.insert(on_faces.end(), face.begin(), face.end());
@@ -47,9 +46,8 @@ std::optional<std::string> reason_without_continuum_limit(const cases::Scene& sc
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto& selection = scene.loads[i].selection;
     const cases::Load& load = scene.loads[i].load;
-    const bool is_point_force = load.kind == cases::LoadKind::nodal_force ||
-                                (load.kind == cases::LoadKind::total_force && !is_area(selection));
-    if (is_point_force && !load.value.isZero(0))
+    const bool is_shared_by_area = cases::is<cases::loads::TotalForce>(load) && is_area(selection);
+    if (load.on() == cases::loads::On::nodes && !is_shared_by_area && !load.is_zero())
       return fmt::format(
           "load[{}] is a concentrated force (on points or edges), which has no continuum limit: the "
           "displacement under it grows without bound as the mesh is refined; use a traction",
@@ -84,11 +82,9 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
 FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   solvers(); // loading them is no part of the time
   if (scene.definition.dynamics) {
-    const auto move = [&] {
-      return solve_side([&] { return std::cref(scene); },
-                        [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
-    };
-    return {shared_from_rank_0(scene.mesh, move), scene.definition.fem, {}, {}};
+    Answer answer = solve_side([&] { return std::cref(scene); },
+                               [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
+    return {std::move(answer), scene.definition.fem, {}, {}};
   }
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   decltype(make_finite_elements(scene)) solved;
@@ -105,7 +101,8 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
   return {std::move(answer), scene.definition.fem, {}, {}};
 }
 
-Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept) {
+Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept,
+              AskPeer ask_peer) {
   Answers answers;
   answers.resolved = scene.definition.fem;
   if (request.asks(cases::Side::fem)) {
@@ -117,6 +114,8 @@ Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_
   }
   if (request.asks(cases::Side::msm))
     answers.msm = solve_springs_on_ranks(scene, request.n_threads, answers.design);
+  if (!request.peer.empty() && ask_peer)
+    answers.peer = ask_peer(with_fem(scene, answers.resolved), answers.fem);
   return answers;
 }
 

@@ -61,8 +61,7 @@ struct FemAnswer {
   std::optional<RefinedMeshes> refined{}; ///< absent when none was asked for
 };
 
-/// The finite elements' answers on single meshes that an interrupted command left; the others are to be kept.
-/// Both are collective over MPI_COMM_WORLD.
+/// Answers on single meshes: finds those that an interrupted command left, keeps the others. Collective.
 struct KeptMeshes {
   std::function<std::optional<Answer>(const cases::Fem&)> find = [](const cases::Fem&) {
     return std::nullopt;
@@ -70,25 +69,29 @@ struct KeptMeshes {
   std::function<void(const cases::Fem&, const Answer&)> keep = [](const cases::Fem&, const Answer&) {};
 };
 
-/// How the finite elements' side is solved: solve_fem() of compare/error_bars, which knows how to find what
-/// "auto" in [fem] leaves open and the limit.
+/// Solves the finite elements' side, with what "auto" in [fem] leaves open: solve_fem() of
+/// compare/error_bars.
 using SolveFem = FemAnswer (*)(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept);
 
-/// With the formulation and refinement of the scene's definition as they are. Collective over MPI_COMM_WORLD.
+/// How another program answers the finite elements' question: ask_calculix() of compare/peers.
+/// @param fem  our answer to the same scene   Collective.
+using AskPeer = Peer (*)(const cases::Scene& scene, const Answer& fem);
+
+/// Solves the finite elements with the [fem] of the scene's definition as it is. Collective over
+/// MPI_COMM_WORLD.
 FemAnswer solve_fem_as_given(const cases::Scene& scene);
 
-/// Why this scene has no continuum limit, if it has none: the displacement under forces on points or edges
-/// grows without bound as the mesh is refined.
+/// Why this scene has no continuum limit, such as forces on points, whose displacement grows without bound.
 std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);
 
 /// The scene with another [fem], such as the one that "auto" was found to mean.
 cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem);
 
-/// Solves both sides of a case, or the one asked for, and the refined meshes if asked for. A solve that fails
-/// is a failed side. Collective over MPI_COMM_WORLD, whose ranks share the solutions; but for solver =
-/// "snes", the mass-spring side is solved on rank 0 alone.
+/// Solves both sides of a case, or the one asked for, the refined meshes and the peer's side if asked for. A
+/// solve that fails is a failed side. Collective over MPI_COMM_WORLD, whose ranks share the solutions; but
+/// for solver = "snes", the mass-spring side is solved on rank 0 alone.
 /// @throws InputError
 Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem,
-              const KeptMeshes& kept = {});
+              const KeptMeshes& kept = {}, AskPeer ask_peer = nullptr);
 
 } // namespace springproof::compare

@@ -55,7 +55,7 @@ bool is_one_process() {
 /// Questions of jobs whose case can be read, and what the others have failed by.
 struct ReadJobs {
   std::vector<Question> questions;
-  std::vector<std::size_t> job; ///< of each question
+  std::vector<std::size_t> job; ///< job of each question
   std::vector<std::pair<std::size_t, Answers>> failed;
 };
 

@@ -59,6 +59,6 @@ using AnswerQuestions = std::function<std::vector<Answers>(const std::vector<Que
 /// Answers the jobs' questions. A job whose case cannot be read has failed, with the reason.
 std::vector<Solved> solve_jobs(const std::vector<SolveJob>& jobs, const AnswerQuestions& answer);
 
-int cores(); ///< of the machine, at least 1
+int cores(); ///< the machine's cores, at least 1
 
 } // namespace springproof::compare

@@ -9,9 +9,8 @@
 
 namespace springproof::compare {
 
-/// All that needs deal.II, PETSc or SLEPc: the functions of the shared object springproof_solvers. These
-/// libraries and the hundred behind them take a third of a second to load, which nothing else has to wait
-/// for.
+/// All that needs deal.II, PETSc or SLEPc: the functions of the shared object springproof_solvers. Loading
+/// these libraries takes a third of a second, for which nothing else has to wait.
 struct SolverFunctions {
   /// Starts MPI, PETSc and SLEPc. They end with what is returned.
   std::shared_ptr<void> (*start)();
@@ -28,8 +27,8 @@ struct SolverFunctions {
 /// The symbol by which solvers() finds them.
 extern "C" const SolverFunctions springproof_solvers;
 
-/// Loads and starts them at the first call; they end with the process. Their communicator is MPI_COMM_WORLD,
-/// and under an MPI launcher the first call is collective.
+/// Loads and starts them at the first call, which is collective under an MPI launcher; they end with the
+/// process.
 /// @throws InputError if PETSC_OPTIONS has an option that is not allowed, or for want of address space;
 /// std::system_error if they cannot be loaded
 const SolverFunctions& solvers();

@@ -1,6 +1,7 @@
 #include "compare/sweep/analysis.hpp"
 
 #include "compare/measure/box_plot.hpp"
+#include "compare/study/worst_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +40,6 @@ std::string describe(const Point& p) {
   return fmt::format("{} ({}, {})", p.name, time_text(p.seconds), error);
 }
 
-/// Two digits, or the whole number.
-std::string factor_text(double factor) {
-  return factor < 99.5 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
-}
-
 constexpr const char* without_points = "no model was measured.";
 
 std::vector<std::string> speed_sentences(const Sweep& sweep, Error error, Clock clock) {
@@ -76,6 +72,29 @@ std::optional<double> median_seconds(const SweepRow& row, Clock clock) {
 
 std::optional<double> error_of(const SweepRow& row, Error error) {
   return error == Error::field ? row.field_error_percent : worst_measure_error(row);
+}
+
+/// The error of the method's finest mesh and shortest step that has one.
+std::optional<double> error_in_the_end(const Sweep& sweep, const std::string& method) {
+  const SweepRow* finest = nullptr;
+  const auto fineness = [](const SweepRow& row) {
+    return std::tuple(row.variant.cells[0], -row.variant.step);
+  };
+  for (const SweepRow& row : sweep.rows)
+    if (method_name(row.variant) == method && row.field_error_percent &&
+        (!finest || fineness(*finest) < fineness(row)))
+      finest = &row;
+  return finest ? finest->field_error_percent : std::nullopt;
+}
+
+std::string describe(const Point& point, double uncertainty_percent) {
+  std::string error = point.error_percent > uncertainty_percent
+                          ? fmt::format("{:.2g} %", point.error_percent)
+                          : fmt::format("below the reference's uncertainty of {:.2g} %", uncertainty_percent);
+  if (point.more_cells_percent)
+    error += fmt::format(" by accident (more cells and shorter steps lead to {:.2g} %)",
+                         *point.more_cells_percent);
+  return fmt::format("error {}, {:.2g} s of computing a second", error, point.seconds);
 }
 
 } // namespace
@@ -134,10 +153,10 @@ std::optional<std::size_t> first_level_at_floor(const std::vector<std::optional<
 }
 
 std::optional<double> worst_measure_error(const SweepRow& row) {
-  std::optional<double> worst;
+  WorstError errors;
   for (const auto& error : row.measure_error_percent)
-    if (error) worst = std::max(worst.value_or(0), std::abs(*error));
-  return worst;
+    if (error) errors.add(*error);
+  return errors.worst;
 }
 
 std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock) {
@@ -202,6 +221,10 @@ const char* family_name(Family family) {
   return family == Family::springs ? "springs" : "finite elements";
 }
 
+std::string short_number(double value) {
+  return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
 std::string time_text(double seconds) {
   return seconds < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
 }
@@ -223,7 +246,7 @@ std::string fastest_sentence(const std::vector<Point>& points, double error_perc
   const std::string sentence = start + describe(winner) + " is the fastest";
   if (!rival) return sentence + fmt::format("; no {} get there.", family_name(other));
   return sentence + fmt::format(", {} times as fast as the fastest {}, {}.",
-                                factor_text(points[*rival].seconds / winner.seconds), family_name(other),
+                                short_number(points[*rival].seconds / winner.seconds), family_name(other),
                                 describe(points[*rival]));
 }
 
@@ -276,6 +299,59 @@ std::vector<Conclusions> conclusions(const Sweep& sweep) {
     all.push_back({std::string(what(error)) + ", more cells", floor_sentences(sweep, error)});
   }
   return all;
+}
+
+std::optional<Point> motion_point(const Sweep& sweep, const SweepRow& row) {
+  auto point = point_of(row, Error::field, Clock::first_answer);
+  if (!point || !(point->error_percent >= 0.)) return std::nullopt;
+  const auto in_the_end = error_in_the_end(sweep, method_name(row.variant));
+  if (in_the_end && is_accidental(point->error_percent, *in_the_end) &&
+      *in_the_end - point->error_percent > uncertainty_percent(*sweep.reference, Error::field))
+    point->more_cells_percent = in_the_end;
+  return point;
+}
+
+std::vector<Point> motion_points(const Sweep& sweep) {
+  std::vector<Point> points;
+  for (const SweepRow& row : sweep.rows)
+    if (const auto point = motion_point(sweep, row)) points.push_back(*point);
+  return points;
+}
+
+std::string interactive_sentence(const Sweep& sweep, double hertz) {
+  std::vector<Point> points, converging; // those that keep up, and of them those without an accident
+  for (const SweepRow& row : sweep.rows) {
+    const auto point = motion_point(sweep, row);
+    if (!point || !(row.variant.step <= (1 + 1e-9) / hertz) || !(point->seconds <= 1)) continue;
+    points.push_back(*point);
+    if (!point->more_cells_percent) converging.push_back(*point);
+  }
+  const auto found = most_accurate_within(points, 1);
+  if (!found) return fmt::format("at {:g} Hz: none of these motions keeps up", hertz);
+  const Point& best = points[*found];
+  const double uncertainty = uncertainty_percent(*sweep.reference, Error::field);
+  std::string sentence = fmt::format("at {:g} Hz: {} are the most accurate that keep up: {}", hertz,
+                                     best.name, describe(best, uncertainty));
+  const auto add = [&](const std::string& what, const Point& point) {
+    sentence += fmt::format("; {}: {}: {}", what, point.name, describe(point, uncertainty));
+  };
+  if (const auto without = most_accurate_within(converging, 1); best.more_cells_percent && without)
+    add("the most accurate not by accident", converging[*without]);
+  const Family other = best.family == Family::springs ? Family::finite_elements : Family::springs;
+  const auto found_other = most_accurate_within(points, 1, other);
+  if (!found_other) return sentence + fmt::format("; no {} keep up", family_name(other));
+  const Point& rival = points[*found_other];
+  add(fmt::format("the most accurate {}", family_name(other)), rival);
+  if (rival.error_percent > uncertainty && rival.error_percent - best.error_percent <= uncertainty)
+    sentence += fmt::format(", which the reference's uncertainty of {:.2g} % does not tell from the best",
+                            uncertainty);
+  return sentence;
+}
+
+std::vector<std::string> interactive_sentences(const Sweep& sweep) {
+  std::vector<std::string> sentences;
+  for (const double hertz : {30., 60., 500.}) sentences.push_back(interactive_sentence(sweep, hertz));
+  return sentences;
 }
 
 } // namespace springproof::compare

@@ -2,7 +2,7 @@
 
 #include "compare/sweep/sweep.hpp"
 
-/// What a sweep's numbers say. Variants that failed or could not be measured give no points.
+/// What a sweep's numbers say. Variants and motions that failed or could not be measured give no points.
 namespace springproof::compare {
 
 /// One variant as a point of the plane of time and error.
@@ -76,19 +76,22 @@ std::vector<std::string> methods_of(const Sweep& sweep);
 /// "springs" or "finite elements".
 const char* family_name(Family family);
 
+/// Two digits, or the whole number.
+std::string short_number(double value);
+
 /// A time for reading: "0.41 ms", "16 ms", "2.5 s".
 std::string time_text(double seconds);
 
-/// At an error: which model is fastest, and by what factor over the fastest of the other family.
+/// Says which model is fastest at an error, and by what factor over the fastest of the other family.
 /// @param uncertainty_percent  the reference's own; no model can be told to be within less
 std::string fastest_sentence(const std::vector<Point>& points, double error_percent,
                              double uncertainty_percent);
 
-/// At a time: which model is most accurate.
+/// Says which model is most accurate at a time.
 std::string most_accurate_sentence(const std::vector<Point>& points, double seconds,
                                    double uncertainty_percent);
 
-/// Where more cells stop helping a design.
+/// Says where more cells stop helping a design.
 /// @param levels  names of the resolutions, coarse to fine     @param errors  percent, one per level
 std::string floor_sentence(const std::string& design, const std::vector<std::string>& levels,
                            const std::vector<std::optional<double>>& errors);
@@ -98,8 +101,22 @@ struct Conclusions {
   std::string heading;
   std::vector<std::string> sentences;
 };
-/// For both errors and both clocks: the fastest at 10, 5 and 1 per cent, the most accurate in 1, 16 and 100
-/// ms; and for each error where more cells stop helping the springs.
+/// Concludes for both errors and both clocks: the fastest at 10, 5 and 1 per cent, the most accurate in 1, 16
+/// and 100 ms; and for each error where more cells stop helping the springs.
 std::vector<Conclusions> conclusions(const Sweep& sweep);
+
+/// A motion as a point: seconds are of computing for a second of motion. With more_cells_percent where the
+/// method's finest mesh and shortest step leave a clearly larger error. Nothing for a motion without an
+/// error.
+std::optional<Point> motion_point(const Sweep& sweep, const SweepRow& row);
+std::vector<Point> motion_points(const Sweep& sweep);
+
+/// Names for pictures a second the most accurate of the motions whose step is no longer than a picture and
+/// that take no longer than the motion itself, and the most accurate of the other family. Where errors of
+/// mesh and model cancel in the first, the most accurate in which they do not, too.
+std::string interactive_sentence(const Sweep& sweep, double hertz);
+
+/// Sentences at 30, 60 and 500 pictures a second.
+std::vector<std::string> interactive_sentences(const Sweep& sweep);
 
 } // namespace springproof::compare

@@ -9,7 +9,6 @@
 #include <fmt/ostream.h>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -86,10 +85,10 @@ void write_instructions_text(std::ostream& out, const InstructionCounts& counts)
                per_call, per_call / nodes_of_cube);
 }
 
-nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts) {
-  nlohmann::ordered_json document = provenance();
+Json instructions_to_json(const InstructionCounts& counts) {
+  Json document = provenance();
   document["instruction_set"] = counts.instruction_set;
-  document["kernels"] = nlohmann::ordered_json::array();
+  document["kernels"] = Json::array();
   for (const auto& [kernel, per_call] : counts.per_call)
     document["kernels"].push_back({{"kernel", kernel},
                                    {"cells", {cells_of_cube, cells_of_cube, cells_of_cube}},

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "compare/table/json.hpp"
+
 #include <ostream>
 #include <string>
 #include <utility>
@@ -10,8 +11,8 @@ namespace springproof::compare {
 
 /// Instructions of one call of each kernel, which are the same on every run of the same binary.
 struct InstructionCounts {
-  std::string instruction_set;                          ///< of the kernels: valgrind knows no AVX-512
-  std::vector<std::pair<std::string, double>> per_call; ///< of the kernels by name
+  std::string instruction_set;                          ///< that of the kernels: valgrind knows no AVX-512
+  std::vector<std::pair<std::string, double>> per_call; ///< kernels by name
   std::string reason;                                   ///< why there are none; empty when there are
 };
 
@@ -21,7 +22,7 @@ struct InstructionCounts {
 InstructionCounts count_instructions();
 
 void write_instructions_text(std::ostream& out, const InstructionCounts& counts);
-nlohmann::ordered_json instructions_to_json(const InstructionCounts& counts);
+Json instructions_to_json(const InstructionCounts& counts);
 
 /// The total that a callgrind output file ends with: "totals: N" or "summary: N".
 /// @throws std::runtime_error when there is none

@@ -1,4 +1,4 @@
-#include "compare/sweep/motion_sweep.hpp"
+#include "compare/sweep/sweep.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
@@ -98,23 +98,24 @@ Answer answered(const std::function<Answer()>& solve) {
   }
 }
 
-/// With an error, or failed with the reason why there is none.
+/// Gives a row its error, or lets it fail with the reason why there is none.
 void hold_against(const cases::Trajectory& reference, const Answer& answer, const cases::Case& definition,
-                  MotionRow& row) {
+                  SweepRow& row) {
   const cases::Solution& solution = answer.solution;
-  row.status = solution.status;
-  row.message = solution.message;
-  row.unknowns = solution.unknowns;
+  cases::Solution& kept = row.run.first;
+  kept.status = solution.status;
+  kept.message = solution.message;
+  kept.unknowns = solution.unknowns;
   if (!answer.converged()) return;
   const auto error =
       solution.trajectory ? motion_error_percent(reference, *solution.trajectory) : std::nullopt;
   if (!error || !std::isfinite(*error)) {
-    row.status = cases::Status::failed;
-    row.message = "its displacements are not finite, or not of the nodes and times of the reference";
+    kept.status = cases::Status::failed;
+    kept.message = "its displacements are not finite, or not of the nodes and times of the reference";
     return;
   }
-  row.seconds_per_second = answer.solve_seconds / definition.dynamics->end;
-  row.error_percent = error;
+  row.run.first_seconds = {answer.solve_seconds / definition.dynamics->end};
+  row.field_error_percent = error;
 }
 
 /// Finite strain by a scheme of second order, whatever the case has.
@@ -153,7 +154,7 @@ std::vector<Cells> checked_levels(const cases::Case& definition, Extent extent,
 
 /// What all motions are held against, and its uncertainty, in words and numbers of the sweep.
 /// @throws InputError when it does not move
-cases::Trajectory add_reference(MotionSweep& sweep, const std::vector<Cells>& levels) {
+cases::Trajectory add_reference(Sweep& sweep, const std::vector<Cells>& levels) {
   const cases::Case& definition = sweep.definition;
   const double step = definition.dynamics->step;
   const cases::Trajectory truth = reference_motion(definition, levels.back(), step / 4);
@@ -164,9 +165,10 @@ cases::Trajectory add_reference(MotionSweep& sweep, const std::vector<Cells>& le
     return motion_error_percent(truth, reference_motion(definition, cells, other_step))
         .value_or(std::numeric_limits<double>::infinity());
   };
-  sweep.reference = fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
-                                cells_name(levels.back()), 250 * step);
-  sweep.uncertainty_percent = change(levels[levels.size() - 2], step / 4) + change(levels.back(), step / 2);
+  ReferenceValue& found = sweep.reference.emplace().field;
+  found.note = fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
+                           cells_name(levels.back()), 250 * step);
+  found.uncertainty_percent = change(levels[levels.size() - 2], step / 4) + change(levels.back(), step / 2);
   return truth;
 }
 
@@ -193,38 +195,31 @@ std::optional<double> motion_error_percent(const cases::Trajectory& reference,
   return 100 * std::sqrt(difference_squared / squared);
 }
 
-bool has_answer(const MotionSweep& sweep) {
-  return std::any_of(sweep.rows.begin(), sweep.rows.end(),
-                     [](const MotionRow& row) { return row.error_percent.has_value(); });
-}
-
-MotionSweep sweep_motion(const cases::Case& definition, Extent extent,
-                         const std::function<void(const MotionSweep&)>& on_row) {
-  MotionSweep sweep{definition, "", 0, {}, {}};
-  const std::vector<Cells> levels = checked_levels(definition, extent, sweep.left_out);
+Sweep sweep_motion(const cases::Case& definition, Extent extent,
+                   const std::function<void(const Sweep&)>& on_row) {
+  Sweep sweep;
+  sweep.definition = definition;
+  const std::vector<Cells> levels = checked_levels(definition, extent, sweep.plan.left_out);
   const cases::Trajectory truth = add_reference(sweep, levels);
-  const auto add = [&](const MotionRow& planned, Settings settings, const auto& solve) {
+  const auto add = [&](Variant variant, Settings settings, const auto& solve) {
     for (const double factor : step_factors) {
       if (settings == Settings::one && factor != 1) continue;
-      MotionRow row = planned;
-      row.step = factor * definition.dynamics->step;
-      const cases::Case variant = with_steps(definition, row.cells, row.step);
-      hold_against(truth, answered([&] { return solve(cases::make_scene(variant)); }), variant, row);
-      sweep.rows.push_back(row);
+      variant.step = factor * definition.dynamics->step;
+      const cases::Case moved = with_steps(definition, variant.cells, variant.step);
+      SweepRow& row = sweep.rows.emplace_back(SweepRow{variant, {}});
+      hold_against(truth, answered([&] { return solve(cases::make_scene(moved)); }), moved, row);
       on_row(sweep);
     }
   };
-  for (const SweptSprings& springs : springs_in_time(definition, levels, extent, sweep.left_out))
-    add({"springs " + cases::name_of(springs.design), springs.design, springs.cells}, springs.settings,
+  for (const SweptSprings& springs : springs_in_time(definition, levels, extent, sweep.plan.left_out))
+    add({Program::springs, springs.design, {}, {}, springs.cells}, springs.settings,
         [&](const cases::Scene& scene) {
           std::optional<msm::DesignResult> made;
           return solve_springs(with_design(scene, springs.design), 1, made);
         });
-  const std::string elements =
-      cases::name_of(definition.fem.formulation) + " " + cases::name_of(definition.fem.element);
   for (const Cells& cells : levels)
-    add({elements, std::nullopt, cells}, Settings::all,
-        [](const cases::Scene& scene) { return solve_fem_as_given(scene).answer; });
+    add({Program::finite_elements, {}, definition.fem.formulation, definition.fem.element, cells},
+        Settings::all, [](const cases::Scene& scene) { return solve_fem_as_given(scene).answer; });
   return sweep;
 }
 

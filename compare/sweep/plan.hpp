@@ -9,14 +9,16 @@ SPRINGPROOF_ENUMERATION(Program, springs, finite_elements, calculix)
 /// Springs against everything else: what "which model is faster" is about.
 enum class Family { springs, finite_elements };
 
-/// One way to answer a case on a box: a model, its resolution, and how exactly its equations are solved.
+/// One way to answer a case on a box: a model, its resolution, and how exactly its equations are solved, or
+/// in which steps it moves.
 struct Variant {
   Program program = Program::springs;
   cases::Design design{};           ///< springs
   cases::Formulation formulation{}; ///< finite elements, CalculiX
   cases::Element element{};         ///< finite elements, CalculiX
-  std::array<int, 3> cells{};       ///< of the box, along x, y, z
+  std::array<int, 3> cells{};       ///< those of the box, along x, y, z
   double tolerance = 1e-9;          ///< on |imbalance| / |applied load|; CalculiX has its own
+  double step = 0;                  ///< a motion's, s; 0: at rest
 };
 
 Family family_of(const Variant& variant);
@@ -31,7 +33,8 @@ std::string cells_name(const std::array<int, 3>& cells);
 /// as many.
 std::array<int, 3> field_cells(const Variant& variant);
 
-/// Method, cells and tolerance.
+/// Method, cells and tolerance: "springs hybrid 8x2x2 to 1e-09"; of a motion "springs hybrid, 8x2x2 cells,
+/// steps of 2 ms".
 std::string full_name(const Variant& variant);
 
 /// The case as a variant has it, without measures: their nodes need not exist on every mesh.
@@ -49,7 +52,7 @@ struct LeftOut {
 /// box's own cells where these are even, at its own otherwise.
 std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent);
 
-/// With which of its tolerances (a sweep in time: steps) a sweep solves springs.
+/// Tolerances (in time: steps) with which a sweep solves springs.
 enum class Settings { all, one };
 
 /// A design of springs on one level.

@@ -16,13 +16,13 @@ using Field = std::vector<Eigen::Vector3d>;
 constexpr double factor_with_order = 1.25, factor_without_order = 3; ///< Roache's (1994)
 constexpr double resolved_percent = 1e-7; ///< what a solve to a residual of 1e-9 leaves undecided
 
-/// Where a node of one grid lies between two of another, along one axis.
+/// Place of a node of one grid between two of another, along one axis.
 struct Place {
   std::size_t lower;
   double weight_of_upper; ///< 0 to 1
 };
 
-/// In whole numbers, so that nodes which coincide do so exactly.
+/// Places in whole numbers, so that nodes which coincide do so exactly.
 std::vector<Place> places(int from, int to) {
   std::vector<Place> all;
   for (int i = 0; i <= to; ++i) {
@@ -43,10 +43,7 @@ cases::Solution as_solution(const cases::Scene& scene, const Field& displacement
 }
 
 cases::Measure field_measure() {
-  cases::Measure measure{};
-  measure.name = "displacement field";
-  measure.kind = cases::MeasureKind::displacement_field_l2;
-  return measure;
+  return {"displacement field", cases::measures::DisplacementFieldL2{}, {}};
 }
 
 /// L2 norm of other - truth over that of truth, percent.
@@ -56,7 +53,8 @@ std::optional<double> difference_percent(const cases::Scene& scene, const Field&
 
 /// The finest value with three times the last change where no limit is approached.
 ReferenceValue judge(const std::string& name, const std::string& unit, const std::vector<double>& values) {
-  const auto found = find_limit(values, 4, 4); // of triquadratic elements, where everything is smooth
+  const auto found =
+      find_limit(values, 4, 4); // the order of triquadratic elements, where everything is smooth
   const double finest = values.back();
   const auto percent = [&](double uncertainty) { return 100 * std::abs(uncertainty / finest); };
   if (const auto* limit = std::get_if<Limit>(&found))

@@ -20,7 +20,7 @@ struct ReferenceValue {
 /// What every variant of a sweep is held against: the finite-strain answer extrapolated from three meshes,
 /// each known on the nodes of a grid.
 struct Reference {
-  cases::Scene scene;       ///< of the middle grid, on whose nodes displacements are compared
+  cases::Scene scene;       ///< that of the middle grid, on whose nodes displacements are compared
   cases::Solution solution; ///< the extrapolated displacement there
   ReferenceValue field;     ///< the displacement as a whole; its value is the root mean square, mm
   std::vector<ReferenceValue> measures; ///< those of the case, in its order

@@ -8,7 +8,6 @@
 #include "compare/solve/solve.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/sweep/costs.hpp"
 #include "msm/model.hpp"
 
 #include <algorithm>
@@ -17,7 +16,8 @@
 
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::compare::Variant, program, design, formulation, element, cells, tolerance)
+SPRINGPROOF_FIELDS(springproof::compare::Variant, program, design, formulation, element, cells, tolerance,
+                   step)
 SPRINGPROOF_FIELDS(springproof::compare::TimingRules, repetitions, budget_seconds)
 SPRINGPROOF_FIELDS(springproof::compare::VariantRun, first, again, setup_seconds, first_seconds,
                    again_seconds, is_warm, peak_megabytes, start_megabytes)
@@ -39,10 +39,7 @@ bool solve_timed(cases::Solution& solution, Times& times, const std::function<ca
 }
 
 cases::Scene with_load(cases::Scene scene, double factor) {
-  for (auto& applied : scene.loads) {
-    applied.load.value *= factor;
-    applied.load.moment *= factor;
-  }
+  for (auto& applied : scene.loads) applied.load.scale(factor);
   for (auto& moved : scene.moved) {
     moved.motion.displacement *= factor;
     moved.motion.angle *= factor;
@@ -196,6 +193,27 @@ void finish(const Sweep& sweep, SweepRow& row) {
   solution.cell_volume = {};
 }
 
+/// Solves and times a variant, in a process of its own or in this one (then collective).
+/// @param program  whose hidden command `worker` serves
+VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
+                       ProgressLine& line) {
+  const ProgressLine::Shown shown(line, full_name(variant), estimate_of(sweep, variant).seconds);
+  return sweep.processes == Processes::this_one ? run_here(sweep, variant)
+                                                : run_in_own_process(sweep, variant, program);
+}
+
+/// Adds the next of the plan's variants. With the last mesh of the reference, all rows get their errors.
+void add_row(Sweep& sweep, const Variant& variant, VariantRun run) {
+  sweep.rows.push_back({variant, std::move(run)});
+  const std::size_t n_reference = sweep.plan.reference.size();
+  if (sweep.rows.size() == n_reference) {
+    find_reference(sweep);
+    for (SweepRow& row : sweep.rows) finish(sweep, row);
+  } else if (sweep.rows.size() > n_reference) {
+    finish(sweep, sweep.rows.back());
+  }
+}
+
 } // namespace
 
 int n_repetitions(double seconds_of_first, const TimingRules& rules) {
@@ -283,24 +301,6 @@ Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules
     throw cases::InputError(definition.file + ": no reference to measure errors against: " + *reason);
   if (budget_seconds) cut_to_budget(sweep, *budget_seconds);
   return sweep;
-}
-
-VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
-                       ProgressLine& line) {
-  const ProgressLine::Shown shown(line, full_name(variant), estimate_of(sweep, variant).seconds);
-  return sweep.processes == Processes::this_one ? run_here(sweep, variant)
-                                                : run_in_own_process(sweep, variant, program);
-}
-
-void add_row(Sweep& sweep, const Variant& variant, VariantRun run) {
-  sweep.rows.push_back({variant, std::move(run)});
-  const std::size_t n_reference = sweep.plan.reference.size();
-  if (sweep.rows.size() == n_reference) {
-    find_reference(sweep);
-    for (SweepRow& row : sweep.rows) finish(sweep, row);
-  } else if (sweep.rows.size() > n_reference) {
-    finish(sweep, sweep.rows.back());
-  }
 }
 
 Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row) {

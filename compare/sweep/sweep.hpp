@@ -1,12 +1,19 @@
 #pragma once
 
+#include "cases/case/case.hpp"
+#include "cases/case/solution.hpp"
+#include "compare/solve/estimate.hpp"
 #include "compare/solve/progress.hpp"
 #include "compare/sweep/plan.hpp"
 #include "compare/sweep/reference.hpp"
 
 #include <functional>
 #include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
 
+/// Speed against error of a case: springs and finite elements at several resolutions, at rest and in time.
 namespace springproof::compare {
 
 /// How often a variant is timed.
@@ -33,7 +40,7 @@ struct VariantRun {
   std::vector<double> again_seconds;
   bool is_warm = false;                  ///< a round came before those that were timed
   std::optional<double> peak_megabytes;  ///< resident memory of the process that did nothing else
-  std::optional<double> start_megabytes; ///< of it before the model was made
+  std::optional<double> start_megabytes; ///< the same before the model was made
 };
 
 /// Solves a variant of a case again and again on one thread. Springs have to be stable under the smaller
@@ -49,12 +56,14 @@ std::string bytes_of(const VariantRun& run);
 /// @param answer  any bytes   @throws std::exception if they are no answer, or not this variant's
 VariantRun variant_run_from(const std::string& answer, const Variant& variant);
 
-/// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept.
+/// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept. A
+/// motion's first_seconds are those of computing for a second of motion, in one run without setting up, and
+/// its field's error is that of its watched nodes over time.
 struct SweepRow {
   Variant variant;
   VariantRun run;
   std::optional<double> field_error_percent{};
-  std::vector<std::optional<double>> measure_error_percent{}; ///< of the case's measures, with their sign
+  std::vector<std::optional<double>> measure_error_percent{}; ///< one a measure of the case, with its sign
 };
 
 enum class Processes { one_per_variant, this_one };
@@ -67,13 +76,13 @@ struct Sweep {
   TimingRules rules;
   Processes processes = Processes::one_per_variant;
   int n_ranks = 1;
-  std::vector<SweepRow> rows; ///< of the plan's variants, in its order
+  std::vector<SweepRow> rows; ///< one a variant of the plan, in its order
   std::optional<Reference> reference;
   std::string reason_without_reference;
   double seconds = 0; ///< that the sweep took
 };
 
-/// Whether the reference was solved, and of the other models, if there are any, one at least.
+/// Whether the reference was solved, and of the other models or motions, if there are any, one at least.
 bool has_answer(const Sweep& sweep);
 
 /// A sweep without rows.
@@ -83,15 +92,6 @@ bool has_answer(const Sweep& sweep);
 Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules& rules,
                  const std::optional<double>& budget_seconds = std::nullopt);
 
-/// Solves and times one of the sweep's variants, in a process of its own or in this one (then collective).
-/// @param program  whose hidden command `worker` serves
-/// @param line     shown meanwhile
-VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
-                       ProgressLine& line);
-
-/// The next of the plan's variants. With the last mesh of the reference, all rows get their errors.
-void add_row(Sweep& sweep, const Variant& variant, VariantRun run);
-
 /// Solves and times the plan's variants one after the other, each in a process of its own, and holds them
 /// against the extrapolated reference. A variant that fails is a row with its reason. A quick sweep, and any
 /// under MPI, runs in this process, and then memory is not told (collective; rank 0 alone has the springs'
@@ -100,5 +100,40 @@ void add_row(Sweep& sweep, const Variant& variant, VariantRun run);
 /// @param program  whose hidden command `worker` serves
 /// @param on_row   called with the sweep as it is after every variant
 Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row);
+
+/// Estimates one variant; seconds with all its rounds.
+Estimate estimate_of(const Sweep& sweep, const Variant& variant);
+/// Estimates each variant, in the order of the plan.
+std::vector<double> estimated_seconds(const Sweep& sweep);
+
+/// Leaves out the variants of the longest estimated times until the others fit into the budget, each with the
+/// reason. The reference's meshes stay, whatever they take.
+void cut_to_budget(Sweep& sweep, double budget_seconds);
+
+/// @throws InputError if a variant needs more memory than there is
+void check_memory(const Sweep& sweep);
+
+/// A line per method: variants, the largest one's unknowns and memory, seconds of all; then what is left out.
+void write_plan(std::ostream& out, const Sweep& sweep);
+
+/// The steps that a sweep in time takes, in those of the case.
+constexpr std::array<double, 3> step_factors{2, 1, 0.5};
+
+/// Springs of the designs that a sweep takes (springs_to_sweep()), the case's own with its settings and the
+/// others with their defaults, and the case's finite elements, on levels_of() its body, with twice, once and
+/// half the case's step or with that one alone, against the finite-strain motion on the finest level by
+/// generalized_alpha with a quarter of the step. One after the other in this process. Of the reference its
+/// field has a note, which says what it is, and the uncertainty: what the last halvings of its cells and of
+/// its step changed, together.
+/// @param on_row  called with the sweep as it is after every motion
+/// @throws InputError for a body that is no box, a case without measures of nodes, or with nodes that a level
+/// has not or that do not move; SolveError when the reference fails
+Sweep sweep_motion(const cases::Case& definition, Extent extent,
+                   const std::function<void(const Sweep&)>& on_row);
+
+/// Difference of two motions of equal nodes at the times of the second that both have, percent of the
+/// first's: root mean squares over times and nodes.
+std::optional<double> motion_error_percent(const cases::Trajectory& reference,
+                                           const cases::Trajectory& other);
 
 } // namespace springproof::compare

@@ -1,9 +1,7 @@
-#include "compare/sweep/write_screen.hpp"
+#include "compare/sweep/write_sweep.hpp"
 
-#include "compare/provenance/paragraph.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
-#include "compare/sweep/motion_conclusions.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,11 +19,6 @@ constexpr std::size_t n_told_points = 6;       ///< points of a front
 constexpr std::size_t n_told_failures = 2;     ///< failed models; the files have all
 constexpr std::size_t reason_characters = 180; ///< which two lines hold
 constexpr std::size_t characters_of_title = 180;
-
-/// Two digits, or the whole number.
-std::string short_number(double value) {
-  return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
-}
 
 std::string short_time(double seconds) {
   return seconds < 0.9995 ? short_number(1e3 * seconds) + " ms" : short_number(seconds) + " s";
@@ -168,40 +161,25 @@ void write_truth(std::ostream& out, const Sweep& sweep) {
   write_paragraph(out, text, "", "  ");
 }
 
-/// As many reasons as fit, and how many more there are.
-void write_reasons(std::ostream& out, const std::vector<std::string>& reasons) {
-  for (std::size_t r = 0; r < std::min(reasons.size(), n_told_failures); ++r)
-    write_paragraph(out, in_short(one_line(reasons[r]), reason_characters), "", "  ");
-  if (reasons.size() > n_told_failures) print(out, "and {} more failed\n", reasons.size() - n_told_failures);
-}
-
+/// Writes as many reasons as fit, and how many more there are.
 void write_not_solved(std::ostream& out, const Sweep& sweep) {
   std::vector<std::string> reasons;
   for (const SweepRow& row : sweep.rows)
     if (row.run.first.status == cases::Status::failed)
       reasons.push_back(full_name(row.variant) + " failed: " + row.run.first.message);
-  write_reasons(out, reasons);
+  for (std::size_t r = 0; r < std::min(reasons.size(), n_told_failures); ++r)
+    write_paragraph(out, in_short(one_line(reasons[r]), reason_characters), "", "  ");
+  if (reasons.size() > n_told_failures) print(out, "and {} more failed\n", reasons.size() - n_told_failures);
 }
 
-void write_not_followed(std::ostream& out, const MotionSweep& sweep) {
-  std::vector<std::string> reasons;
-  for (const MotionRow& row : sweep.rows)
-    if (!row.error_percent)
-      reasons.push_back(fmt::format("{}, {} cells, steps of {:g} ms failed: {}", row.method,
-                                    cells_name(row.cells), 1e3 * row.step, row.message));
-  write_reasons(out, reasons);
-}
-
-void write_title(std::ostream& out, const cases::Case& definition) {
-  const std::string text = one_line(definition.name + ": " + definition.description);
+void write_title(std::ostream& out, const Sweep& sweep) {
+  const std::string text = one_line(sweep.definition.name + ": " + sweep.definition.description);
   write_paragraph(out, in_short(text, characters_of_title), "", "  ");
+  if (!sweep.settings.empty())
+    write_paragraph(out, fmt::format("with {}", fmt::join(sweep.settings, ", ")), "  ", "  ");
 }
 
-void write_settings(std::ostream& out, const std::vector<std::string>& settings) {
-  if (!settings.empty()) write_paragraph(out, fmt::format("with {}", fmt::join(settings, ", ")), "  ", "  ");
-}
-
-void write_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
+void tell_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
   if (left_out.empty()) return;
   const LeftOut& last = left_out.back();
   const std::string text =
@@ -210,6 +188,13 @@ void write_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
 }
 
 void write_where(std::ostream& out, const Sweep& sweep, const std::string& folder) {
+  if (sweep.definition.dynamics)
+    return write_paragraph(out, "every motion's row: " +
+                                    (folder.empty()
+                                         ? "--out DIR"
+                                         : "motion_sweep.txt, motion_sweep.csv, motion_sweep.json and a "
+                                           "plot in " +
+                                               folder));
   const std::string where = folder.empty() ? "--out DIR" : "sweep.txt, .csv, .json and plots in " + folder;
   write_paragraph(
       out,
@@ -220,41 +205,36 @@ void write_where(std::ostream& out, const Sweep& sweep, const std::string& folde
                   where));
 }
 
+void write_motions(std::ostream& out, const Sweep& sweep) {
+  const ReferenceValue& reference = sweep.reference->field;
+  write_paragraph(
+      out, fmt::format("reference: {}; known to {:.2g} %", reference.note, reference.uncertainty_percent), "",
+      "  ");
+  out << "\nIn real time, on one thread:\n";
+  for (const std::string& sentence : interactive_sentences(sweep))
+    write_paragraph(out, sentence, "  ", "    ");
+  out << "\nSpeed against error: no motion is both faster and more accurate than\n";
+  print(out, "  {:>26} {:>9}\n", "s of computing a second", "error");
+  for (const Point& point : thinned_front(motion_points(sweep), 2 * n_told_points))
+    print(out, "  {:>26} {:>9}  {}{}\n", short_number(point.seconds),
+          error_text(point, reference.uncertainty_percent), in_short(point.name, screen_width - 42),
+          point.more_cells_percent ? " ~" : "");
+  out << "  ~ by accident: more cells and shorter steps lead to a larger error\n\n";
+}
+
 } // namespace
 
 void write_sweep_screen(std::ostream& out, const Sweep& sweep, const std::string& folder) {
-  write_title(out, sweep.definition);
-  write_settings(out, sweep.settings);
-  write_truth(out, sweep);
-  if (sweep.reference) write_answers(out, sweep);
+  write_title(out, sweep);
+  if (sweep.definition.dynamics) {
+    write_motions(out, sweep);
+  } else {
+    write_truth(out, sweep);
+    if (sweep.reference) write_answers(out, sweep);
+  }
   write_not_solved(out, sweep);
-  write_left_out(out, sweep.plan.left_out);
+  tell_left_out(out, sweep.plan.left_out);
   write_where(out, sweep, folder);
-}
-
-void write_motion_sweep_screen(std::ostream& out, const MotionSweep& sweep, const std::string& folder) {
-  write_title(out, sweep.definition);
-  write_settings(out, sweep.settings);
-  write_paragraph(out,
-                  fmt::format("reference: {}; known to {:.2g} %", sweep.reference, sweep.uncertainty_percent),
-                  "", "  ");
-  out << "\nIn real time, on one thread:\n";
-  for (const std::string& sentence : conclusions(sweep)) write_paragraph(out, sentence, "  ", "    ");
-  out << "\nSpeed against error: no motion is both faster and more accurate than\n";
-  print(out, "  {:>26} {:>9}\n", "s of computing a second", "error");
-  for (const Point& point : thinned_front(points_of(sweep), 2 * n_told_points))
-    print(out, "  {:>26} {:>9}  {}{}\n", short_number(point.seconds),
-          error_text(point, sweep.uncertainty_percent), in_short(point.name, screen_width - 42),
-          point.more_cells_percent ? " ~" : "");
-  out << "  ~ by accident: more cells and shorter steps lead to a larger error\n\n";
-  write_not_followed(out, sweep);
-  write_left_out(out, sweep.left_out);
-  const std::string what = "every motion's row";
-  write_paragraph(out, folder.empty()
-                           ? what + ": --out DIR"
-                           : fmt::format("{}: motion_sweep.txt, motion_sweep.csv, motion_sweep.json "
-                                         "and a plot in {}",
-                                         what, folder));
 }
 
 } // namespace springproof::compare

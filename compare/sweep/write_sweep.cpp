@@ -5,17 +5,13 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
-#include "compare/sweep/error_plot.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -34,8 +30,6 @@ std::string percent(const std::optional<double>& value) {
 
 void write_head(std::ostream& out, const Sweep& sweep) {
   const Machine machine = describe_machine();
-  print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
-  for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
   print(out, "  machine: {}, {} cores, {}, {}, {}\n", machine.processor, machine.cores, machine.system,
         machine.compiler, machine.blas);
   if (sweep.processes == Processes::one_per_variant)
@@ -90,19 +84,6 @@ void write_reference(std::ostream& out, const Sweep& sweep) {
   for (const ReferenceValue& value : sweep.reference->measures) line(value);
 }
 
-using Columns = std::vector<std::optional<double>>;
-
-/// Lower quartile, median, upper quartile.
-Columns quartile_columns(const std::vector<double>& seconds) {
-  if (seconds.empty()) return Columns(3);
-  const BoxPlot box = box_plot(seconds);
-  return {box.lower_quartile, box.median, box.upper_quartile};
-}
-
-Columns counter_columns(const cases::Solution& s) {
-  return {s.newton_iterations, s.linear_iterations, s.factorisations, s.force_evaluations};
-}
-
 Json times(const std::vector<double>& seconds) {
   if (seconds.empty()) return nullptr;
   const BoxPlot box = box_plot(seconds);
@@ -110,31 +91,21 @@ Json times(const std::vector<double>& seconds) {
 }
 
 Json counters(const cases::Solution& s) {
-  return {{"newton_iterations", s.newton_iterations},
-          {"linear_iterations", s.linear_iterations},
-          {"factorisations", s.factorisations},
-          {"force_evaluations", s.force_evaluations},
-          {"residual", s.residual}};
+  return SPRINGPROOF_MEMBERS(s, newton_iterations, linear_iterations, factorisations, force_evaluations,
+                             residual);
 }
 
 Json value_to_json(const ReferenceValue& v) {
-  return {{"name", v.name},
-          {"unit", v.unit},
-          {"value", v.value},
-          {"uncertainty_percent", v.uncertainty_percent},
-          {"note", v.note}};
+  return SPRINGPROOF_MEMBERS(v, name, unit, value, uncertainty_percent, note);
 }
 
 Json reference_to_json(const Sweep& sweep) {
   if (!sweep.reference) return {{"reason", sweep.reason_without_reference}};
-  Json meshes = Json::array(), measures = Json::array();
-  for (const Variant& mesh : sweep.plan.reference) meshes.push_back(mesh.cells);
-  for (const ReferenceValue& value : sweep.reference->measures) measures.push_back(value_to_json(value));
   return {{"method", method_name(sweep.plan.reference.front())},
-          {"meshes", meshes},
+          {"meshes", json_list(sweep.plan.reference, [](const Variant& mesh) { return mesh.cells; })},
           {"compared_on", sweep.reference->scene.mesh.grid->cells},
           {"field", value_to_json(sweep.reference->field)},
-          {"measures", measures}};
+          {"measures", json_list(sweep.reference->measures, value_to_json)}};
 }
 
 Json row_to_json(const Sweep& sweep, const SweepRow& row) {
@@ -162,59 +133,46 @@ Json row_to_json(const Sweep& sweep, const SweepRow& row) {
       {"error_percent", errors}};
 }
 
-struct Picture {
-  Error error;
-  Clock clock;
-  const char *name, *title;
-};
-constexpr Picture pictures[] = {
-    {Error::field, Clock::first_answer, "field_first", "displacement field, first answer (setup and solve)"},
-    {Error::field, Clock::re_solve, "field_again", "displacement field, re-solve after a load change of 5 %"},
-    {Error::worst_measure, Clock::first_answer, "measures_first",
-     "worst measure, first answer (setup and solve)"},
-    {Error::worst_measure, Clock::re_solve, "measures_again",
-     "worst measure, re-solve after a load change of 5 %"}};
-
-/// The finite elements have linetype 1 (small strain), 7 (finite strain) and 8 (CalculiX), an element its
-/// marker.
-/// @param number  of the design among ours, or among those of others
-Appearance appearance(const Variant& v, int number) {
-  if (v.program == Program::springs) return appearance_of_springs(v.design, number);
-  if (v.program == Program::calculix) return {8, 1 + static_cast<int>(v.formulation)};
-  const int marker = v.element == cases::Element::q1 ? 4 : v.element == cases::Element::q1_bbar ? 6 : 12;
-  return {v.formulation == cases::Formulation::small_strain ? 1 : 7, marker};
+Json motion_row_to_json(const SweepRow& row) {
+  return {{"method", method_name(row.variant)},
+          {"cells", row.variant.cells},
+          {"step_seconds", row.variant.step},
+          {"status", cases::name_of(row.run.first.status)},
+          {"message", row.run.first.message},
+          {"unknowns", row.run.first.unknowns},
+          {"seconds_per_second", median(row.run.first_seconds)},
+          {"error_percent", row.field_error_percent}};
 }
 
-/// Points of the tightest tolerance are joined.
-std::vector<Series> series_of(const Sweep& sweep, const Picture& picture) {
-  std::vector<Series> all;
-  std::array<int, 2> n_designs{}; // ours, and of others
-  for (const std::string& method : methods_of(sweep)) {
-    std::vector<const SweepRow*> rows;
-    double tightest = 1;
-    for (const SweepRow& row : sweep.rows) {
-      if (method_name(row.variant) != method) continue;
-      rows.push_back(&row);
-      tightest = std::min(tightest, row.variant.tolerance);
-    }
-    const Variant& first = rows.front()->variant;
-    int& n_alike = n_designs.at(cases::is_of_others(first.design) ? 1 : 0);
-    Series series{method, appearance(first, n_alike)};
-    if (first.program == Program::springs) {
-      ++n_alike;
-      series.floor = errors_by_level(sweep, method, picture.error).back();
-    }
-    for (const SweepRow* row : rows)
-      if (const auto point = point_of(*row, picture.error, picture.clock))
-        series.add(*point, row->variant.tolerance == tightest);
-    if (!series.joined.empty() || !series.loose.empty()) all.push_back(series);
+void write_left_out(std::ostream& out, const Sweep& sweep) {
+  for (const LeftOut& left : sweep.plan.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+}
+
+void write_motions_text(std::ostream& out, const Sweep& sweep) {
+  print(out, "  one run of each on one thread, one after the other; times without setting up\n");
+  print(out, "  reference: {}; uncertainty {:.2g} %\n", sweep.reference->field.note,
+        sweep.reference->field.uncertainty_percent);
+  print(out, "  {:<34}{:>12} {:>9} {:>9} {:>24} {:>9}\n", "method", "cells", "step, ms", "unknowns",
+        "s of computing a second", "error, %");
+  for (const SweepRow& row : sweep.rows) {
+    const cases::Solution& s = row.run.first;
+    print(out, "  {:<34}{:>12} {:>9.4g} {:>9}", method_name(row.variant), cells_name(row.variant.cells),
+          1e3 * row.variant.step, s.unknowns);
+    if (row.field_error_percent)
+      print(out, " {:>24.3g} {:>9.3g}\n", row.run.first_seconds.front(), *row.field_error_percent);
+    else
+      print(out, " {}: {}\n", cases::name_of(s.status), s.message);
   }
-  return all;
+  write_left_out(out, sweep);
+  for (const std::string& sentence : interactive_sentences(sweep)) print(out, "{}\n", sentence);
 }
 
 } // namespace
 
 void write_sweep_text(std::ostream& out, const Sweep& sweep) {
+  print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
+  for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
+  if (sweep.definition.dynamics) return write_motions_text(out, sweep);
   write_head(out, sweep);
   print(out, "  {:<34}{:>10} {:>6} {:>8} {:>3} {:>22} {:>22} {:>22} {:>4} {:>5} {:>4} {:>5} {:>7} {:>8}",
         "method", "cells", "tol.", "unknowns", "n", "setup, ms", "first solve, ms", "re-solve, ms", "New.",
@@ -223,7 +181,7 @@ void write_sweep_text(std::ostream& out, const Sweep& sweep) {
   print(out, "\n");
   for (const SweepRow& row : sweep.rows) write_row(out, row);
   write_reference(out, sweep);
-  for (const LeftOut& left : sweep.plan.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+  write_left_out(out, sweep);
   for (const Conclusions& group : conclusions(sweep)) {
     print(out, "{}\n", group.heading);
     for (const std::string& sentence : group.sentences) print(out, "  {}\n", sentence);
@@ -232,75 +190,71 @@ void write_sweep_text(std::ostream& out, const Sweep& sweep) {
 }
 
 void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
-  CsvWriter csv(out, 10);
-  std::vector<std::string> names{"case",   "method",  "cells_x",  "cells_y", "cells_z", "tolerance",
-                                 "status", "message", "unknowns", "rounds",  "warm_up"};
-  for (const std::string what : {"setup", "first", "again"})
-    for (const char* quartile : {"_lower_quartile_s", "_median_s", "_upper_quartile_s"})
-      names.push_back(what + quartile);
-  for (const std::string what : {"first", "again"})
-    for (const char* counter : {"_newton", "_cg", "_factorisations", "_forces"})
-      names.push_back(what + counter);
-  names.insert(names.end(), {"start_MB", "peak_MB", "field_error_percent"});
-  for (const cases::Measure& measure : sweep.definition.measures)
-    names.push_back(measure.name + "_error_percent");
-  csv.row(names);
-  for (const SweepRow& row : sweep.rows) {
-    const VariantRun& run = row.run;
-    Columns errors{row.field_error_percent};
-    errors.insert(errors.end(), row.measure_error_percent.begin(), row.measure_error_percent.end());
-    errors.resize(sweep.definition.measures.size() + 1);
-    csv.row(sweep.definition.name, method_name(row.variant), row.variant.cells[0], row.variant.cells[1],
-            row.variant.cells[2], row.variant.tolerance, cases::name_of(run.first.status), run.first.message,
-            run.first.unknowns, run.first_seconds.size(), run.is_warm, quartile_columns(run.setup_seconds),
-            quartile_columns(run.first_seconds), quartile_columns(run.again_seconds),
-            counter_columns(run.first), run.again_seconds.empty() ? Columns(4) : counter_columns(run.again),
-            run.start_megabytes, run.peak_megabytes, errors);
+  if (sweep.definition.dynamics) {
+    Json rows = json_list(sweep.rows, motion_row_to_json);
+    for (Json& row : rows) row["case"] = sweep.definition.name;
+    return write_csv(
+        out,
+        columns_of("case method cells_x=cells.0 cells_y=cells.1 cells_z=cells.2 step_s=step_seconds "
+                   "status message unknowns seconds_per_second error_percent"),
+        rows);
   }
-}
-
-Json left_out_to_json(const std::vector<LeftOut>& left_out) {
-  Json all = Json::array();
-  for (const LeftOut& left : left_out) all.push_back({{"what", left.what}, {"reason", left.reason}});
-  return all;
+  std::string text = "case method cells_x=cells.0 cells_y=cells.1 cells_z=cells.2 tolerance status message "
+                     "unknowns rounds warm_up ";
+  for (const char* what : {"setup", "first", "again"})
+    text += fmt::format("{0}_lower_quartile_s=seconds.{0}.quartiles.0 {0}_median_s=seconds.{0}.median "
+                        "{0}_upper_quartile_s=seconds.{0}.quartiles.1 ",
+                        what);
+  for (const char* what : {"first", "again"})
+    text += fmt::format("{0}_newton={0}.newton_iterations {0}_cg={0}.linear_iterations "
+                        "{0}_factorisations={0}.factorisations {0}_forces={0}.force_evaluations ",
+                        what);
+  Columns columns = columns_of(text + "start_MB=memory_MB.start peak_MB=memory_MB.peak field_error_percent");
+  for (const cases::Measure& measure : sweep.definition.measures)
+    columns.push_back({measure.name + "_error_percent", "error_percent." + measure.name});
+  write_csv(out, columns, json_list(sweep.rows, [&](const SweepRow& row) {
+              Json json = row_to_json(sweep, row);
+              json.update({{"case", sweep.definition.name},
+                           {"tolerance", row.variant.tolerance},
+                           {"field_error_percent", row.field_error_percent}});
+              if (row.run.again_seconds.empty()) json["again"] = nullptr;
+              return json;
+            }));
 }
 
 Json sweep_to_json(const Sweep& sweep) {
+  const bool moves = sweep.definition.dynamics.has_value();
   Json document = provenance();
-  document["case"] = sweep.definition.name;
-  document["description"] = sweep.definition.description;
-  document["settings"] = sweep.settings;
-  document["threads"] = 1;
-  document["ranks"] = sweep.n_ranks;
-  document["own_process_per_variant"] = sweep.processes == Processes::one_per_variant;
-  document["repetitions"] = sweep.rules.repetitions;
-  document["budget_seconds"] = sweep.rules.budget_seconds;
-  document["load_change"] = load_change;
-  document["reference"] = reference_to_json(sweep);
-  document["variants"] = Json::array();
-  for (const SweepRow& row : sweep.rows) document["variants"].push_back(row_to_json(sweep, row));
-  document["left_out"] = left_out_to_json(sweep.plan.left_out);
-  document["conclusions"] = Json::array();
-  for (const Conclusions& group : conclusions(sweep))
-    document["conclusions"].push_back({{"heading", group.heading}, {"sentences", group.sentences}});
+  document.update({{"case", sweep.definition.name},
+                   {"description", sweep.definition.description},
+                   {"settings", sweep.settings},
+                   {"threads", 1}});
+  if (moves) {
+    const ReferenceValue& reference = sweep.reference->field;
+    document["reference"] = {{"motion", reference.note},
+                             {"uncertainty_percent", reference.uncertainty_percent}};
+    document["motions"] = json_list(sweep.rows, motion_row_to_json);
+  } else {
+    document.update({{"ranks", sweep.n_ranks},
+                     {"own_process_per_variant", sweep.processes == Processes::one_per_variant},
+                     {"repetitions", sweep.rules.repetitions},
+                     {"budget_seconds", sweep.rules.budget_seconds},
+                     {"load_change", load_change},
+                     {"reference", reference_to_json(sweep)}});
+    document["variants"] =
+        json_list(sweep.rows, [&](const SweepRow& row) { return row_to_json(sweep, row); });
+  }
+  document["left_out"] = json_list(
+      sweep.plan.left_out, [](const LeftOut& left) { return SPRINGPROOF_MEMBERS(left, what, reason); });
+  if (moves) {
+    document["conclusions"] = interactive_sentences(sweep);
+    return document;
+  }
+  document["conclusions"] = json_list(conclusions(sweep), [](const Conclusions& group) {
+    return SPRINGPROOF_MEMBERS(group, heading, sentences);
+  });
   document["seconds"] = sweep.seconds;
   return document;
-}
-
-void plot_sweep(const std::string& folder, const Sweep& sweep) {
-  if (!sweep.reference) return;
-  for (const Picture& picture : pictures) {
-    ErrorPlot plot{picture.name,
-                   picture.name + std::string(".csv"),
-                   sweep.definition.name + ": " + picture.title,
-                   "time",
-                   "ms",
-                   1e-3};
-    plot.uncertainty = uncertainty_percent(*sweep.reference, picture.error);
-    plot.series = series_of(sweep, picture);
-    plot.points = points_of(sweep, picture.error, picture.clock);
-    plot_errors(folder, plot); // which has no points of a case without measures, for one
-  }
 }
 
 } // namespace springproof::compare

@@ -1,7 +1,6 @@
-#include "compare/thesis/designs.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/thesis/volumes.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,7 +27,7 @@ void add(DesignRow& row, const PublishedFigure& figure, const std::optional<doub
 
 void add_computed(DesignRow& row, const PublishedFigure& figure, const Solutions& solutions,
                   const JobPair& jobs) {
-  const MeasuredPair pair = measured_pair(solutions.at(jobs.fem), solutions.at(jobs.msm), figure.measure);
+  const MeasuredPair pair = measured_pair(solutions, jobs, figure.measure);
   add(row, figure, pair.error(), pair.reason, trace_of(jobs));
 }
 
@@ -56,18 +55,20 @@ msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const case
 
 Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {
   const std::vector<JobPair> jobs = advice_jobs(asked);
-  std::vector<CubeSolve> solves;
-  for (const JobPair& test : jobs) solves.push_back({solutions.at(test.fem), solutions.at(test.msm)});
+  std::vector<Comparison> tests;
+  for (const auto& [fem, msm] : jobs) // springs that the material refuses have no scene
+    tests.push_back(
+        compare_sides(solutions.at(fem).scene, solutions.at(fem).answers, solutions.at(msm).answers));
   Advice advice{asked.poissons_ratio, asked.design};
-  const Comparison& msm = solves.front().msm;
-  const auto& design = msm.answers.design;
+  const auto& design = tests.front().answers.design;
   advice.is_designed = design.has_value();
-  if (design && !design->terms) advice.stiffness = over_modulus_and_edge(design->stiffness, msm.scene);
-  advice.cube = cube_errors(solves);
+  if (design && design->springs.cells())
+    advice.stiffness = over_modulus_and_edge(design->stiffness, tests.front().scene);
+  advice.cube = cube_errors(tests);
   std::vector<double> fem_seconds, msm_seconds;
-  for (const auto& [fem, springs] : solves) {
-    if (fem.answers.fem.converged()) fem_seconds.push_back(fem.answers.fem.seconds());
-    if (springs.answers.msm.converged()) msm_seconds.push_back(springs.answers.msm.seconds());
+  for (const Comparison& test : tests) {
+    if (test.answers.fem.converged()) fem_seconds.push_back(test.answers.fem.seconds());
+    if (test.answers.msm.converged()) msm_seconds.push_back(test.answers.msm.seconds());
   }
   advice.fem_seconds = median(fem_seconds).value_or(0);
   advice.msm_seconds = median(msm_seconds).value_or(0);
@@ -119,13 +120,11 @@ std::vector<DesignRow> design_rows(const std::vector<PublishedFigure>& figures, 
 
 void recommend(std::vector<Advice>& advice) {
   for (Advice& candidate : advice) {
-    const auto worst = worst_if_stable(candidate.cube);
-    candidate.is_recommended =
-        worst && std::none_of(advice.begin(), advice.end(), [&](const Advice& other) {
-          const auto others = worst_if_stable(other.cube);
-          const bool is_rival = other.poissons_ratio == candidate.poissons_ratio && &other != &candidate;
-          return is_rival && others && (*others < *worst || (*others == *worst && &other < &candidate));
-        });
+    std::vector<Standing> rivals;
+    for (const Advice& other : advice)
+      rivals.push_back(other.poissons_ratio == candidate.poissons_ratio ? other.cube.standing() : Standing{});
+    const auto found = recommended_of(rivals);
+    candidate.is_recommended = found && &advice[*found] == &candidate;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "compare/thesis/table_jobs.hpp"
+#include "compare/modes/eigenspaces.hpp"
+#include "compare/thesis/published.hpp"
 
 /// The published figures beside the computed ones, what is known of those that are not met, and how many are.
 namespace springproof::compare {
@@ -62,7 +63,7 @@ struct SummaryGroup {
   std::vector<Within> within;
   double listing_bound; ///< entries beyond it are listed
   Trace trace;          ///< counts again
-  /// By every reference; the entry's finding explains it, or nothing does.
+  /// Entries that no reference meets; the entry's finding explains it, or nothing does.
   std::vector<const TableEntry*> beyond;
   int n_failed = 0;     ///< without a value against some reference, whatever the others give
   int n_reproduced = 0; ///< entries without a failure within the listing bound
@@ -70,5 +71,18 @@ struct SummaryGroup {
 
 /// Counts what is reproduced; pointers go into `entries`.
 std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries);
+
+struct CellAnalysis {
+  double poissons_ratio;
+  msm::CellStiffness stiffness; ///< N/mm; the same figures are the pseudo-stiffnesses k' = 2 k/(L0 E)
+  EigenspaceAnalysis spaces;
+};
+
+/// The cells of these figures' Poisson's ratios, ascending, each once.
+std::vector<CellAnalysis> analyse_cells(const std::vector<PublishedFigure>& figures);
+
+/// One entry per published figure of a cell.
+std::vector<TableEntry> cell_entries(const std::vector<PublishedFigure>& figures,
+                                     const std::vector<CellAnalysis>& cells);
 
 } // namespace springproof::compare

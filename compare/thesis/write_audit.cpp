@@ -1,6 +1,6 @@
-#include "compare/thesis/write_audit.hpp"
+#include "compare/thesis/write.hpp"
 
-#include "compare/thesis/sheets.hpp"
+#include "compare/thesis/layout.hpp"
 
 #include <algorithm>
 #include <fmt/ostream.h>
@@ -105,26 +105,22 @@ std::string exponents(const msm::CellStiffness& k) {
 void write_recommendation(std::ostream& out, const Advice& a) {
   const double youngs_modulus = 0.05;            // MPa, soft tissue
   const double per_metre = 1e3 * youngs_modulus; // N/m of a cell of 1 mm
-  if (!a.stiffness) {
-    fmt::print(
-        out,
-        "  nu = {:g}: use {}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large "
-        "ones, volume within {:.1f} %.\n      its springs again (E = 1 MPa): {}\n",
-        a.poissons_ratio, a.design, *a.cube.small.worst, *a.cube.large.worst, *a.cube.worst_volume(),
-        a.trace.command);
-    return;
-  }
-  const msm::CellStiffness& k = *a.stiffness;
+  const auto& k = a.stiffness;
+  const std::string stiffnesses =
+      k ? fmt::format(
+              ". E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = {:.5f} MPa{}",
+              per_metre * k->edge, per_metre * k->face_diagonal, per_metre * k->internal_diagonal,
+              youngs_modulus * k->volume, exponents(*k))
+        : "";
   fmt::print(
       out,
-      "  nu = {:g}: use {}. E = 50 kPa, L0 = 1 mm: k_e, k_f, k_d = {:.2f}, {:.2f}, {:.2f} N/m, k_v = {:.5f} "
-      "MPa{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large ones, volume "
-      "within {:.1f} %.\n      its stiffnesses again (E = 1 MPa): {}\n      its worst errors again: {}\n     "
-      " {}\n",
-      a.poissons_ratio, a.design, per_metre * k.edge, per_metre * k.face_diagonal,
-      per_metre * k.internal_diagonal, youngs_modulus * k.volume, exponents(k), *a.cube.small.worst,
-      *a.cube.large.worst, *a.cube.worst_volume(), a.trace.command, a.small_trace.command,
-      a.large_trace.command);
+      "  nu = {:g}: use {}{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large "
+      "ones, volume within {:.1f} %.\n      its {} again (E = 1 MPa): {}\n",
+      a.poissons_ratio, a.design, stiffnesses, *a.cube.small.worst, *a.cube.large.worst,
+      *a.cube.worst_volume(), k ? "stiffnesses" : "springs", a.trace.command);
+  if (k)
+    fmt::print(out, "      its worst errors again: {}\n      {}\n", a.small_trace.command,
+               a.large_trace.command);
 }
 
 void write_beyond(std::ostream& out, const TableEntry& entry) {

@@ -1,8 +1,7 @@
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/write.hpp"
 
 #include "cases/case/names.hpp"
-#include "cases/case/read_models.hpp"
-#include "compare/provenance/paragraph.hpp"
+#include "cases/case/readers.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/thesis/layout.hpp"
 

@@ -1,14 +1,100 @@
 #pragma once
 
+#include "cases/scene/scene.hpp"
 #include "compare/gates/comparison.hpp"
-#include "compare/write/case_json.hpp"
+#include "compare/table/json.hpp"
 #include "compare/write/write_fields.hpp"
-#include "compare/write/write_text.hpp"
+#include "msm/design/design.hpp"
 
 #include <ostream>
+#include <string>
+#include <vector>
 
-/// One plain record (Comparison), many writers.
+/// One plain record (Comparison), many writers: text in lines of at most 100 columns, JSON, CSV and files. Of
+/// gates, kinds of references are kept apart in each.
 namespace springproof::compare {
+
+/// What a run's text has of the mesh study.
+enum class MeshTable { left_out, printed };
+
+/// Body, loads, both sides, warnings, the peer, measures and expectations, in lines of at most 100 columns.
+/// The verdict comes after it: write_verdict_text() of compare/ranking.
+void write_text(std::ostream& out, const Comparison& comparison, MeshTable meshes = MeshTable::left_out);
+
+/// Whether a measure's error is the norm of a difference, of fields over the body or of courses over time; it
+/// has no sign.
+bool is_norm(const MeasuredValue& measured, const cases::Case& definition);
+
+/// The body's size, so that one in metres is told from one in millimetres; the loads as one force and one
+/// moment, unless a load follows a history; the areas that loads and motions act on.
+void write_scene_text(std::ostream& out, const cases::Scene& scene);
+
+/// {"size_mm", "volume_mm3", "cells", "nodes"}
+Json body_to_json(const cases::Scene& scene);
+
+/// {"force_N", "moment_N_mm", "about_mm" (null where a load follows a history), "areas_mm2": {"load[0]":
+/// ...}}
+Json loads_to_json(const cases::Scene& scene);
+
+/// A design's springs in a few words: "k_e, k_f, k_d = 31, 47, 33 N/m", "12 springs of 50, 6 of 50 N/m in a
+/// cell", "5 tetrahedra in a cell".
+std::string springs_text(const msm::DesignResult& design);
+
+/// stiffness_N_per_m (null where the cells are not of four stiffnesses), volume_stiffness_MPa, exponents if
+/// there are any, and `cell`, the springs of a cell one by one, where there are no four stiffnesses.
+Json springs_to_json(const msm::DesignResult& design);
+
+/// Everything that the program warns of in a case's result, a sentence each: about the loads, the files that
+/// the body is made from, another program's displacements, and the design of the springs. Warnings about
+/// steps in time are in notes_on_motion().
+std::vector<std::string> warnings_of(const Comparison& comparison);
+
+/// A measure's values on all meshes, its limit where there is one, and why there is none.
+Json studied_to_json(const StudiedMeasure& measure);
+
+void write_landmarks_text(std::ostream& out, const Comparison& comparison);
+
+/// [{"name", "point", "from_point", "n_rays", "mean", "deviation", "moved", "reason"}], lengths in mm.
+Json landmarks_to_json(const Comparison& comparison);
+
+/// One row per landmark: case,landmark,x,y,z,from_point,n_rays,mean,deviation,moved; lengths in mm.
+void write_landmarks_csv(std::ostream& out, const Comparison& comparison);
+
+/// One row per measure and step: case,measure,unit,time,fem,msm; times in s, empty where a model has no
+/// motion.
+void write_motion_csv(std::ostream& out, const Comparison& comparison);
+
+/// The same, and the notes: {"notes": [...], "time": [...], "measures": [{"name", "unit", "fem": [...],
+/// "msm": [...]}]}, and of a case with a [surface] how far the models' are apart: "surface": {"time", "fem",
+/// "difference", "largest_difference", "error_percent"}; null for a case without motion.
+Json motion_to_json(const Comparison& comparison);
+
+/// What steps make of each model's slowest vibration: of the implicit Euler method always, of another scheme
+/// where they change it; what the implicit Euler method adds to the damping of every measure that swings;
+/// warnings where that is more than the body's own; and a line on how far the surfaces of both models are
+/// apart.
+std::vector<std::string> notes_on_motion(const Comparison& comparison);
+
+/// FOLDER/NAME_motion.csv, and FOLDER/NAME.pvd, which lists the bodies FOLDER/NAME_motion/NAME_0000.vtu, ...
+/// by their times; of a case without motion nothing. On one rank.
+/// @throws InputError if a file cannot be written
+void write_motion(const std::string& folder, const Comparison& comparison);
+
+/// What every document of results begins with: schema, program and machine.
+Json provenance();
+
+/// "converged", "failed" or "skipped"; of an answer that was asked for after a number of iterations, and that
+/// is no equilibrium, that.
+std::string status_of(const cases::Solution& solution);
+
+/// The solution of one side and what it took.
+Json side_to_json(const Answer& answer);
+
+/// One of the cases of to_json().
+Json case_to_json(const Comparison& comparison);
+
+/// The document of `run --json`: schema, program, machine and the cases.
+Json to_json(const std::vector<Comparison>& comparisons);
 
 /// One row per case and measure: case,measure,unit,fem,msm,error_percent,fem_status,msm_status,
 /// fem_discretisation_error_percent,peer,reference,fem_limit,fem_limit_uncertainty,error_uncertainty_percent,
@@ -19,5 +105,35 @@ void write_csv(std::ostream& out, const std::vector<Comparison>& comparisons);
 /// Called after every case, so that what is finished is on disk before the next begins; by every rank.
 /// @param done  at least one
 void write_results(const std::string& folder, const std::vector<Comparison>& done);
+
+/// Why a gate is not met; empty when it is.
+std::string reason_of(const Gate& gate);
+
+/// A gate in words: "alpha_1 error_percent = -4.98 % in [-6.44, -3.38]", or with the reason why not.
+std::string describe(const Gate& gate);
+
+/// What `run` tells of a case's expectations: how many are met, and of the others a line each, "MISSED", or
+/// "not judged" of those that need a side that was not asked for.
+void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates);
+
+/// The same: [{"measure", "quantity", "interval", "reference", "value", "met", "judged", "undecided",
+/// "reason"}, ...]
+Json expectations_to_json(const std::vector<Gate>& gates);
+
+/// One line per gate (and per failure of a case as a whole), warnings under their gates, and counts per kind.
+void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases);
+
+/// JUnit's XML as continuous-integration servers read it: a test suite per kind of reference, named
+/// springproof.KIND, a test case per gate; a gate without a value is an error, one outside its interval a
+/// failure. What failed as a whole stands in the suite springproof.cases. Without times, so that the same
+/// results make the same file.
+void write_gates_junit(std::ostream& out, const std::vector<Comparison>& cases);
+
+/// {"schema", "program", "machine", "gates": [...], "failures": [...], "kinds": {...}, "met"}
+Json gates_to_json(const std::vector<Comparison>& cases);
+
+/// GitHub's workflow commands: "::error file=...,line=...,title=...::message" for what is not met,
+/// "::warning" for warnings.
+void write_gates_annotations(std::ostream& out, const std::vector<Comparison>& cases);
 
 } // namespace springproof::compare

@@ -1,18 +1,14 @@
-#include "compare/write/write_gates.hpp"
+#include "compare/write/write.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/write/columns.hpp"
-#include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
-#include "compare/write/write.hpp"
+#include "compare/table/table.hpp"
+#include "compare/write/quote.hpp"
 
 #include <algorithm>
 #include <fmt/ranges.h>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -22,7 +18,7 @@ struct GateCount {
   int met = 0, all = 0;
 };
 
-/// Of the kinds that occur, in the order of their table.
+/// Counts the kinds that occur, in the order of their table.
 std::vector<GateCount> count_by_kind(const std::vector<Comparison>& cases) {
   std::vector<GateCount> counts;
   for (const std::string& name : cases::all_names<cases::ReferenceKind>()) {
@@ -97,7 +93,7 @@ struct TestSuite {
 std::vector<TestSuite> make_suites(const std::vector<Comparison>& cases) {
   std::vector<TestSuite> suites{{"springproof.cases"}};
   for (const Comparison& judged : cases) {
-    int n = 0; // of the case's failures
+    int n = 0; // failures of the case so far
     for (const std::string& failure : judged.failures())
       suites.front().add("solved and judged" + (n++ == 0 ? "" : fmt::format(" ({})", n)),
                          judged.scene.definition.name, "error", failure, {});

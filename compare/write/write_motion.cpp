@@ -1,18 +1,16 @@
-#include "compare/write/write_motion.hpp"
+#include "compare/write/write.hpp"
 
 #include "compare/measure/measure.hpp"
-#include "compare/measure/numerical_damping.hpp"
+#include "compare/measure/over_time.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
-#include "compare/write/escape.hpp"
-#include "compare/write/json.hpp"
+#include "compare/table/table.hpp"
+#include "compare/write/quote.hpp"
 #include "compare/write/write_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace springproof::compare {
 
@@ -25,7 +23,8 @@ const Trajectory* trajectory_of(const Answer& answer) {
   return trajectory ? &*trajectory : nullptr;
 }
 
-/// Of the finite elements, or else of the springs: both have the times of [dynamics]. Null: neither moved.
+/// Motion of the finite elements, or else of the springs: both have the times of [dynamics]. Null: neither
+/// moved.
 const Trajectory* any_trajectory(const Comparison& comparison) {
   const Trajectory* of_fem = trajectory_of(comparison.answers.fem);
   return of_fem ? of_fem : trajectory_of(comparison.answers.msm);
@@ -50,7 +49,7 @@ std::vector<Courses> courses_of(const Comparison& comparison) {
   return all;
 }
 
-/// Of the measure's values, whatever number of their course the case asks for.
+/// Unit of the measure's values, whatever number of their course the case asks for.
 std::string unit_of_values(cases::Measure measure) {
   measure.over_time.reset();
   return unit_of(measure);
@@ -104,7 +103,7 @@ std::optional<std::string> note_on_slowest(const char* side, const cases::Scene&
   return fmt::format(
       "{}: slowest vibration of {:.4g} Hz: omega h = {:.3g}, damping ratio {:.3g} of its own and {:.3g} "
       "of {}'s steps, period {:+.3g} %{}",
-      side, slowest->vibration.omega / (2 * std::acos(-1.0)), slowest->omega_h(),
+      side, slowest->vibration.omega / (2 * M_PI), slowest->omega_h(),
       slowest->vibration.damping_ratio, slowest->swings.damping_ratio, cases::name_of(scheme),
       100 * (slowest->swings.period - 1), warning);
 }
@@ -122,22 +121,19 @@ void write_motion_csv(std::ostream& out, const Comparison& comparison) {
               entry_at(fem, step), entry_at(msm, step));
 }
 
-nlohmann::ordered_json motion_to_json(const Comparison& comparison) {
+Json motion_to_json(const Comparison& comparison) {
   const Trajectory* motion = any_trajectory(comparison);
   if (!motion) return nullptr;
-  nlohmann::ordered_json measures = nlohmann::ordered_json::array();
+  Json measures = Json::array();
   for (const auto& [measure, fem, msm] : courses_of(comparison))
     measures.push_back(
         {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
-  nlohmann::ordered_json document{
-      {"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
-  if (const auto& surface = comparison.surface_motion)
-    document["surface"] = {{"time", surface->time},
-                           {"fem", surface->fem},
-                           {"msm", surface->msm},
-                           {"difference", surface->difference},
-                           {"largest_difference", surface->largest},
-                           {"error_percent", surface->error_percent}};
+  Json document{{"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
+  if (const auto& surface = comparison.surface_motion) {
+    document["surface"] = SPRINGPROOF_MEMBERS(*surface, time, fem, msm, difference);
+    document["surface"].update(
+        {{"largest_difference", surface->largest}, {"error_percent", surface->error_percent}});
+  }
   return document;
 }
 

@@ -69,22 +69,47 @@ void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
   condensed_ += added;
 }
 
-void GridEquations::set_step(const mechanics::StepTerms& terms, Inertia& inertia, bool is_another) {
+void GridEquations::set_in_motion(const cases::Scene& scene, const Places& places) {
+  inertia_ = std::make_unique<Inertia>(scene, places, space_.n_threads);
+  loads_ = loads_in_time(scene, false, places);
+}
+
+void GridEquations::external_force(double time, Vector& force) {
+  force = rest();
+  for (const mechanics::LoadInTime& load : loads_) load.add(time, force);
+}
+
+void GridEquations::supports_at(double time, Vector& displacement) const {
+  if (!supported_.prescribed_at) return;
+  const std::vector<double> values = supported_.prescribed_at(time);
+  for (std::size_t m = 0; m < values.size(); ++m) displacement[supported_.moved[m]] = values[m];
+}
+
+/// On free degrees of freedom; 0 elsewhere.
+void GridEquations::multiply(const Inertia::Factors& factors, const Vector& motion, Vector& product) {
+  motion_ = motion.head(n_displacements());
+  space_.slab.update_ghosts(space_.layout, motion_.data());
+  product_.setZero(motion_.size());
+  inertia_->add_product(factors, motion_, product_);
+  product.setZero(motion.size());
+  product.head(product_.size()) = product_.cwiseProduct(body_.free.cast<double>());
+}
+
+void GridEquations::set_step(const mechanics::StepTerms& terms) {
   step_.emplace(terms);
-  inertia_ = &inertia;
   if (!std::exchange(begins_step_, true)) carries_tangent_ = std::exchange(is_easy_, true);
-  if (is_another) has_tangent_ = false;
+  if (inertia_->set_step({terms.mass, terms.damping})) has_tangent_ = false;
 }
 
 /// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
 /// reactions; one in motion that is moved by them, against these if they are the larger.
 double GridEquations::scale() const {
-  if (step_) return supported_.moved.empty() ? step_->scale : std::max(step_->scale, reaction_);
+  if (step_) return supported_.prescribed ? std::max(step_->scale, reaction_) : step_->scale;
   return load_norm_ > 0 ? load_norm_ : reaction_;
 }
 
 void GridEquations::linearise(const Vector& at) {
-  multigrid_.linearise(at.data(), at.data() + n_displacements(), inertia_);
+  multigrid_.linearise(at.data(), at.data() + n_displacements(), inertia_.get());
   if (quadratic_) quadratic_->linearise(at.data());
 }
 
@@ -217,6 +242,24 @@ double GridEquations::dot(const Vector& left, const Vector& right) const {
 std::size_t GridEquations::n_unknowns() const {
   const Field<double> free = body_.free.cast<double>();
   return static_cast<std::size_t>(grid::dot(space_, free, free)); // ones and zeros: exact
+}
+
+/// The planes of nodes of each component, and the layers of cells; all that vectors have where they are
+/// whole.
+std::vector<GridEquations::Run> GridEquations::runs() const {
+  if (!space_.slab.is_shared()) return {};
+  const Layout &here = body_.layout, whole = make_layout(body_.cells_of_grid());
+  const int first = space_.slab.first_of_grid();
+  std::vector<Run> runs;
+  Eigen::Index end = 0; // of the run before, in whole vectors
+  const auto add = [&](Eigen::Index from, Eigen::Index n, Eigen::Index in_whole) {
+    runs.push_back({from, n, in_whole - end});
+    end = in_whole + n;
+  };
+  for (Eigen::Index c = 0; c < 3; ++c)
+    add(c * here.size + here.lead, here.plane * here.nodes[2], c * whole.size + whole.at(0, 0, first));
+  if (body_.has_modes) add(3 * here.size, here.n_cell_entries(), 3 * whole.size + whole.cell(0, 0, first));
+  return runs;
 }
 
 std::optional<bool> GridEquations::is_stable(const Vector&) {

@@ -5,6 +5,8 @@
 #include "fem_reference/grid/supported.hpp"
 #include "mechanics/dynamics/dynamic_problem.hpp"
 
+#include <memory>
+
 namespace springproof::fem_reference::grid {
 
 /// What a cell's pressure may leave of its volume, relative, where residuals have a tolerance.
@@ -12,11 +14,12 @@ constexpr double volume_tolerance_of(double residual_tolerance) {
   return 1e-2 * residual_tolerance;
 }
 
-/// The equilibrium equations of a body on a grid, without a factorisation. A state is the displacement of the
-/// nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank, those of all nodes and
-/// cells that its slab holds. Supports are part of the equations, as in EquilibriumEquations. Every member
+/// The equations of a body on a grid, in equilibrium or in motion, without a factorisation. A state is the
+/// displacement of the nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank,
+/// those of all nodes and cells that its slab holds. Forces are right in the planes that a rank computes.
+/// Supports are part of the equations, as in EquilibriumEquations; pressures have no inertia. Every member
 /// function that evaluates a state is collective.
-class GridEquations : public mechanics::NonlinearProblem {
+class GridEquations : public mechanics::DynamicProblem {
  public:
   /// @param body, supported  must outlive this
   /// @param quadratic  elements on the body's nodes in place of its own, or null; must outlive this
@@ -40,15 +43,21 @@ class GridEquations : public mechanics::NonlinearProblem {
   std::optional<bool> is_stable(const Vector& at) override;
   double dot(const Vector& left, const Vector& right) const override; ///< of the displacements
   bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
+  std::vector<Run> runs() const override;
   Work work() const override { return work_; }
   std::size_t n_unknowns() const override; ///< collective
 
-  /// A step in time, as of EquilibriumEquations: from now on, whatever the load factor, inertia adds its
-  /// matrix times (u - origin), forces and supports are the terms', and residuals are relative to their
-  /// scale.
-  /// @param inertia  with the factors of the step; must outlive this
-  /// @param is_another  whether its matrix is another one than before
-  void set_step(const mechanics::StepTerms& terms, Inertia& inertia, bool is_another);
+  /// Gives the body the masses, damping and loads in time of a scene: the functions below are about these.
+  /// @param scene   with the mesh of the elements   @param places  of the body
+  void set_in_motion(const cases::Scene& scene, const Places& places);
+  void mass_product(const Vector& motion, Vector& product) override { multiply({1, 0}, motion, product); }
+  void damping_product(const Vector& motion, Vector& product) override { multiply({0, 1}, motion, product); }
+  void external_force(double time, Vector& force) override;
+  void supports_at(double time, Vector& displacement) const override;
+  /// Pressures follow from displacements in each step.
+  void complete(Vector& motion) override { body_.slab.update_ghosts(body_.layout, motion.data()); }
+  /// Residuals are from now on those of the step, whatever the load factor, relative to its scale.
+  void set_step(const mechanics::StepTerms& terms) override;
 
   /// The next direction is of its own state's tangent, and of nothing that was learnt on the way.
   void forget_tangent() {
@@ -74,8 +83,10 @@ class GridEquations : public mechanics::NonlinearProblem {
   double load_norm_, volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;
-  double norm_before_ = 0;     ///< of the right side that the tangent was last used for, N
-  Inertia* inertia_ = nullptr; ///< in a step in time
+  double norm_before_ = 0;           ///< of the right side that the tangent was last used for, N
+  std::unique_ptr<Inertia> inertia_; ///< of a body in motion
+  std::vector<mechanics::LoadInTime> loads_;
+  Field<double> motion_, product_;
   std::optional<mechanics::StepTerms> step_;
   bool begins_step_ = false;    ///< no direction yet of this step
   bool is_easy_ = true;         ///< every iteration of the step gained much
@@ -88,6 +99,7 @@ class GridEquations : public mechanics::NonlinearProblem {
 
   bool add_force(const Vector& at, Field<double>& force);
   void add_inertia(const Vector& at, Field<double>& force);
+  void multiply(const Inertia::Factors& factors, const Vector& motion, Vector& product);
   double scale() const;
   void linearise(const Vector& at);
   void product(Field<double>& field, Field<double>& product) const;

@@ -3,7 +3,7 @@
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/in_time.hpp"
 #include "fem_reference/grid/coarse_guess.hpp"
-#include "fem_reference/grid/moving_grid.hpp"
+#include "fem_reference/grid/grid_equations.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/ranks/share_out.hpp"
@@ -63,9 +63,9 @@ struct GridModel::Implementation {
   Vector last;
   double last_load_factor = 0;
 
-  Eigen::Vector3d displacement_at(const Place& at) const {
+  Eigen::Vector3d displacement_at(const Place& at, const Vector& state) const {
     const std::ptrdiff_t entry = places.entry(at), size = body.layout.size;
-    return {last[entry], last[entry + size], last[entry + 2 * size]};
+    return {state[entry], state[entry + size], state[entry + 2 * size]};
   }
   std::array<int, 3> cells_along(int along) const {
     std::array<int, 3> cells = scene.mesh.grid->cells;
@@ -77,8 +77,10 @@ struct GridModel::Implementation {
   }
   Body make_body(int cells_along_edge, const Slab& of_nodes, int first_layer) const;
   std::unique_ptr<QuadraticElements> make_quadratic() const;
-  std::vector<cases::Numbered<double>> cell_volumes(const cases::Sharing* sharing) const;
-  std::vector<cases::Numbered<Eigen::Vector3d>> displacements(const cases::Sharing* sharing) const;
+  std::vector<cases::Numbered<double>> cell_volumes(const Vector& state, const cases::Sharing* sharing) const;
+  std::vector<cases::Numbered<Eigen::Vector3d>> displacements(const Vector& state,
+                                                              const cases::Sharing* sharing) const;
+  mechanics::StateOnMesh on_mesh() const;
   Vector start_of_motion(const mechanics::EquilibriumSettings& settings) const;
 
   struct OwnElement {
@@ -150,15 +152,16 @@ void GridModel::back_to_rest() {
   implementation_->last_load_factor = 0;
 }
 
-/// Of the body's nodes that the rank computes. Where every rank computes all, of those that are its own.
+/// Displacements of the body's nodes that the rank computes. Where every rank computes all, of those that are
+/// its own.
 std::vector<cases::Numbered<Eigen::Vector3d>>
-GridModel::Implementation::displacements(const cases::Sharing* sharing) const {
+GridModel::Implementation::displacements(const Vector& state, const cases::Sharing* sharing) const {
   const bool is_dealt_out = body.slab.is_shared();
   std::vector<cases::Numbered<Eigen::Vector3d>> own;
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
     if (!is_dealt_out && sharing && !sharing->here().own_nodes.has(n)) continue;
     const Place at = places.of(scene.mesh.nodes[n]);
-    if (places.owns(at)) own.push_back({static_cast<std::int64_t>(n), displacement_at(at)});
+    if (places.owns(at)) own.push_back({static_cast<std::int64_t>(n), displacement_at(at, state)});
   }
   return own;
 }
@@ -195,10 +198,10 @@ void GridModel::Implementation::for_each_own_element(const cases::Sharing* shari
       }
 }
 
-/// Of the body's cells; of each as much as the rank computes.
+/// Volumes of the body's cells; of each as much as the rank computes.
 std::vector<cases::Numbered<double>>
-GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
-  const std::vector<double> of_entries = equations.cell_volumes(last);
+GridModel::Implementation::cell_volumes(const Vector& state, const cases::Sharing* sharing) const {
+  const std::vector<double> of_entries = equations.cell_volumes(state);
   std::vector<cases::Numbered<double>> volumes;
   for_each_own_element(sharing, [&](const OwnElement& element) {
     const auto cell = static_cast<std::int64_t>(element.cell);
@@ -206,6 +209,15 @@ GridModel::Implementation::cell_volumes(const cases::Sharing* sharing) const {
     volumes.back().value += of_entries[element.entry];
   });
   return volumes;
+}
+
+mechanics::StateOnMesh GridModel::Implementation::on_mesh() const {
+  auto sharing = mechanics::share_out(scene.mesh, communicator);
+  const cases::Sharing* const shared = sharing.get();
+  return {scene.mesh,
+          std::move(sharing),
+          {[this, shared](const Vector& state) { return displacements(state, shared); },
+           [this, shared](const Vector& state) { return cell_volumes(state, shared); }}};
 }
 
 double GridModel::load_factor() const {
@@ -231,7 +243,7 @@ void GridModel::for_each_element(const cases::Sharing* sharing,
     for (int a = 0; a < n * n * n; ++a, to += 3) {
       const Place node(degree * element.at[0] + a % n, degree * element.at[1] + a / n % n,
                        degree * element.at[2] + a / (n * n));
-      Eigen::Map<Eigen::Vector3d>{to} = m.displacement_at(node);
+      Eigen::Map<Eigen::Vector3d>{to} = m.displacement_at(node, m.last);
     }
     const double pressure =
         m.body.has_modes ? m.last[m.equations.n_displacements() + Eigen::Index(element.entry)] : 0;
@@ -262,30 +274,10 @@ Vector GridModel::Implementation::start_of_motion(const mechanics::EquilibriumSe
 
 cases::Solution GridModel::follow(const mechanics::IntegrationSettings& settings) {
   Implementation& m = *implementation_;
-  const cases::HexMesh& mesh = m.scene.mesh;
-  MovingGrid motion(cases::refine(m.scene, m.scene.definition.fem.refine), m.places, m.supported, m.equations,
-                    m.n_threads);
+  m.equations.set_in_motion(cases::refine(m.scene, m.scene.definition.fem.refine), m.places);
   m.equations.set_volume_tolerance(volume_tolerance_of(settings.newton.tolerance));
-  const auto displacement = [&](const Vector& state) {
-    m.last = state;
-    return cases::deal(nullptr, m.displacements(nullptr), mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
-  };
-  const auto cell_volumes = [&](const Vector& state) {
-    m.last = state;
-    return cases::deal(nullptr, m.cell_volumes(nullptr), mesh.cells.size(), 0.);
-  };
-  const auto volume = [&](const Vector& state) {
-    const std::vector<double> of_cells = cell_volumes(state);
-    return std::accumulate(of_cells.begin(), of_cells.end(), 0.);
-  };
-  mechanics::FollowedMotion followed = mechanics::follow_motion(m.scene, {motion, displacement, volume},
-                                                                m.start_of_motion(settings.newton), settings);
-  cases::Solution solution = mechanics::to_solution(followed.work);
-  solution.displacement = displacement(followed.end);
-  solution.cell_volume = cell_volumes(followed.end);
-  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement);
-  solution.trajectory = std::move(followed.trajectory);
-  return solution;
+  m.last = m.start_of_motion(settings.newton);
+  return mechanics::follow_motion(m.scene, m.equations, m.on_mesh(), m.last, settings);
 }
 
 bool GridModel::linear_solver_failed() const {
@@ -308,15 +300,9 @@ cases::Solution GridModel::solve(double load_factor, const mechanics::Equilibriu
   m.last = equilibrium.state;
   m.last_load_factor = load_factor;
   cases::Solution solution = mechanics::to_solution(equilibrium);
-  const cases::HexMesh& mesh = m.scene.mesh;
-  solution.sharing = mechanics::share_out(mesh, m.communicator);
-  const cases::Sharing* const sharing = solution.sharing.get();
-  solution.displacement =
-      cases::deal(sharing, m.displacements(sharing), mesh.nodes.size(), Eigen::Vector3d(0, 0, 0));
-  solution.cell_volume = cases::deal(sharing, m.cell_volumes(sharing), mesh.cells.size(), 0.);
+  m.on_mesh().add_to(solution, m.last);
   if (settings.stability != mechanics::Stability::ignore)
     solution.negative_eigenvalues = m.equations.negative_eigenvalues();
-  solution.inverted_cells = cases::n_inverted(mesh, solution.displacement, sharing);
   return solution;
 }
 
@@ -324,7 +310,7 @@ std::vector<GridModel::NodeValue> GridModel::node_displacements() const {
   const Implementation& m = *implementation_;
   std::vector<double> numbers;
   m.places.for_each([&](const Place& at) {
-    const Eigen::Vector3d rest = m.places.rest(at), displacement = m.displacement_at(at);
+    const Eigen::Vector3d rest = m.places.rest(at), displacement = m.displacement_at(at, m.last);
     numbers.insert(numbers.end(), rest.begin(), rest.end());
     numbers.insert(numbers.end(), displacement.begin(), displacement.end());
   });

@@ -2,7 +2,6 @@
 
 #include "cases/scene/loads.hpp"
 #include "cases/scene/masses.hpp"
-#include "fem_reference/grid/traction.hpp"
 
 #include <algorithm>
 
@@ -55,6 +54,11 @@ void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& pla
     add_force(places.of(mesh.nodes[index(node)]), mass * gravity);
 }
 
+/// Of the nodes at 0, 1/2 and 1 on the unit interval.
+Eigen::Vector3d quadratic_shapes(double x) {
+  return {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)};
+}
+
 Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Places& places) {
   const Layout& layout = places.body.layout;
   Field<double> load = Field<double>::Zero(3 * layout.size);
@@ -69,9 +73,8 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
   add_weights(scene, is_quadratic, places, add_force);
   if (!is_quadratic) return load;
   for (const auto& applied : scene.loads) {
-    const bool is_torque = applied.load.kind == cases::LoadKind::torque;
-    if (!is_torque && applied.load.kind != cases::LoadKind::traction) continue;
-    const double moment = is_torque ? cases::polar_moment(scene.mesh, applied) : 1;
+    const auto traction_at = cases::surface_traction(scene.mesh, applied);
+    if (!traction_at) continue;
     for (const auto& face : applied.selection.faces) {
       std::array<Eigen::Vector3d, 4> vertices;
       std::array<Place, 4> corners;
@@ -79,11 +82,14 @@ Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Plac
         vertices[v] = scene.mesh.nodes[index(face[v])];
         corners[v] = places.of(vertices[v]);
       }
-      const NineForces nine = traction_on(applied, vertices, moment);
-      for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-          add_force(corners[0] + (a * (corners[1] - corners[0]) + b * (corners[3] - corners[0])) / 2,
-                    nine[index(a + 3 * b)]);
+      for (const auto& [s, t, point, area] : cases::gauss_points(vertices, 4)) {
+        const Eigen::Vector3d force = area * traction_at(point), along_s = quadratic_shapes(s),
+                              along_t = quadratic_shapes(t);
+        for (int b = 0; b < 3; ++b)
+          for (int a = 0; a < 3; ++a)
+            add_force(corners[0] + (a * (corners[1] - corners[0]) + b * (corners[3] - corners[0])) / 2,
+                      along_s[a] * along_t[b] * force);
+      }
     }
   }
   return load;

@@ -72,4 +72,16 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   return followed;
 }
 
+cases::Solution follow_motion(const cases::Scene& scene, DynamicProblem& problem, const StateOnMesh& on_mesh,
+                              Vector& state, const IntegrationSettings& settings) {
+  const BodyInTime body{problem, [&](const Vector& at) { return on_mesh.whole_displacement(at); },
+                        [&](const Vector& at) { return on_mesh.volume(at); }};
+  FollowedMotion followed = follow_motion(scene, body, std::move(state), settings);
+  state = std::move(followed.end);
+  cases::Solution solution = to_solution(followed.work);
+  on_mesh.add_to(solution, state);
+  solution.trajectory = std::move(followed.trajectory);
+  return solution;
+}
+
 } // namespace springproof::mechanics

@@ -2,6 +2,7 @@
 
 #include "cases/scene/scene.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
+#include "mechanics/state_on_mesh.hpp"
 
 #include <functional>
 
@@ -26,5 +27,11 @@ struct FollowedMotion {
 /// solved, halved as it is
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings = {});
+
+/// The same over the ranks that share the states of a model. Collective.
+/// @param state  where the motion starts; afterwards where it ends
+/// @return the end of the motion, which the ranks share, and the trajectory, which each of them has
+cases::Solution follow_motion(const cases::Scene& scene, DynamicProblem& problem, const StateOnMesh& on_mesh,
+                              Vector& state, const IntegrationSettings& settings);
 
 } // namespace springproof::mechanics

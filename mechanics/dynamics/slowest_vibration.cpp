@@ -68,8 +68,10 @@ class InverseIteration {
   /// Some shape that has a part of every vibration, 0 on supports.
   void start() {
     std::mt19937 generator(1);
-    shape_.resize(at_.size());
-    for (double& entry : shape_) entry = static_cast<double>(generator()) / 4294967296.0 - 0.5;
+    shape_.setZero(at_.size());
+    problem_.draw(generator, shape_, [](double& entry, auto number) {
+      entry = static_cast<double>(number) / 4294967296.0 - 0.5;
+    });
     problem_.mass_product(shape_, weighted_);
     if (!solve()) solved_.setZero(at_.size()); // of no size
     shape_ = solved_;

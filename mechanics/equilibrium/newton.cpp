@@ -165,10 +165,12 @@ bool Newton::may_be_rounding(double relative_residual) const {
 bool Newton::is_rounding(const Vector& at, double load_factor) {
   Vector& neighbour = trial_.at = at;
   unsigned bits = 1;
-  for (double& entry : neighbour) {
-    bits = 1664525 * bits + 1013904223; // Numerical Recipes' generator: any signs will do
-    entry = std::nextafter(entry, (bits >> 31) != 0 ? INFINITY : -INFINITY);
-  }
+  const auto next = [&] {
+    return bits = 1664525 * bits + 1013904223;
+  }; // Numerical Recipes: any signs will do
+  problem_.draw(next, neighbour, [](double& entry, unsigned number) {
+    entry = std::nextafter(entry, (number >> 31) != 0 ? INFINITY : -INFINITY);
+  });
   Vector& change = trial_.residual;
   problem_.residual(neighbour, load_factor, Expect::residual, change);
   change -= residual_;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace springproof::mechanics {
 
@@ -106,6 +107,26 @@ class NonlinearProblem {
   virtual double dot(const Vector& left, const Vector& right) const { return left.dot(right); }
   virtual double largest(const Vector& of) const { return of.cwiseAbs().maxCoeff(); } ///< magnitude
   virtual bool any_rank(bool here) const { return here; }
+
+  /// A run of entries of this rank's vectors, and how many entries that one rank alone would have lie between
+  /// the run before and this one.
+  struct Run {
+    Eigen::Index first, n, skipped;
+  };
+  /// The runs of this rank, in order; none where a vector is whole here.
+  virtual std::vector<Run> runs() const { return {}; }
+  /// Calls action(entry, number) with a generator's numbers for the entries of a vector: where runs() tells,
+  /// the same numbers on any number of ranks.
+  template<class Generator, class Action>
+  void draw(Generator& generator, Vector& vector, const Action& action) const {
+    const std::vector<Run> parts = runs(); // none allocates nothing: steps in real time draw too
+    if (parts.empty())
+      for (double& entry : vector) action(entry, generator());
+    for (const Run& run : parts) {
+      for (Eigen::Index i = 0; i < run.skipped; ++i) generator();
+      for (double& entry : vector.segment(run.first, run.n)) action(entry, generator());
+    }
+  }
 
   struct Work {
     long linear_iterations = 0; ///< of the iterative linear solver

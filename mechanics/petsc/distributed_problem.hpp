@@ -14,7 +14,9 @@ inline double total(double value, MPI_Op operation, MPI_Comm communicator) {
 
 /// A problem whose vectors are dealt out to the ranks of a communicator. A residual's entries that belong to
 /// another rank are 0.
-class DistributedProblem : public NonlinearProblem {
+/// @tparam Problem  NonlinearProblem, or one derived from it
+template<class Problem = NonlinearProblem>
+class DistributedProblem : public Problem {
  public:
   explicit DistributedProblem(MPI_Comm communicator) : communicator_(communicator) {}
 

@@ -1,7 +1,7 @@
 #include "mechanics/surface/embedded_surface.hpp"
 
 #include "cases/mesh/cells_at.hpp"
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>

@@ -36,7 +36,7 @@ petsc::Vector random_like(const petsc::Vector& vector) {
 /// A lattice whose equilibrium at one load PETSc's SNES finds: Newton's method with a line search on the
 /// residual, MUMPS up to factorised_by_snes unknowns, conjugate gradients with algebraic multigrid (GAMG)
 /// beyond. Vectors are the entries that a rank owns. The equations contain the supports.
-class SnesProblem : public petsc::DistributedProblem {
+class SnesProblem : public petsc::DistributedProblem<> {
  public:
   /// @param problem, settings  must outlive it
   SnesProblem(const Problem& problem, const mechanics::EquilibriumSettings& settings, MPI_Comm communicator)

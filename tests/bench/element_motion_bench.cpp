@@ -25,13 +25,8 @@ cases::Scene pulled_cube(int n, cases::Formulation formulation, cases::Element e
   definition.material_dynamics.density = 1000;
   definition.fem.formulation = formulation;
   definition.fem.element = element;
-  cases::Fixed fixed;
-  fixed.region.name = "z-";
-  definition.fixed = {fixed};
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::nodal_force;
-  load.value = {0.01, 0, 0.02};
+  definition.fixed = {{{"z-"}}};
+  cases::Load load{{"z+"}, cases::loads::NodalForce{{0.01, 0, 0.02}}};
   load.history.frequency = 2;
   definition.loads = {load};
   cases::Dynamics dynamics;

@@ -14,9 +14,7 @@ cases::Scene pulled_cube(int n) {
   definition.body = cases::Box{{1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}};
   definition.material = cases::LinearElastic{0.3, 0.35};
   definition.fixed.push_back({{"z-", {}, {}}, {true, true, true}});
-  cases::Load load{{"z+", {}, {}}, cases::LoadKind::nodal_force};
-  load.value = {0, 0, 0.05};
-  definition.loads.push_back(load);
+  definition.loads.push_back({{"z+"}, cases::loads::NodalForce{{0, 0, 0.05}}});
   return cases::make_scene(definition);
 }
 

@@ -256,7 +256,7 @@ def limits(attempt, chance):
 def links(attempt, chance):
     place = attempt.place / "in"
     target = chance.choice(["/dev/zero", "/dev/null", "/dev/full", "/dev/stdin", "/dev/urandom", "/etc/passwd", "/proc/no/such", "loop", ".", "/", "fifo", "/proc/self/mem", str(attempt.place / "canary")])
-    kind = chance.choice(["case.toml", "springs.csv", "given.csv", "given.vtu", "body.msh", "body.geo", "body.stl", "body.nrrd", "body.nii", "pulls.csv", "curve.csv", "skin.vtp", "out", "kept", "result", "junit"])
+    kind = chance.choice(["case.toml", "springs.csv", "given.csv", "given.vtu", "body.msh", "body.geo", "body.stl", "body.nii", "pulls.csv", "curve.csv", "skin.vtp", "out", "kept", "result", "junit"])
     path = attempt.write("case.toml", CASE)
 
     def put(at):
@@ -293,7 +293,7 @@ def links(attempt, chance):
         body(f'shape = "mesh"\nfile = "{kind}"')
     elif kind == "body.stl":
         body('shape = "voxels"\nsurface = "body.stl"\nedge = 1')
-    elif kind in ("body.nrrd", "body.nii"):
+    elif kind == "body.nii":
         body(f'shape = "labels"\nfile = "{kind}"\nedge = 1\n[[body.classes]]\nname = "a"\nlower = 1\nupper = 2')
     elif kind == "pulls.csv":
         path.write_text(CASE.replace("poissons_ratio = 0.3\n", "poissons_ratio = 0.3\ndensity = 1000\n") + '[dynamics]\nscheme = "newmark"\nstep = 0.001\nend = 0.006\n')

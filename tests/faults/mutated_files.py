@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, stl, skin, nifti, nrrd, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1
+Kinds: case, dynamic, msh, stl, skin, nifti, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1
 or 2 within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
 without a word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that
 is named. The damage is the same in every run. Only Python's standard library is used.
@@ -279,13 +279,6 @@ class Nifti(Kind):
         return springproof("run", "--only", "msm", self.case(body))
 
 
-class Nrrd(Nifti):
-    name = "body.nrrd"
-    damaged = staticmethod(damaged)
-    whole = (b"NRRD0004\n# damaged\ntype: short\ndimension: 3\nsizes: 12 3 2\nspacings: 1 2 3\nkinds: domain domain domain\n"
-             b"encoding: raw\nendian: little\n\n") + Nifti.voxels
-
-
 class Displacements(Kind):
     name, options = "given.csv", ()
 
@@ -387,7 +380,7 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "skin": Skin, "nifti": Nifti, "nrrd": Nrrd, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
 
 

@@ -43,9 +43,7 @@ cases::Scene membrane(int n, double bulk_modulus, Element element) {
       {faces_where([](const Vector3d& x) { return x.z() < 1e-9; }), {false, false, true}});
   scene.constrained.push_back(
       {faces_where([](const Vector3d& x) { return x.z() > 1 - 1e-9; }), {false, false, true}});
-  cases::Load load;
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 1. / 16, 0};
+  cases::Load load{{}, cases::loads::Traction{{0, 1. / 16, 0}}};
   scene.loads.push_back({faces_where([](const Vector3d& x) { return x.x() > 48 - 1e-9; }), load});
   return scene;
 }

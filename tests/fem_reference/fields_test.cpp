@@ -66,11 +66,7 @@ Vector3d sum(const std::vector<Vector3d>& vectors) {
 }
 
 cases::Load traction(const Vector3d& value) {
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
-  return load;
+  return {{"z+"}, cases::loads::Traction{value}};
 }
 
 cases::Case block(cases::Formulation formulation, Element element, const Vector3d& value) {

@@ -52,16 +52,9 @@ TEST_CASE("a lubricated block of Ogden material is pressed to two fifths of its 
     definition.fixed.clear();
     definition.loads.clear();
     for (const char* face : {"x-", "y-", "z-"}) {
-      cases::Fixed fixed;
-      fixed.region.name = face;
-      fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
-      definition.fixed.push_back(fixed);
+      definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
     }
-    cases::Load load;
-    load.region.name = "z+";
-    load.kind = cases::LoadKind::traction;
-    load.value = {0, 0, traction};
-    definition.loads.push_back(load);
+    definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, traction}}});
     const auto scene = cases::make_scene(definition);
     const auto solution = fem_reference::Model(scene, MPI_COMM_SELF).solve();
     cases::Region top;
@@ -84,7 +77,7 @@ TEST_CASE("five times the large tensile load is carried, or refused with the loa
       element = Element::q1_p0;
     }
     auto definition = scenes::cube(Test::tensile, LoadSet::large, material, formulation, element, 4);
-    for (auto& load : definition.loads) load.value *= 5 * 121. / 25; // the same total on fewer nodes
+    for (auto& load : definition.loads) load.scale(5 * 121. / 25); // the same total on fewer nodes
     CAPTURE(cases::name_of(formulation));
     try {
       const auto solution = fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();

@@ -69,10 +69,7 @@ cases::Scene one_cell(const cases::Ogden& material, Element element,
   definition.fem.formulation = cases::Formulation::hyperelastic;
   definition.fem.element = element;
   for (const std::string& face : normal_supports) {
-    cases::Fixed fixed;
-    fixed.region.name = face;
-    fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
-    definition.fixed.push_back(fixed);
+    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
   }
   return cases::make_scene(definition);
 }

@@ -25,25 +25,19 @@ cases::Region plane_at(double x) {
   return plane;
 }
 
-/// A bar of 8 x 2 x 2 mm, held at x = 0, nu = 0, under a load on its cross section at x.
-cases::Case bar(cases::Element element, int refine, double x, cases::LoadKind kind) {
+const cases::loads::Traction pull{{0.0003, 0, 0}};
+const cases::loads::Torque inner_torque{1e-4, Vector3d::UnitX(), {4, 1, 1}};
+
+/// A bar of 8 x 2 x 2 mm, held at x = 0, nu = 0, under a load on its cross section at x = 4.
+cases::Case bar(cases::Element element, int refine, const cases::loads::Kind& kind) {
   cases::Case definition;
   definition.body = cases::Box{{8, 2, 2}, {4, 2, 2}};
   definition.material = cases::LinearElastic{0.3, 0};
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.element = element;
   definition.fem.refine = refine;
-  cases::Fixed fixed;
-  fixed.region.name = "x-";
-  definition.fixed = {fixed};
-  cases::Load load;
-  load.region = plane_at(x);
-  load.kind = kind;
-  load.value = {0.0003, 0, 0};
-  load.moment = 1e-4;
-  load.axis = Vector3d::UnitX();
-  load.centre = {x, 1, 1};
-  definition.loads = {load};
+  definition.fixed = {{{"x-"}}};
+  definition.loads = {{plane_at(4), kind}};
   return definition;
 }
 
@@ -60,7 +54,7 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
   for (const cases::Element element : scenes::all_elements)
     for (const int refine : {0, 1})
       for (const Backend backend : {Backend::assembled, Backend::automatic}) {
-        const auto scene = cases::make_scene(bar(element, refine, 4, cases::LoadKind::traction));
+        const auto scene = cases::make_scene(bar(element, refine, pull));
         CHECK(cases::area(scene.mesh, scene.loads.front().selection) == Approx(4)); // each face once
         const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
         CAPTURE(cases::name_of(element), refine, static_cast<int>(backend));
@@ -73,7 +67,7 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
 TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a body", "[verification]") {
   for (const cases::Element element : scenes::all_elements)
     for (const Backend backend : {Backend::assembled, Backend::automatic}) {
-      const auto scene = cases::make_scene(bar(element, 0, 4, cases::LoadKind::torque));
+      const auto scene = cases::make_scene(bar(element, 0, inner_torque));
       const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
       const double inner = displacement_at(scene, found, {6, 0, 0}).z(),
                    end = displacement_at(scene, found, {8, 0, 0}).z();
@@ -84,7 +78,7 @@ TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a
 }
 
 TEST_CASE("a load on what is no face of the elements is no answer") {
-  cases::Scene scene = cases::make_scene(bar(cases::Element::q1, 0, 4, cases::LoadKind::traction));
+  cases::Scene scene = cases::make_scene(bar(cases::Element::q1, 0, pull));
   scene.loads.front().selection.faces.front() = {0, 1, 21, 20}; // across a cell
   CHECK_THROWS_AS(fem_reference::Model(scene, MPI_COMM_WORLD, Backend::assembled), cases::SolveError);
 }

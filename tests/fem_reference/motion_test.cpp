@@ -4,10 +4,9 @@
 #include "fem_reference/assembled_body.hpp"
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/model.hpp"
-#include "fem_reference/moving_equations.hpp"
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
-#include "tests/support/largest.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,12 +20,6 @@ namespace {
 constexpr double youngs_modulus = 0.1, length = 20, side = 10; // MPa, mm
 constexpr double density = 1e-9, gravity = 9810;               // t/mm³ of water, mm/s²
 
-cases::Region region_of(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
-
 /// A bar of 4 x 2 x 2 cells along z, of water, held at its bottom or nowhere, whose tip is watched.
 cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element element,
                 const cases::MaterialDynamics& dynamics = {1000., 0, 0}, double poissons_ratio = 0.3) {
@@ -36,11 +29,8 @@ cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element ele
   definition.material_dynamics = dynamics;
   definition.fem.formulation = formulation;
   definition.fem.element = element;
-  if (is_held) definition.fixed.push_back({region_of("z-"), {true, true, true}});
-  cases::Measure tip;
-  tip.kind = cases::MeasureKind::displacement;
-  tip.node = region_of("x+ y+ z+");
-  definition.measures = {tip};
+  if (is_held) definition.fixed.push_back({cases::Region{"z-"}, {true, true, true}});
+  definition.measures = {{"", cases::measures::Displacement{cases::Region{"x+ y+ z+"}}}};
   return definition;
 }
 
@@ -48,9 +38,7 @@ cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element ele
 cases::Scene weighed(const cases::Case& definition, const Vector3d& along,
                      const std::optional<cases::Dynamics>& dynamics, const cases::History& history = {}) {
   cases::Scene scene = cases::make_scene(definition);
-  cases::Load load;
-  load.kind = cases::LoadKind::gravity;
-  load.value = 9.81 * along;
+  cases::Load load{{}, cases::loads::Gravity{9.81 * along}};
   load.history = history;
   scene.definition.loads.push_back(load);
   scene.loads.push_back({{}, load});
@@ -100,7 +88,7 @@ TEST_CASE("a bar is stretched by its own weight as analysis says", "[verificatio
 TEST_CASE("gravity's forces on the nodes add up to all weights") {
   for (const auto element : {cases::Element::q1, cases::Element::q2}) {
     cases::Case definition = bar(true, cases::Formulation::small_strain, element);
-    definition.masses.push_back({region_of("z+"), 0.004}); // kg
+    definition.masses.push_back({cases::Region{"z+"}, 0.004}); // kg
     const fem_reference::AssembledBody body(weighed(definition, Vector3d::UnitZ(), std::nullopt),
                                             MPI_COMM_SELF);
     double sum = 0;
@@ -167,7 +155,7 @@ TEST_CASE("a support that moves takes damped finite elements along", "[verificat
       INFO(name_of(formulation) << ", " << name_of(element));
       cases::Case definition = bar(false, formulation, element, {1000., 200, 0.01});
       cases::Moved moved;
-      moved.region = region_of("z-");
+      moved.region = cases::Region{"z-"};
       moved.displacement = {1, 0, 0.5};
       moved.history.points = {{0., 0.}, {0.1, 1.}};
       definition.moved.push_back(moved);
@@ -187,7 +175,8 @@ TEST_CASE("the tangent of the finite elements' step is the derivative of its res
     const cases::Scene scene = weighed(bar(true, cases::Formulation::log_strain, element, {1000., 3, 0.02}),
                                        Vector3d::UnitX(), std::nullopt);
     fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-    fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+    body.equations.set_in_motion(scene, body.formulations);
+    mechanics::DynamicProblem& motion = body.equations;
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> value(-1, 1);
     const auto on_free = [&](double size) {
@@ -223,7 +212,8 @@ TEST_CASE("finite elements' error in time falls at the order of each scheme", "[
       weighed(bar(true, cases::Formulation::log_strain, cases::Element::q1, {1000., 3, 0.001}),
               Vector3d::Zero(), std::nullopt);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto& points = body.discretisation.nodes.point;
   State shape = body.equations.rest();
   for (std::size_t n = 0; n < points.size(); ++n) { // bends and stretches finitely
@@ -239,7 +229,8 @@ TEST_CASE("what turns about itself keeps its angular momentum, by the scheme tha
       weighed(bar(false, cases::Formulation::saint_venant_kirchhoff, cases::Element::q1), Vector3d::Zero(),
               std::nullopt);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto& points = body.discretisation.nodes.point;
   State velocity = body.equations.rest();
   for (std::size_t n = 0; n < points.size(); ++n) // half a turn in 50 ms about a skew axis, and a pull
@@ -274,7 +265,8 @@ TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark
   definition.body = cases::Box{{side, side, length}, {1, 1, 2}};
   const cases::Scene scene = cases::make_scene(definition);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
-  fem_reference::MovingEquations motion(scene, body.discretisation, body.formulations, body.equations);
+  body.equations.set_in_motion(scene, body.formulations);
+  mechanics::DynamicProblem& motion = body.equations;
   const auto stiffness = fem_reference::rest_stiffness(body.discretisation, body.formulations);
   State start = body.equations.rest();
   const auto& points = body.discretisation.nodes.point;

@@ -1,22 +1,18 @@
 // Bodies whose supports move with the load factor.
 
 #include "fem_reference/model.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace springproof;
 
+using bodies::region;
 using cases::Element;
 using Eigen::Vector3d;
 
 namespace {
-
-cases::Region region(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
 
 cases::Case box(Element element) {
   cases::Case definition;
@@ -36,11 +32,11 @@ cases::Solution solve(const cases::Scene& scene) {
 TEST_CASE("a bar pressed to half its height between sliding plates widens by its law", "[verification]") {
   for (const Element element : {Element::q1_bbar, Element::q2}) {
     cases::Case definition = box(element);
-    definition.fixed = {{region("x-"), {true, false, false}},
-                        {region("y-"), {false, true, false}},
-                        {region("z-"), {false, false, true}}};
+    definition.fixed = {{cases::Region{"x-"}, {true, false, false}},
+                        {cases::Region{"y-"}, {false, true, false}},
+                        {cases::Region{"z-"}, {false, false, true}}};
     cases::Moved down;
-    down.region = region("z+");
+    down.region = cases::Region{"z+"};
     down.components = {false, false, true};
     down.displacement = {0, 0, -1.5};
     definition.moved = {down};
@@ -57,9 +53,9 @@ TEST_CASE("a bar pressed to half its height between sliding plates widens by its
 TEST_CASE("a bar whose end is turned by a quarter turn arrives there, and keeps its fourfold symmetry") {
   for (const Element element : {Element::q1_bbar, Element::q2}) {
     cases::Case definition = box(element);
-    definition.fixed = {{region("z-")}};
+    definition.fixed = {{cases::Region{"z-"}}};
     cases::Moved turn;
-    turn.region = region("z+");
+    turn.region = cases::Region{"z+"};
     turn.centre = {1, 1, 3};
     turn.angle = 90;
     definition.moved = {turn};
@@ -83,9 +79,9 @@ TEST_CASE("a bar follows its end through most of a turn and a whole one, on eith
     for (const auto backend : {fem_reference::Backend::assembled, fem_reference::Backend::grid}) {
       cases::Case definition = box(Element::q1_bbar);
       definition.body = cases::Box{Vector3d(2, 2, 12), {2, 2, 12}};
-      definition.fixed = {{region("z-")}};
+      definition.fixed = {{cases::Region{"z-"}}};
       cases::Moved turn;
-      turn.region = region("z+");
+      turn.region = cases::Region{"z+"};
       turn.centre = {1, 1, 12};
       turn.angle = angle;
       definition.moved = {turn};

@@ -28,7 +28,7 @@ cases::Case pulled(Element element, int refine) {
   bar.fixed = {{bodies::region("x-"), {true, false, false}},
                {bodies::region("y-"), {false, true, false}},
                {bodies::region("z-"), {false, false, true}}};
-  bar.loads = {{bodies::region("x+"), cases::LoadKind::traction, {0.05, 0, 0}}};
+  bar.loads = {{bodies::region("x+"), cases::loads::Traction{{0.05, 0, 0}}}};
   bar.fem.formulation = cases::Formulation::small_strain;
   bar.fem.element = element;
   bar.fem.refine = refine;
@@ -38,13 +38,11 @@ cases::Case pulled(Element element, int refine) {
 /// A clamped block that is bent and sheared.
 cases::Case bent(Element element, int refine = 0) {
   cases::Case block = bodies::clamped_box({4, 2, 3}, {});
-  block.loads = {{bodies::region("z+"), cases::LoadKind::traction, {0.01, 0.004, 0}}};
+  block.loads = {{bodies::region("z+"), cases::loads::Traction{{0.01, 0.004, 0}}}};
   block.fem.formulation = cases::Formulation::small_strain;
   block.fem.element = element;
   block.fem.refine = refine;
-  cases::Measure l2;
-  l2.kind = cases::MeasureKind::displacement_field_l2;
-  block.measures = {l2};
+  block.measures = {{"", cases::measures::DisplacementFieldL2{}}};
   return block;
 }
 
@@ -76,7 +74,7 @@ TEST_CASE("the volume of bent trilinear cells is that between their nodes, of bo
           "[verification]") {
   for (const auto backend : {Backend::assembled, Backend::grid}) {
     cases::Case block = bent(Element::q1);
-    block.loads[0].value *= 10;
+    block.loads[0].scale(10);
     const cases::Scene scene = cases::make_scene(block);
     const cases::Solution solution = Model(scene, MPI_COMM_SELF, backend).solve();
     for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)

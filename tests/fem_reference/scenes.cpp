@@ -1,5 +1,7 @@
 #include "scenes.hpp"
 
+#include "tests/support/bodies.hpp"
+
 #include <cmath>
 
 using namespace springproof;
@@ -8,20 +10,12 @@ namespace scenes {
 
 using Eigen::Vector3d;
 
+using bodies::region;
+
 namespace {
 
-cases::Region region(const std::string& name) {
-  cases::Region r;
-  r.name = name;
-  return r;
-}
-
 void push(cases::Case& definition, const std::string& where, const Vector3d& force) {
-  cases::Load load;
-  load.region = region(where);
-  load.kind = cases::LoadKind::nodal_force;
-  load.value = force;
-  definition.loads.push_back(load);
+  definition.loads.push_back({cases::Region{where}, cases::loads::NodalForce{force}});
 }
 
 int nearest(const cases::HexMesh& mesh, const Vector3d& point) {
@@ -55,7 +49,7 @@ cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases:
   c.body = cases::Box{Vector3d(10, 10, 10), {cells, cells, cells}};
   c.material = material;
   cases::Fixed clamp;
-  clamp.region = region("z-");
+  clamp.region = cases::Region{"z-"};
   c.fixed.push_back(clamp);
   const double scale = set == LoadSet::large ? 5 : 1;
   if (test == Test::tensile) push(c, "z+", {0, 0, 0.010 * scale});

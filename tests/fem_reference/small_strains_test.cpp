@@ -25,16 +25,9 @@ cases::Scene pulled_cube(cases::Formulation formulation, Element element, double
   definition.fem.formulation = formulation;
   definition.fem.element = element;
   for (const char* face : {"x-", "y-", "z-"}) {
-    cases::Fixed fixed;
-    fixed.region.name = face;
-    fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
-    definition.fixed.push_back(fixed);
+    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
   }
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, traction};
-  definition.loads = {load};
+  definition.loads = {{{"z+"}, cases::loads::Traction{{0, 0, traction}}}};
   return cases::make_scene(definition);
 }
 

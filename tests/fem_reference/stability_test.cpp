@@ -20,14 +20,8 @@ cases::Solution pressed_column(double fraction, cases::Formulation formulation, 
   definition.material = cases::LinearElastic{1, 0};
   definition.fem.formulation = formulation;
   definition.fem.element = element;
-  cases::Fixed clamp;
-  clamp.region.name = "z-";
-  definition.fixed.push_back(clamp);
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, -fraction * euler};
-  definition.loads.push_back(load);
+  definition.fixed.push_back({{"z-"}});
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, -fraction * euler}}});
   return fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();
 }
 

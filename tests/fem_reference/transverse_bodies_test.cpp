@@ -25,10 +25,7 @@ cases::Scene supported_cube(const cases::Material& material, cases::Formulation 
   definition.fem.formulation = formulation;
   definition.fem.element = element;
   for (const char* face : {"x-", "y-", "z-", "x+"}) {
-    cases::Fixed fixed;
-    fixed.region.name = face;
-    fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
-    definition.fixed.push_back(fixed);
+    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
   }
   return cases::make_scene(definition);
 }

@@ -1,8 +1,7 @@
-// Kept results as a target for libFuzzer: frames, answers whose digest a forger has put right, and shards'
+// Kept results as a target for libFuzzer: files, answers whose digest a forger has put right, and shards'
 // records.
 
-#include "compare/solve/answer_bytes.hpp"
-#include "compare/solve/frame.hpp"
+#include "compare/solve/kept.hpp"
 #include "compare/solve/shard_record.hpp"
 #include "tests/fuzz/promise.hpp"
 
@@ -26,17 +25,13 @@ void read_any(const Read& read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(bytes), size);
   static const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {1, 1, 1});
-  static const cases::Share all = cases::share_here(mesh, nullptr);
+  PROMISE(compare::result_in(compare::kept_text("cell", text), "cell") == text);
+  read_any([&] { compare::result_in(text, "cell"); });
   read_any([&] {
-    std::string rest = text;
-    if (const auto frame = compare::take_frame(rest))
-      PROMISE(compare::framed(*frame).size() + rest.size() <= text.size());
-  });
-  read_any([&] {
-    const compare::Answers answers = compare::answers_from(text, all);
+    const auto answers = compare::result_from<compare::Answers>(text, mesh);
     if (answers.fem.converged()) PROMISE(answers.fem.solution.displacement.size() == mesh.nodes.size());
   });
-  read_any([&] { compare::answer_from(text, all); });
+  read_any([&] { compare::result_from<compare::Answer>(text, mesh); });
   read_any([&] {
     const compare::ShardRecord record = compare::record_from(text);
     PROMISE(1 <= record.shard.index && record.shard.index <= record.shard.count);

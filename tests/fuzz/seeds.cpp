@@ -98,8 +98,6 @@ int main(int, char** argv) {
   write("vtu/cloud", cases::bytes_of(cloud()));
   write("vtu/cells", cases::bytes_of(cells()));
   write("labels/grid", cases::bytes_of(cases::LabelGrid{{3, 2, 1}, {0, 0, 0}, {1, 2, 0, 2, 0, 1}}));
-  write("labels/header", "NRRD0004\ntype: short\nencoding: raw\ndata file: a.raw\n\n");
-  write("labels/meta", "CompressedData = False\nElementDataFile = a.raw\n");
   write("kept/answers", cases::to_bytes(answers()));
   write("kept/answer", cases::to_bytes(answers().fem));
 }

@@ -1,4 +1,4 @@
-#include "cases/mesh/vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 namespace springproof::cases {
 

@@ -20,9 +20,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         PROMISE(triangle[c] >= 0 && cases::index(triangle[c]) < surface.vertices.size());
         PROMISE(triangle[c] != triangle[(c + 1) % 3]);
       }
-    std::vector<Eigen::Vector3d> normals;
-    cases::vertex_normals(surface.triangles, surface.vertices, normals);
-    PROMISE(normals.size() == surface.vertices.size());
     const std::size_t n_vertices = surface.vertices.size();
     const mechanics::EmbeddedSurface embedded = mechanics::embed(std::move(surface), mesh);
     PROMISE(embedded.vertices.size() == n_vertices && embedded.n_outside <= n_vertices);

@@ -158,7 +158,7 @@ TEST_CASE("springs of any size but nothing are solved alike: the multigrid cycle
   for (const int exponent : {-150, 150}) { // beyond single precision
     const double factor = std::ldexp(1, exponent);
     cases::Scene scaled = scene;
-    for (auto& applied : scaled.loads) applied.load.value *= factor;
+    for (auto& applied : scaled.loads) applied.load.scale(factor);
     const msm::CellStiffness cell{factor * thesis_cell.edge, factor * thesis_cell.face_diagonal,
                                   factor * thesis_cell.internal_diagonal, 0};
     const cases::Solution found = msm::Model(scaled, {cell}, {msm::Path::multigrid, 1}).solve();

@@ -19,16 +19,8 @@ namespace {
 
 const std::vector<msm::CellStiffness> springs_of_all{{0.2, 0.1, 0.3, 0.05}}; // N/mm, MPa
 
-cases::Region region_named(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
-
 cases::Load gravity_in_time(std::vector<std::array<double, 2>> history) {
-  cases::Load load;
-  load.kind = cases::LoadKind::gravity;
-  load.value = {0, 0, -9.81};
+  cases::Load load{{}, cases::loads::Gravity{{0, 0, -9.81}}};
   load.history.points = std::move(history);
   return load;
 }
@@ -38,13 +30,9 @@ cases::Scene bar(const cases::Load& load, const cases::Dynamics& dynamics,
                  const cases::MaterialDynamics& material) {
   cases::Case definition;
   definition.body = cases::Box{{30, 10, 10}, {3, 1, 1}};
-  definition.fixed.push_back({region_named("x-"), {true, true, true}});
+  definition.fixed.push_back({cases::Region{"x-"}, {true, true, true}});
   definition.material_dynamics = material;
-  cases::Measure tip, volume;
-  tip.kind = cases::MeasureKind::displacement;
-  tip.node = region_named("x+ y+ z+");
-  volume.kind = cases::MeasureKind::volume;
-  definition.measures = {tip, volume};
+  definition.measures = {{"", cases::measures::Displacement{{"x+ y+ z+"}}}, {"", cases::measures::Volume{}}};
   cases::Scene scene = cases::make_scene(definition);
   scene.loads.push_back({{}, load});
   scene.definition.dynamics = dynamics;
@@ -134,7 +122,7 @@ TEST_CASE("a support that moves takes damped springs along", "[verification]") {
           .definition;
   definition.fixed.clear();
   cases::Moved moved;
-  moved.region = region_named("x-");
+  moved.region = cases::Region{"x-"};
   moved.displacement = {0.5, 0, 1};
   moved.history.points = {{0., 0.}, {0.1, 1.}};
   definition.moved.push_back(moved);
@@ -188,8 +176,8 @@ TEST_CASE("a body without unknowns goes where its supports go") {
       bar(gravity_in_time({}), dynamics_of(cases::Scheme::newmark, 0.01, 0.1, cases::MotionStart::rest),
           {1000., 1, 0.001});
   scene.mesh = cases::make_box_mesh({10, 10, 10}, {1, 1, 1});
-  scene.constrained = {{cases::select(scene.mesh, region_named("x-")), {true, true, true}},
-                       {cases::select(scene.mesh, region_named("x+")), {true, true, true}}};
+  scene.constrained = {{cases::select(scene.mesh, cases::Region{"x-"}), {true, true, true}},
+                       {cases::select(scene.mesh, cases::Region{"x+"}), {true, true, true}}};
   const cases::Solution motion = follow(scene);
   CHECK(motion.status == cases::Status::converged);
   CHECK_FALSE(motion.trajectory->slowest);
@@ -200,7 +188,7 @@ TEST_CASE("springs under loads near nothing move as under a thousand times as mu
   // Strains of 1e-13 and less, which positions cannot hold.
   const auto tip = [](double factor) {
     cases::Load load = gravity_in_time({});
-    load.value *= factor;
+    load.scale(factor);
     const cases::Scene scene = bar(
         load, dynamics_of(cases::Scheme::newmark, 0.01, 0.1, cases::MotionStart::rest), {1000., 1, 0.001});
     return follow(scene).trajectory->displacement.back().z() / factor;

@@ -21,16 +21,11 @@ using mechanics::Vector;
 const msm::CellStiffness hybrid_springs{0.2, 0.1, 0.3, 0.05}; // N/mm, MPa
 
 inline cases::Region region_of(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
+  return {name};
 }
 
 inline cases::Load gravity() {
-  cases::Load load;
-  load.kind = cases::LoadKind::gravity;
-  load.value = {0, 2, -9.81};
-  return load;
+  return {{}, cases::loads::Gravity{{0, 2, -9.81}}};
 }
 
 inline cases::Dynamics steps(cases::Scheme scheme, double step, double end) {

@@ -26,11 +26,7 @@ cases::Scene pulled_cube(double traction) {
     fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
     definition.fixed.push_back(fixed);
   }
-  cases::Load load;
-  load.region = bodies::region("z+");
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, traction};
-  definition.loads = {load};
+  definition.loads = {{bodies::region("z+"), cases::loads::Traction{{0, 0, traction}}}};
   return cases::make_scene(definition);
 }
 

@@ -2,7 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 #include "tests/support/largest.hpp"
 
 #include <random>
@@ -14,17 +14,11 @@ using namespace springproof;
 namespace bodies {
 
 inline cases::Region region(const std::string& name) {
-  cases::Region region;
-  region.name = name;
-  return region;
+  return {name};
 }
 
 inline cases::Load nodal_force(const std::string& where, const Eigen::Vector3d& newtons) {
-  cases::Load load;
-  load.region = region(where);
-  load.kind = cases::LoadKind::nodal_force;
-  load.value = newtons;
-  return load;
+  return {region(where), cases::loads::NodalForce{newtons}};
 }
 
 /// A box of cubes of 1 mm, its face z- clamped.

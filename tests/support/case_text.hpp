@@ -20,19 +20,12 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-struct Mistake {
-  std::string from, to; ///< in the good file
-  int line;             ///< 0: not asked
-  std::string key;
-  std::vector<std::string> says;
-};
-
-/// Requires that a reader refuses the text where the mistake is, with a message that says what is asked for.
+/// Requires that a reader refuses a text at a line and a key, with a message that says what is asked for.
 template<class Reader>
-void check_refused(const std::string& text, const Mistake& mistake, const Reader& read) {
+void check_refused(const std::string& text, int line, const std::string& key,
+                   const std::vector<std::string>& says, const Reader& read) {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", text);
-  INFO("replaced: " << mistake.from << "\nby: " << mistake.to);
   try {
     read(path);
     FAIL("accepted");
@@ -40,13 +33,13 @@ void check_refused(const std::string& text, const Mistake& mistake, const Reader
     const std::string message = error.what();
     INFO(message);
     CHECK(error.where().file == path);
-    CHECK(error.where().key == mistake.key);
-    CHECK(error.where().line == mistake.line);
+    CHECK(error.where().key == key);
+    CHECK(error.where().line == line);
     const std::string begin =
-        path + ":" + std::to_string(mistake.line) + ":" + std::to_string(error.where().column) + ": ";
-    CHECK(message.rfind(begin + (mistake.key.empty() ? "" : mistake.key + ": "), 0) == 0);
+        path + ":" + std::to_string(line) + ":" + std::to_string(error.where().column) + ": ";
+    CHECK(message.rfind(begin + (key.empty() ? "" : key + ": "), 0) == 0);
     CHECK(error.where().column >= 1);
-    for (const std::string& part : mistake.says) CHECK_THAT(message, Catch::Contains(part));
+    for (const std::string& part : says) CHECK_THAT(message, Catch::Contains(part));
     CHECK(message.find('\n') == std::string::npos);
   }
 }
@@ -90,19 +83,29 @@ reference = 'published'
 reason = 'Table 4.5'
 )";
 
+/// Its body, without a line's end.
+inline const std::string box_keys = "shape = 'box'\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]";
+
 inline cases::Case read_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   return cases::read_case(folder.write("case.toml", text), overrides);
 }
 
-inline void check_case_refused(const std::string& text, const Mistake& mistake) {
-  check_refused(text, mistake, [](const std::string& path) { cases::read_case(path); });
+inline constexpr auto read_any = [](const std::string& path) { cases::read_case(path); };
+
+inline void check_case_refused(const std::string& text, int line, const std::string& key,
+                               const std::vector<std::string>& says) {
+  check_refused(text, line, key, says, read_any);
 }
 
-/// Requires that each mistake in good_case is refused.
-inline void check_mistakes(const std::vector<Mistake>& mistakes) {
-  for (const Mistake& mistake : mistakes)
-    check_case_refused(replaced(good_case, mistake.from, mistake.to), mistake);
+/// A function refused(from, to, line, key, says) that requires that a mistake in a good case is refused.
+template<class Reader = decltype(read_any)>
+auto mistakes_in(const std::string& good, const Reader& read = read_any) {
+  return [good, read](const std::string& from, const std::string& to, int line, const std::string& key,
+                      const std::vector<std::string>& says) {
+    INFO("replaced: " << from << "\nby: " << to);
+    check_refused(replaced(good, from, to), line, key, says, read);
+  };
 }
 
 } // namespace case_text

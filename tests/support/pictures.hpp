@@ -14,8 +14,7 @@ namespace springproof::pictures {
 
 using namespace cases;
 
-/// 12 x 3 x 2 voxels of 1 x 2 x 3 mm: 100 below 6 mm of x, 50 from there to 9 mm, 0 beyond. (VTK takes a
-/// first axis of up to 9 in NRRD for components.)
+/// 12 x 3 x 2 voxels of 1 x 2 x 3 mm: 100 below 6 mm of x, 50 from there to 9 mm, 0 beyond.
 inline Volume picture() {
   Volume volume{{12, 3, 2}, {1, 2, 3}, {}};
   for (int v = 0; v < 72; ++v) volume.intensities.push_back(v % 12 < 6 ? 100 : v % 12 < 9 ? 50 : 0);
@@ -24,7 +23,7 @@ inline Volume picture() {
 
 inline Labels bone_and_fat(double edge, const std::string& path = "") {
   Labels labels;
-  labels.path = path;
+  labels.file.path = path;
   labels.edge = edge;
   labels.classes = {{"bone", 80, 120, true}, {"fat", 40, 60, false}};
   return labels;
@@ -40,17 +39,6 @@ std::string bytes_of_picture(bool swapped = false) {
     bytes += swapped ? std::string(one.rbegin(), one.rend()) : one;
   }
   return bytes;
-}
-
-inline std::string nrrd(const std::string& more = "", const std::string& sizes = "12 3 2",
-                        const std::string& endian = "little") {
-  return "NRRD0004\ntype: short\ndimension: 3\nsizes: " + sizes +
-         "\nspacings: 1 2 3\nencoding: raw\nendian: " + endian + "\n" + more + "\n";
-}
-
-inline std::string meta(const std::string& file, const std::string& sizes = "12 3 2") {
-  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = " +
-         sizes + "\nElementSpacing = 1 2 3\nElementType = MET_SHORT\nElementDataFile = " + file + "\n";
 }
 
 /// Of int16, 352 bytes.
@@ -71,6 +59,21 @@ inline std::string nifti(std::array<std::int16_t, 3> sizes, float slope = 1, flo
   put(116, intercept);
   std::memcpy(&header[344], "n+1", 4);
   return header;
+}
+
+/// A NIfTI file of single precision.
+inline std::string nifti_of(const Volume& volume) {
+  std::array<std::int16_t, 3> sizes{};
+  for (std::size_t a = 0; a < 3; ++a) sizes[a] = static_cast<std::int16_t>(volume.voxels[a]);
+  std::string file = nifti(sizes);
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(&file[at], &value, sizeof value); };
+  for (std::size_t a = 0; a < 3; ++a) put(80 + 4 * a, static_cast<float>(volume.spacing[int(a)]));
+  put(70, std::int16_t{16}); // float
+  put(72, std::int16_t{32});
+  const std::size_t header = file.size(), bytes = sizeof(float) * volume.intensities.size();
+  file.resize(header + bytes);
+  std::memcpy(&file[header], volume.intensities.data(), bytes);
+  return file;
 }
 
 /// A member of a tar.

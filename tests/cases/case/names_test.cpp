@@ -23,10 +23,16 @@ void check_names(int n) {
   CHECK_FALSE(value_of<Enum>("?").has_value());
 }
 
+template<class Variant>
+void check_kinds(std::size_t n) {
+  CHECK(Kinds<Variant>::names().size() == n);
+  for (const std::string& name : Kinds<Variant>::names()) CHECK(name_of(Kinds<Variant>::named(name)) == name);
+}
+
 } // namespace
 
 TEST_CASE("every enumerator has one name, and the name leads back to it") {
-  check_names<LoadKind>(5);
+  check_kinds<loads::Kind>(5);
   check_names<Scheme>(4);
   check_names<MotionStart>(2);
   check_names<ElementMass>(2);
@@ -35,7 +41,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Formulation>(4);
   check_names<Element>(5);
   check_names<Design>(15);
-  check_names<MeasureKind>(12);
+  check_kinds<measures::Kind>(12);
   check_names<Statistic>(3);
   check_names<Axis>(3);
   check_names<Component>(4);

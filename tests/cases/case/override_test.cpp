@@ -15,16 +15,20 @@ TEST_CASE("settings of the command line replace and add values") {
       read_text(good_case, {"load[0].value=[0, 0, 0.01]", "fem.element=q1", "fem.refine = 0",
                             "measure[0].top=z+ x+ y-", "measure[0].bottom = \"z- x+ y-\"", "name=a b",
                             "msm={design=\"given\", stiffness=[1,2,3]}", "expect[0].error_percent=[-1,1]"});
-  CHECK(c.loads[0].value == Eigen::Vector3d(0, 0, 0.01));
+  const auto force_of = [](const Case& read) {
+    return std::get<loads::NodalForce>(read.loads[0].kind).value;
+  };
+  CHECK(force_of(c) == Eigen::Vector3d(0, 0, 0.01));
   CHECK(c.fem.element == Element::q1);
   CHECK(c.fem.refine == 0);
-  CHECK(c.measures[0].top.name == "z+ x+ y-");
-  CHECK(c.measures[0].bottom.name == "z- x+ y-");
+  const auto& tilt = std::get<measures::Tilt>(c.measures[0].kind);
+  CHECK(tilt.top.name == "z+ x+ y-");
+  CHECK(tilt.bottom.name == "z- x+ y-");
   CHECK(c.name == "a b");
   CHECK(c.msm.design == Design::given);
   CHECK(c.expectations[0].interval == std::array<double, 2>{-1, 1});
   const Case single = read_text(good_case, {"load[0].value[2]=0.5"});
-  CHECK(single.loads[0].value == Eigen::Vector3d(0.002, 0, 0.5));
+  CHECK(force_of(single) == Eigen::Vector3d(0.002, 0, 0.5));
 }
 
 // A design on the command line left keys of the file's own design to be refused, and the way out was not

@@ -12,62 +12,40 @@ using namespace case_text;
 
 TEST_CASE("a mistake in [[measure]] is refused where it is made") {
   const std::string measure = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
-  check_mistakes({
-      {"name = 'alpha_1'\n", "", 26, "measure[0].name", {"is missing"}},
-      {"kind = 'tilt'", "kind = 'tild'", 28, "measure[0].kind", {"coordinate", "did you mean \"tilt\"?"}},
-      {"top = 'z+ x- y-'", "top = 'z+ z- y-'", 29, "measure[0].top", {"z+ and z- do not"}},
-      {"toward = 'x'", "toward = 'x+'", 31, "measure[0].toward", {"is \"x+\"", "\"x\" | \"y\" | \"z\""}},
-      {"toward = 'x'", "toward = 'z'", 31, "measure[0].toward", {"another axis than up"}},
-      {"toward = 'x'", "toward = 'x'\nup = 'up'", 32, "measure[0].up", {"is \"up\""}},
-      {"bottom = 'z- x- y-'", "bottom = 'z+ x- y-'", 29, "measure[0].top", {"another node than bottom"}},
-      {"toward = 'x'", "toward = 'x'\nnode = 'z+'", 32, "measure[0].node", {"is not a key here", "toward"}},
-      {"toward = 'x'\n",
-       "toward = 'x'\n[[measure]]\nname = 'alpha_1'\nkind = 'volume'\n",
-       33,
-       "measure[1].name",
-       {"is \"alpha_1\"", "measure[0]"}},
-      {measure, "kind = 'coordinate'\nnode = 'z+'\n", 26, "measure[0].axis", {"is missing"}},
-      {measure,
-       "kind = 'displacement'\nnode = 'z+'\ncomponent = 'w'\n",
-       30,
-       "measure[0].component",
-       {"\"norm\""}},
-      {measure,
-       "kind = 'twist'\nnode = 'near 5 5 10'\ncentre = 'near 5 5 10'\n",
-       29,
-       "measure[0].node",
-       {"another node than centre"}},
-  });
+  const auto refused = mistakes_in(good_case);
+  refused("name = 'alpha_1'\n", "", 26, "measure[0].name", {"is missing"});
+  refused("kind = 'tilt'", "kind = 'tild'", 28, "measure[0].kind", {"coordinate", "did you mean \"tilt\"?"});
+  refused("top = 'z+ x- y-'", "top = 'z+ z- y-'", 29, "measure[0].top", {"z+ and z- do not"});
+  refused("toward = 'x'", "toward = 'x+'", 31, "measure[0].toward", {"is \"x+\"", "\"x\" | \"y\" | \"z\""});
+  refused("toward = 'x'", "toward = 'z'", 31, "measure[0].toward", {"another axis than up"});
+  refused("toward = 'x'", "toward = 'x'\nup = 'up'", 32, "measure[0].up", {"is \"up\""});
+  refused("bottom = 'z- x- y-'", "bottom = 'z+ x- y-'", 29, "measure[0].top", {"another node than bottom"});
+  refused("toward = 'x'", "toward = 'x'\nnode = 'z+'", 32, "measure[0].node",
+          {"is not a key here", "toward"});
+  refused("toward = 'x'\n", "toward = 'x'\n[[measure]]\nname = 'alpha_1'\nkind = 'volume'\n", 33,
+          "measure[1].name", {"is \"alpha_1\"", "measure[0]"});
+  refused(measure, "kind = 'coordinate'\nnode = 'z+'\n", 26, "measure[0].axis", {"is missing"});
+  refused(measure, "kind = 'displacement'\nnode = 'z+'\ncomponent = 'w'\n", 30, "measure[0].component",
+          {"\"norm\""});
+  refused(measure, "kind = 'twist'\nnode = 'near 5 5 10'\ncentre = 'near 5 5 10'\n", 29, "measure[0].node",
+          {"another node than centre"});
 }
 
 TEST_CASE("a mistake in a measure of forces, stress or strain is refused where it is made") {
   const std::string measure = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
-  check_mistakes({
-      {measure, "kind = 'reaction'\ncomponent = 'x'\n", 26, "measure[0].region", {"is missing"}},
-      {measure, "kind = 'reaction'\nregion = 'z-'\n", 26, "measure[0].component", {"is missing"}},
-      {measure,
-       "kind = 'reaction'\nregion = 'z-'\ncomponent = 'xx'\n",
-       30,
-       "measure[0].component",
-       {"\"norm\""}},
-      {measure, "kind = 'stress'\ncomponent = 'xx'\n", 26, "measure[0].point", {"is missing"}},
-      {measure,
-       "kind = 'stress'\npoint = [5, 5]\ncomponent = 'xx'\n",
-       29,
-       "measure[0].point",
-       {"three finite numbers"}},
-      {measure,
-       "kind = 'stress'\npoint = [5, 5, 5]\ncomponent = 'mises'\n",
-       30,
-       "measure[0].component",
-       {"von_mises", "principal_1"}},
-      {measure,
-       "kind = 'strain'\npoint = [5, 5, 5]\ncomponent = 'von_mises'\n",
-       30,
-       "measure[0].component",
-       {"\"principal_3\""}},
-      {measure, "kind = 'strain_energy'\nregion = 'z-'\n", 29, "measure[0].region", {"is not a key here"}},
-  });
+  const auto refused = mistakes_in(good_case);
+  refused(measure, "kind = 'reaction'\ncomponent = 'x'\n", 26, "measure[0].region", {"is missing"});
+  refused(measure, "kind = 'reaction'\nregion = 'z-'\n", 26, "measure[0].component", {"is missing"});
+  refused(measure, "kind = 'reaction'\nregion = 'z-'\ncomponent = 'xx'\n", 30, "measure[0].component",
+          {"\"norm\""});
+  refused(measure, "kind = 'stress'\ncomponent = 'xx'\n", 26, "measure[0].point", {"is missing"});
+  refused(measure, "kind = 'stress'\npoint = [5, 5]\ncomponent = 'xx'\n", 29, "measure[0].point",
+          {"three finite numbers"});
+  refused(measure, "kind = 'stress'\npoint = [5, 5, 5]\ncomponent = 'mises'\n", 30, "measure[0].component",
+          {"von_mises", "principal_1"});
+  refused(measure, "kind = 'strain'\npoint = [5, 5, 5]\ncomponent = 'von_mises'\n", 30,
+          "measure[0].component", {"\"principal_3\""});
+  refused(measure, "kind = 'strain_energy'\nregion = 'z-'\n", 29, "measure[0].region", {"is not a key here"});
 }
 
 TEST_CASE("a case asks for fields when a measure is of them") {
@@ -82,36 +60,20 @@ TEST_CASE("a case asks for fields when a measure is of them") {
 }
 
 TEST_CASE("a mistake in [[expect]] is refused where it is made") {
-  check_mistakes({
-      {"measure = 'alpha_1'",
-       "measure = 'alpha_2'",
-       33,
-       "expect[0].measure",
-       {"is \"alpha_2\"", "did you mean \"alpha_1\"?"}},
-      {"error_percent = [-8.0, 0.0]",
-       "error_percent = [0.0, -8.0]",
-       34,
-       "expect[0].error_percent",
-       {"lower <= upper"}},
-      {"error_percent = [-8.0, 0.0]",
-       "error_percent = [0.0]",
-       34,
-       "expect[0].error_percent",
-       {"two finite numbers"}},
-      {"error_percent = [-8.0, 0.0]\n", "", 32, "expect[0].error_percent", {"is missing", "msm", "fem"}},
-      {"error_percent = [-8.0, 0.0]",
-       "error_percent = [-8.0, 0.0]\nfem = [1, 2]",
-       35,
-       "expect[0].fem",
-       {"left out"}},
-      {"reference = 'published'",
-       "reference = 'printed'",
-       35,
-       "expect[0].reference",
-       {"exact", "regression"}},
-      {"reason = 'Table 4.5'", "reason = ''", 36, "expect[0].reason", {"not empty"}},
-      {"reason = 'Table 4.5'\n", "", 32, "expect[0].reason", {"is missing"}},
-  });
+  const auto refused = mistakes_in(good_case);
+  refused("measure = 'alpha_1'", "measure = 'alpha_2'", 33, "expect[0].measure",
+          {"is \"alpha_2\"", "did you mean \"alpha_1\"?"});
+  refused("error_percent = [-8.0, 0.0]", "error_percent = [0.0, -8.0]", 34, "expect[0].error_percent",
+          {"lower <= upper"});
+  refused("error_percent = [-8.0, 0.0]", "error_percent = [0.0]", 34, "expect[0].error_percent",
+          {"two finite numbers"});
+  refused("error_percent = [-8.0, 0.0]\n", "", 32, "expect[0].error_percent", {"is missing", "msm", "fem"});
+  refused("error_percent = [-8.0, 0.0]", "error_percent = [-8.0, 0.0]\nfem = [1, 2]", 35, "expect[0].fem",
+          {"left out"});
+  refused("reference = 'published'", "reference = 'printed'", 35, "expect[0].reference",
+          {"exact", "regression"});
+  refused("reason = 'Table 4.5'", "reason = ''", 36, "expect[0].reason", {"not empty"});
+  refused("reason = 'Table 4.5'\n", "", 32, "expect[0].reason", {"is missing"});
 }
 
 TEST_CASE("a statistic of a strain is of a region or of all cells, and has no point") {
@@ -119,15 +81,16 @@ TEST_CASE("a statistic of a strain is of a region or of all cells, and has no po
   const auto with = [&](const std::string& keys) {
     return replaced(good_case, from, "kind = 'strain'\ncomponent = 'principal_1'\n" + keys);
   };
-  const Case c = read_text(with("statistic = 'deviation'\nregion = 'z-'"));
-  CHECK(c.measures[0].statistic == Statistic::deviation);
-  CHECK(c.measures[0].region.name == "z-");
-  CHECK(read_text(with("statistic = 'largest'")).measures[0].region.name.empty());
+  const auto read = [&](const std::string& keys) {
+    return std::get<measures::Strain>(read_text(with(keys)).measures[0].kind);
+  };
+  CHECK(read("statistic = 'deviation'\nregion = 'z-'").statistic == Statistic::deviation);
+  CHECK(read("statistic = 'deviation'\nregion = 'z-'").region.name == "z-");
+  CHECK_FALSE(read("statistic = 'largest'").has_region());
   CHECK_THROWS_WITH(read_text(with("statistic = 'mean'\npoint = [1, 1, 1]")),
                     Catch::Contains("left out beside statistic"));
   CHECK_THROWS_WITH(read_text(with("region = 'z-'\npoint = [1, 1, 1]")),
                     Catch::Contains("left out without statistic"));
-  CHECK(read_text(replaced(good_case, from, "kind = 'curvature'\nregion = 'z+ x-'\naxis = 'y'"))
-            .measures[0]
-            .axis == Axis::y);
+  const Case c = read_text(replaced(good_case, from, "kind = 'curvature'\nregion = 'z+ x-'\naxis = 'y'"));
+  CHECK(std::get<measures::Curvature>(c.measures[0].kind).axis == Axis::y);
 }

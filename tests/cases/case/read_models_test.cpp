@@ -1,4 +1,4 @@
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 
 #include "tests/support/case_text.hpp"
 
@@ -28,11 +28,10 @@ region = "z+"
 kind = "traction"
 value = [0, 0, 0.01]
 )";
-  check_case_refused(ogden + "[fem]\nelement = \"q1\"\n", {"", "", 18, "fem.element", {"q1_p0", "locks"}});
-  check_case_refused(ogden + "[fem]\nformulation = 'log_strain'\n",
-                     {"", "", 18, "fem.formulation", {"hyperelastic"}});
-  check_case_refused(ogden + "[msm]\ndesign = 'linear_method'\n",
-                     {"", "", 18, "msm.design", {"Poisson's ratio below 0.5"}});
+  check_case_refused(ogden + "[fem]\nelement = \"q1\"\n", 18, "fem.element", {"q1_p0", "locks"});
+  check_case_refused(ogden + "[fem]\nformulation = 'log_strain'\n", 18, "fem.formulation", {"hyperelastic"});
+  check_case_refused(ogden + "[msm]\ndesign = 'linear_method'\n", 18, "msm.design",
+                     {"Poisson's ratio below 0.5"});
   CHECK_NOTHROW(read_text(ogden + "[msm]\ndesign = 'linear_method'\npoissons_ratio = 0.35\n"));
   CHECK_NOTHROW(read_text(ogden + "[fem]\nelement = 'q1_bbar'\n"));
 }
@@ -55,157 +54,103 @@ TEST_CASE(
 
 TEST_CASE("a mistake in [fem] is refused where it is made") {
   const std::string fem = "formulation = 'log_strain'\nelement = 'q1_bbar'\nrefine = 1\n";
-  check_mistakes({
-      {"formulation = 'log_strain'",
-       "formulation = 'log-strain'",
-       19,
-       "fem.formulation",
-       {"did you mean \"log_strain\"?"}},
-      {"element = 'q1_bbar'", "element = 'q3'", 20, "fem.element", {"is \"q3\"", "q2_p1"}},
-      {"element = 'q1_bbar'", "elment = 'q1_bbar'", 20, "fem.elment", {"did you mean \"element\"?"}},
-      {"refine = 1", "refine = -1", 21, "fem.refine", {"is -1", "from 0 to 8"}},
-      {"refine = 1", "refine = 1.0", 21, "fem.refine", {"is 1.0", "whole number"}},
-      {"refine = 1", "refine = true", 21, "fem.refine", {"is true", "whole number"}},
-      {"refine = 1", "refine = 8", 21, "fem.refine", {"is 8", "fewer"}},
-      {fem, "formulation = 'hyperelastic'\n", 19, "fem.formulation", {"ogden"}},
-      {fem,
-       "formulation = 'saint_venant_kirchhoff'\nelement = 'q1_bbar'\n",
-       20,
-       "fem.element",
-       {"\"q1\" | \"q2\""}},
-      {fem,
-       "formulation = 'saint_venant_kirchhoff'\nelement = 'q2_p1'\n",
-       20,
-       "fem.element",
-       {"\"q1\" | \"q2\""}},
-      {"[fem]", "fem = 3\n[fim]", 18, "load[0].fem", {"is not a key here"}}, // it belongs to the load above
-                                                                             // it
-      // what is left open
-      {"formulation = 'log_strain'",
-       "formulation = 'autom'",
-       19,
-       "fem.formulation",
-       {"is \"autom\"", "did you mean \"auto\"?"}},
-      {"refine = 1", "accuracy = 'fine'", 21, "fem.accuracy", {"\"auto\"", "\"none\""}},
-      {"refine = 1", "accept = ['inverted', 'inverted']", 21, "fem.accept[1]", {"not in the list yet"}},
-      {"refine = 1", "accept = ['loose']", 21, "fem.accept[0]", {"\"inverted\"", "\"unstable\""}},
-  });
+  const auto refused = mistakes_in(good_case);
+  refused("formulation = 'log_strain'", "formulation = 'log-strain'", 19, "fem.formulation",
+          {"did you mean \"log_strain\"?"});
+  refused("element = 'q1_bbar'", "element = 'q3'", 20, "fem.element", {"is \"q3\"", "q2_p1"});
+  refused("element = 'q1_bbar'", "elment = 'q1_bbar'", 20, "fem.elment", {"did you mean \"element\"?"});
+  refused("refine = 1", "refine = -1", 21, "fem.refine", {"is -1", "from 0 to 8"});
+  refused("refine = 1", "refine = 1.0", 21, "fem.refine", {"is 1.0", "whole number"});
+  refused("refine = 1", "refine = true", 21, "fem.refine", {"is true", "whole number"});
+  refused("refine = 1", "refine = 8", 21, "fem.refine", {"is 8", "fewer"});
+  refused(fem, "formulation = 'hyperelastic'\n", 19, "fem.formulation", {"ogden"});
+  refused(fem, "formulation = 'saint_venant_kirchhoff'\nelement = 'q1_bbar'\n", 20, "fem.element",
+          {"\"q1\" | \"q2\""});
+  refused(fem, "formulation = 'saint_venant_kirchhoff'\nelement = 'q2_p1'\n", 20, "fem.element",
+          {"\"q1\" | \"q2\""});
+  refused("[fem]", "fem = 3\n[fim]", 18, "load[0].fem", {"is not a key here"});
+  // it belongs to the load above
+  // it
+  // what is left open
+  refused("formulation = 'log_strain'", "formulation = 'autom'", 19, "fem.formulation",
+          {"is \"autom\"", "did you mean \"auto\"?"});
+  refused("refine = 1", "accuracy = 'fine'", 21, "fem.accuracy", {"\"auto\"", "\"none\""});
+  refused("refine = 1", "accept = ['inverted', 'inverted']", 21, "fem.accept[1]", {"not in the list yet"});
+  refused("refine = 1", "accept = ['loose']", 21, "fem.accept[0]", {"\"inverted\"", "\"unstable\""});
 }
 
 TEST_CASE("a mistake in [msm] is refused where it is made") {
   const std::string msm = "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8\n";
-  check_mistakes({
-      {"design = 'moduli'",
-       "design = 'modulus'",
-       23,
-       "msm.design",
-       {"linear_method", "did you mean \"moduli\"?"}},
-      {"poissons_ratio = 0.3\nsplit",
-       "poissons_ratio = 0.7\nsplit",
-       24,
-       "msm.poissons_ratio",
-       {"is 0.7", "below 0.5"}},
-      {"split = 0.8", "split = 1.2", 25, "msm.split", {"is 1.2", "from 0 to 1"}},
-      {"design = 'moduli'",
-       "design = 'linear_method'",
-       25,
-       "msm.split",
-       {"left out", "\"moduli\" | \"hybrid\""}},
-      {"split = 0.8", "paths = ['uniaxial']", 25, "msm.paths", {"left out", "\"multi_load\""}},
-      {"split = 0.8",
-       "strain_range = [0, 0.1]",
-       25,
-       "msm.strain_range",
-       {"left out", "\"nonlinear_method\""}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\npaths = ['uniaxal']",
-       24,
-       "msm.paths[0]",
-       {"did you mean \"uniaxial\"?"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\npaths = ['uniaxial', 'uniaxial']",
-       24,
-       "msm.paths[1]",
-       {"not in the list yet"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\npaths = ['uniaxial']\nweights = [1, 2]",
-       25,
-       "msm.weights",
-       {"is [1, 2]", "1 numbers"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\nweights = [0, 0, 0, 0]",
-       24,
-       "msm.weights",
-       {"not all 0"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\nstrain_range = [0.2, 0.1]",
-       24,
-       "msm.strain_range",
-       {"the smaller first"}},
-      {"design = 'moduli'",
-       "design = 'multi_load'\nvolume_term = 'fited'",
-       24,
-       "msm.volume_term",
-       {"did you mean \"fitted\"?"}},
-      {"split = 0.8", "solver = 'newtn'", 25, "msm.solver", {"\"fire\"", "did you mean \"newton\"?"}},
-      {"split = 0.8", "stiffness = [1, 2, 3]", 25, "msm.stiffness", {"left out", "\"given\""}},
-      {"split = 0.8", "volume_stiffness = 0.1", 25, "msm.volume_stiffness", {"left out", "\"given\""}},
-      {msm, "design = 'given'\n", 22, "msm.stiffness", {"is missing", "k_e, k_f, k_d"}},
-      {msm, "design = 'given'\nstiffness = [1, 2]\n", 24, "msm.stiffness", {"is [1, 2]", "three numbers"}},
-      {msm, "design = 'given'\nstiffness = [1, -2, 3]\n", 24, "msm.stiffness", {"none below 0"}},
-      {msm, "design = 'given'\nstiffness = [0, 0, 0]\n", 24, "msm.stiffness", {"one is above 0"}},
-      {msm,
-       "design = 'given'\nstiffness = [1, 2, 3]\nvolume_stiffness = -1\n",
-       25,
-       "msm.volume_stiffness",
-       {"is -1"}},
-      {msm,
-       "design = 'given'\nstiffness = [1, 2, 3]\npoissons_ratio = 0.3\n",
-       25,
-       "msm.poissons_ratio",
-       {"left out"}},
-      {msm,
-       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6]\n",
-       24,
-       "msm.axis_stiffness",
-       {"seven numbers"}},
-      {msm,
-       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, -7]\n",
-       24,
-       "msm.axis_stiffness",
-       {"none below 0"}},
-      {msm,
-       "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, 7]\nstiffness = [1, 2, 3]\n",
-       25,
-       "msm.stiffness",
-       {"left out beside axis_stiffness"}},
-      {msm, "design = 'uniform'\nstiffness = [1, 2, 3]\n", 24, "msm.stiffness", {"above 0", "every spring"}},
-      {msm, "design = 'uniform'\nstiffness = 0\n", 24, "msm.stiffness", {"above 0"}},
-      {msm, "design = 'uniform'\nsplit = 0.5\n", 24, "msm.split", {"left out", "\"hybrid\""}},
-      {msm, "design = 'baudet'\npoissons_ratio = -0.3\n", 23, "msm.design", {"-0.25 and more", "\"baudet\""}},
-      {msm, "design = 'biquadratic'\nlaw = 'power_log'\n", 24, "msm.law", {"left out", "law of its own"}},
-      {msm, "design = 'network'\n", 22, "msm.file", {"is missing"}},
-      {msm, "design = 'network'\nfile = 'springs.txt'\n", 24, "msm.file", {".csv"}},
-      {msm, "design = 'network'\nfile = 'no_such.csv'\n", 24, "msm.file", {"a file that exists"}},
-      {msm, "design = 'hybrid'\nfile = 'springs.csv'\n", 24, "msm.file", {"left out", "\"network\""}},
-      {msm, "design = 'lloyd'\npoissons_ratio = 0.3\n", 24, "msm.poissons_ratio", {"left out", "\"hybrid\""}},
-      {msm, "design = 'hybrid'\npoissons_ratio = -0.2\n", 23, "msm.design", {"0 and more", "-0.2"}},
-      {msm, "design = 'matched'\npoissons_ratio = -0.2\n", 23, "msm.design", {"0 and more", "\"matched\""}},
-      {msm, "design = 'matched'\nlaw = 'hooke'\n", 24, "msm.law", {"left out", "\"matched\""}},
-      {msm, "design = 'matched'\nexponent = -1\n", 24, "msm.exponent", {"left out", "\"matched\""}},
-      {"split = 0.8", "law = 'power'", 25, "msm.law", {"\"hooke\"", "\"power_log\""}},
-      {"split = 0.8", "law = 'power_log'", 22, "msm.exponent", {"is missing", "a number, or three"}},
-      {"split = 0.8", "exponent = -1.5", 25, "msm.exponent", {"left out", "law = \"power_log\""}},
-      {"split = 0.8", "law = 'hooke'\nexponent = 1", 26, "msm.exponent", {"left out", "law = \"power_log\""}},
-      {"split = 0.8", "law = 'power_log'\nexponent = nan", 26, "msm.exponent", {"is nan", "from -20 to 20"}},
-      {"split = 0.8", "law = 'power_log'\nexponent = [1, 2]", 26, "msm.exponent", {"is [1, 2]", "three"}},
-      {"split = 0.8", "law = 'power_log'\nexponent = [1, 2, 21]", 26, "msm.exponent", {"from -20 to 20"}},
-      {"design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8",
-       "design = 'nonlinear_method'\nlaw = 'power_log'\nexponent = -1",
-       24,
-       "msm.law",
-       {"\"hooke\" with design = \"nonlinear_method\""}},
-  });
+  const auto refused = mistakes_in(good_case);
+  refused("design = 'moduli'", "design = 'modulus'", 23, "msm.design",
+          {"linear_method", "did you mean \"moduli\"?"});
+  refused("poissons_ratio = 0.3\nsplit", "poissons_ratio = 0.7\nsplit", 24, "msm.poissons_ratio",
+          {"is 0.7", "below 0.5"});
+  refused("split = 0.8", "split = 1.2", 25, "msm.split", {"is 1.2", "from 0 to 1"});
+  refused("design = 'moduli'", "design = 'linear_method'", 25, "msm.split",
+          {"left out", "\"moduli\" | \"hybrid\""});
+  refused("split = 0.8", "paths = ['uniaxial']", 25, "msm.paths", {"left out", "\"multi_load\""});
+  refused("split = 0.8", "strain_range = [0, 0.1]", 25, "msm.strain_range",
+          {"left out", "\"nonlinear_method\""});
+  refused("design = 'moduli'", "design = 'multi_load'\npaths = ['uniaxal']", 24, "msm.paths[0]",
+          {"did you mean \"uniaxial\"?"});
+  refused("design = 'moduli'", "design = 'multi_load'\npaths = ['uniaxial', 'uniaxial']", 24, "msm.paths[1]",
+          {"not in the list yet"});
+  refused("design = 'moduli'", "design = 'multi_load'\npaths = ['uniaxial']\nweights = [1, 2]", 25,
+          "msm.weights", {"is [1, 2]", "1 numbers"});
+  refused("design = 'moduli'", "design = 'multi_load'\nweights = [0, 0, 0, 0]", 24, "msm.weights",
+          {"not all 0"});
+  refused("design = 'moduli'", "design = 'multi_load'\nstrain_range = [0.2, 0.1]", 24, "msm.strain_range",
+          {"the smaller first"});
+  refused("design = 'moduli'", "design = 'multi_load'\nvolume_term = 'fited'", 24, "msm.volume_term",
+          {"did you mean \"fitted\"?"});
+  refused("split = 0.8", "solver = 'newtn'", 25, "msm.solver", {"\"fire\"", "did you mean \"newton\"?"});
+  refused("split = 0.8", "stiffness = [1, 2, 3]", 25, "msm.stiffness", {"left out", "\"given\""});
+  refused("split = 0.8", "volume_stiffness = 0.1", 25, "msm.volume_stiffness", {"left out", "\"given\""});
+  refused(msm, "design = 'given'\n", 22, "msm.stiffness", {"is missing", "k_e, k_f, k_d"});
+  refused(msm, "design = 'given'\nstiffness = [1, 2]\n", 24, "msm.stiffness", {"is [1, 2]", "three numbers"});
+  refused(msm, "design = 'given'\nstiffness = [1, -2, 3]\n", 24, "msm.stiffness", {"none below 0"});
+  refused(msm, "design = 'given'\nstiffness = [0, 0, 0]\n", 24, "msm.stiffness", {"one is above 0"});
+  refused(msm, "design = 'given'\nstiffness = [1, 2, 3]\nvolume_stiffness = -1\n", 25, "msm.volume_stiffness",
+          {"is -1"});
+  refused(msm, "design = 'given'\nstiffness = [1, 2, 3]\npoissons_ratio = 0.3\n", 25, "msm.poissons_ratio",
+          {"left out"});
+  refused(msm, "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6]\n", 24, "msm.axis_stiffness",
+          {"seven numbers"});
+  refused(msm, "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, -7]\n", 24, "msm.axis_stiffness",
+          {"none below 0"});
+  refused(msm, "design = 'given'\naxis_stiffness = [1, 2, 3, 4, 5, 6, 7]\nstiffness = [1, 2, 3]\n", 25,
+          "msm.stiffness", {"left out beside axis_stiffness"});
+  refused(msm, "design = 'uniform'\nstiffness = [1, 2, 3]\n", 24, "msm.stiffness",
+          {"above 0", "every spring"});
+  refused(msm, "design = 'uniform'\nstiffness = 0\n", 24, "msm.stiffness", {"above 0"});
+  refused(msm, "design = 'uniform'\nsplit = 0.5\n", 24, "msm.split", {"left out", "\"hybrid\""});
+  refused(msm, "design = 'baudet'\npoissons_ratio = -0.3\n", 23, "msm.design",
+          {"-0.25 and more", "\"baudet\""});
+  refused(msm, "design = 'biquadratic'\nlaw = 'power_log'\n", 24, "msm.law", {"left out", "law of its own"});
+  refused(msm, "design = 'network'\n", 22, "msm.file", {"is missing"});
+  refused(msm, "design = 'network'\nfile = 'springs.txt'\n", 24, "msm.file", {".csv"});
+  refused(msm, "design = 'network'\nfile = 'no_such.csv'\n", 24, "msm.file", {"a file that exists"});
+  refused(msm, "design = 'hybrid'\nfile = 'springs.csv'\n", 24, "msm.file", {"left out", "\"network\""});
+  refused(msm, "design = 'lloyd'\npoissons_ratio = 0.3\n", 24, "msm.poissons_ratio",
+          {"left out", "\"hybrid\""});
+  refused(msm, "design = 'hybrid'\npoissons_ratio = -0.2\n", 23, "msm.design", {"0 and more", "-0.2"});
+  refused(msm, "design = 'matched'\npoissons_ratio = -0.2\n", 23, "msm.design",
+          {"0 and more", "\"matched\""});
+  refused(msm, "design = 'matched'\nlaw = 'hooke'\n", 24, "msm.law", {"left out", "\"matched\""});
+  refused(msm, "design = 'matched'\nexponent = -1\n", 24, "msm.exponent", {"left out", "\"matched\""});
+  refused("split = 0.8", "law = 'power'", 25, "msm.law", {"\"hooke\"", "\"power_log\""});
+  refused("split = 0.8", "law = 'power_log'", 22, "msm.exponent", {"is missing", "a number, or three"});
+  refused("split = 0.8", "exponent = -1.5", 25, "msm.exponent", {"left out", "law = \"power_log\""});
+  refused("split = 0.8", "law = 'hooke'\nexponent = 1", 26, "msm.exponent",
+          {"left out", "law = \"power_log\""});
+  refused("split = 0.8", "law = 'power_log'\nexponent = nan", 26, "msm.exponent",
+          {"is nan", "from -20 to 20"});
+  refused("split = 0.8", "law = 'power_log'\nexponent = [1, 2]", 26, "msm.exponent", {"is [1, 2]", "three"});
+  refused("split = 0.8", "law = 'power_log'\nexponent = [1, 2, 21]", 26, "msm.exponent", {"from -20 to 20"});
+  refused("design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8",
+          "design = 'nonlinear_method'\nlaw = 'power_log'\nexponent = -1", 24, "msm.law",
+          {"\"hooke\" with design = \"nonlinear_method\""});
 }
 
 TEST_CASE("an exponent is one number for all springs or one for each kind") {
@@ -259,8 +204,9 @@ TEST_CASE("numbers of iterations belong to force scaling") {
   const auto with = [](const std::string& keys) {
     return replaced(good_case, "design = 'moduli'", "design = 'moduli'\n" + keys);
   };
-  const Case c = read_text(with("solver = 'force_scaling'\nrelaxation_steps = 10\nrelaxation_iterations = 30\n"
-                                "further_iterations = 2000"));
+  const Case c =
+      read_text(with("solver = 'force_scaling'\nrelaxation_steps = 10\nrelaxation_iterations = 30\n"
+                     "further_iterations = 2000"));
   REQUIRE(c.msm.relaxation);
   CHECK(c.msm.relaxation->all() == 2300);
   CHECK_FALSE(read_text(with("solver = 'force_scaling'")).msm.relaxation);

@@ -4,7 +4,7 @@
 using namespace springproof;
 
 using namespace cases;
-using case_text::Mistake;
+using namespace case_text;
 
 namespace {
 
@@ -45,6 +45,8 @@ inverted_cells = 0
 outcome = "stable equilibrium"
 )";
 
+constexpr auto read_hard = [](const std::string& path) { read_hard_case(path); };
+
 Case read_hard_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_hard_case(folder.write("case.toml", text));
@@ -80,64 +82,51 @@ TEST_CASE("a complete hard case is read to the last key") {
 }
 
 TEST_CASE("springs of any sign may be given to a hard case") {
-  const Case hard = read_hard_text(
-      case_text::replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
+  const Case hard =
+      read_hard_text(replaced(good_stress, "max_seconds", "stiffness = [31, -20, 33]\nmax_seconds"));
   CHECK(hard.msm.design == Design::given);
   CHECK(hard.msm.stiffness == std::array<double, 3>{31, -20, 33});
 }
 
 TEST_CASE("every mistake in [stress] is refused where it is made") {
   const std::string start = "start = \"perturbed\"\namplitude = 0.3\nseed = 7\n";
-  const std::vector<Mistake> mistakes{
-      {start, "start = \"invertd\"\n", 19, "stress.start", {"\"rest\"", "did you mean \"inverted\"?"}},
-      {start, "amplitude = 0.3\n", 19, "stress.amplitude", {"left out", "perturbed"}},
-      {start, "start = \"inverted\"\nseed = 3\n", 20, "stress.seed", {"left out", "perturbed"}},
-      {"amplitude = 0.3", "amplitude = 0", 20, "stress.amplitude", {"above 0"}},
-      {"seed = 7", "seed = 0.5", 21, "stress.seed", {"a whole number"}},
-      {"seed = 7\n", "", 18, "stress.seed", {"is missing"}},
-      {"least_load_steps = 5", "least_load_steps = 0", 22, "stress.least_load_steps", {"from 1 to 1000"}},
-      {"least_load_steps",
-       "least_load_step",
-       22,
-       "stress.least_load_step",
-       {"did you mean \"least_load_steps\"?"}},
-      {"max_seconds = 10\n", "", 18, "stress.max_seconds", {"is missing", "above 0"}},
-      {"max_iterations = 100", "max_iterations = inf", 24, "stress.max_iterations", {"a whole number"}},
-      {"seed = 7", "seed = 7\nheavy = \"yes\"", 22, "stress.heavy", {"true or false"}},
-      {"seed = 7", "seed = 7\nstiffness = [1, 2]", 22, "stress.stiffness", {"three finite numbers"}},
-      {"factor = 1e6", "factor = -1", 28, "stress.stiffer.factor", {"above 0"}},
-      {"axis = \"z\"", "axis = \"w\"", 26, "stress.stiffer.axis", {"\"x\" | \"y\" | \"z\""}},
-      {"beyond = 1", "beyond = 1\nbelow = 2", 28, "stress.stiffer.below", {"is not a key here", "beyond"}},
-      {"outcome = \"limit point\"",
-       "outcome = \"limit_point\"",
-       30,
-       "stress.msm.outcome",
-       {"\"mechanism\"", "did you mean \"limit point\"?"}},
-      {"outcome = \"limit point\"", "outcome = \"unknown\"", 30, "stress.msm.outcome", {"must be"}},
-      {"outcome = \"limit point\"\n", "", 29, "stress.msm.outcome", {"is missing"}},
-      {"[0.7, 0.8]", "[0.8, 0.7]", 31, "stress.msm.load_reached", {"lower <= upper"}},
-      {"[0.7, 0.8]", "[0.7, 1.8]", 31, "stress.msm.load_reached", {"<= 1"}},
-      {"inverted_cells = 0", "inverted_cells = -1", 32, "stress.msm.inverted_cells", {"from 0"}},
-      {"[stress.fem]", "[stress.fme]", 33, "stress.fme", {"did you mean \"fem\"?"}},
-  };
-  for (const Mistake& mistake : mistakes)
-    case_text::check_refused(case_text::replaced(good_stress, mistake.from, mistake.to), mistake,
-                             [](const std::string& path) { read_hard_case(path); });
+  const auto refused = mistakes_in(good_stress, read_hard);
+  refused(start, "start = \"invertd\"\n", 19, "stress.start", {"\"rest\"", "did you mean \"inverted\"?"});
+  refused(start, "amplitude = 0.3\n", 19, "stress.amplitude", {"left out", "perturbed"});
+  refused(start, "start = \"inverted\"\nseed = 3\n", 20, "stress.seed", {"left out", "perturbed"});
+  refused("amplitude = 0.3", "amplitude = 0", 20, "stress.amplitude", {"above 0"});
+  refused("seed = 7", "seed = 0.5", 21, "stress.seed", {"a whole number"});
+  refused("seed = 7\n", "", 18, "stress.seed", {"is missing"});
+  refused("least_load_steps = 5", "least_load_steps = 0", 22, "stress.least_load_steps", {"from 1 to 1000"});
+  refused("least_load_steps", "least_load_step", 22, "stress.least_load_step",
+          {"did you mean \"least_load_steps\"?"});
+  refused("max_seconds = 10\n", "", 18, "stress.max_seconds", {"is missing", "above 0"});
+  refused("max_iterations = 100", "max_iterations = inf", 24, "stress.max_iterations", {"a whole number"});
+  refused("seed = 7", "seed = 7\nheavy = \"yes\"", 22, "stress.heavy", {"true or false"});
+  refused("seed = 7", "seed = 7\nstiffness = [1, 2]", 22, "stress.stiffness", {"three finite numbers"});
+  refused("factor = 1e6", "factor = -1", 28, "stress.stiffer.factor", {"above 0"});
+  refused("axis = \"z\"", "axis = \"w\"", 26, "stress.stiffer.axis", {"\"x\" | \"y\" | \"z\""});
+  refused("beyond = 1", "beyond = 1\nbelow = 2", 28, "stress.stiffer.below", {"is not a key here", "beyond"});
+  refused("outcome = \"limit point\"", "outcome = \"limit_point\"", 30, "stress.msm.outcome",
+          {"\"mechanism\"", "did you mean \"limit point\"?"});
+  refused("outcome = \"limit point\"", "outcome = \"unknown\"", 30, "stress.msm.outcome", {"must be"});
+  refused("outcome = \"limit point\"\n", "", 29, "stress.msm.outcome", {"is missing"});
+  refused("[0.7, 0.8]", "[0.8, 0.7]", 31, "stress.msm.load_reached", {"lower <= upper"});
+  refused("[0.7, 0.8]", "[0.7, 1.8]", 31, "stress.msm.load_reached", {"<= 1"});
+  refused("inverted_cells = 0", "inverted_cells = -1", 32, "stress.msm.inverted_cells", {"from 0"});
+  refused("[stress.fem]", "[stress.fme]", 33, "stress.fme", {"did you mean \"fem\"?"});
 }
 
 TEST_CASE("a hard case that expects nothing, or a hybrid of given springs, is refused") {
-  const auto read = [](const std::string& path) { read_hard_case(path); };
   const std::string without = good_stress.substr(0, good_stress.find("[stress.msm]"));
-  case_text::check_refused(without, {"", "", 18, "stress.msm", {"is missing", "[stress.hybrid]"}}, read);
-  case_text::check_refused(case_text::replaced(good_stress, "seed = 7", "seed = 7\nstiffness = [1, 2, 3]") +
-                               "[stress.hybrid]\noutcome = \"mechanism\"\n",
-                           {"", "", 22, "stress.stiffness", {"left out beside [stress.hybrid]"}}, read);
+  check_refused(without, 18, "stress.msm", {"is missing", "[stress.hybrid]"}, read_hard);
+  check_refused(replaced(good_stress, "seed = 7", "seed = 7\nstiffness = [1, 2, 3]") +
+                    "[stress.hybrid]\noutcome = \"mechanism\"\n",
+                22, "stress.stiffness", {"left out beside [stress.hybrid]"}, read_hard);
 }
 
 TEST_CASE("a hard case is no ordinary case, nor an ordinary case a hard one") {
-  case_text::check_refused(good_stress, {"", "", 18, "stress", {"hard case", "command stress"}},
-                           [](const std::string& path) { read_case(path); });
-  case_text::check_refused(good_stress.substr(0, good_stress.find("[stress]")),
-                           {"", "", 1, "stress", {"is missing", "[stress]"}},
-                           [](const std::string& path) { read_hard_case(path); });
+  check_case_refused(good_stress, 18, "stress", {"hard case", "command stress"});
+  check_refused(good_stress.substr(0, good_stress.find("[stress]")), 1, "stress", {"is missing", "[stress]"},
+                read_hard);
 }

@@ -25,7 +25,8 @@ TEST_CASE("a number is all of its text, and fits its type") {
   }
 }
 
-TEST_CASE("rows have fields without blanks and the number of their line, and the first alone may be a heading") {
+TEST_CASE(
+    "rows have fields without blanks and the number of their line, and the first alone may be a heading") {
   const std::string text = "# of a lab\n\na, b\r\n 1 ,2,\r\nc,d\n3";
   std::vector<std::string> read;
   const auto add = [&](const char* what) {

@@ -1,10 +1,9 @@
-#include "cases/mesh/label_surface.hpp"
-
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/scene/scene.hpp"
 #include "tests/support/case_text.hpp"
+#include "tests/support/pictures.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -40,14 +39,6 @@ Labels largest_piece(double edge) {
   return labels;
 }
 
-std::string nrrd_of(const Volume& volume) {
-  std::string bytes(4 * volume.intensities.size(), '\0');
-  std::memcpy(bytes.data(), volume.intensities.data(), bytes.size());
-  return "NRRD0004\ntype: float\ndimension: 3\nsizes: 30 12 22\nspacings: 1 2 1\nencoding: raw\nendian: "
-         "little\n\n" +
-         bytes;
-}
-
 Surface triangles_of(const TriangleMesh& mesh) {
   Surface surface;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -61,7 +52,7 @@ TEST_CASE("the contour of a body's picture is where the intensity is, not where 
           "[verification]") {
   const TemporaryFolder folder;
   Labels labels = largest_piece(2);
-  labels.path = folder.write("ball.nrrd", nrrd_of(ball_and_plate()));
+  labels.file.path = folder.write("ball.nii", pictures::nifti_of(ball_and_plate()));
   SECTION("of the whole picture: the sphere, without the plate") {
     const TriangleMesh skin = label_surface(labels, {100, 0, 0});
     CHECK(n_open_edges(triangles_of(skin)) == 0);
@@ -105,9 +96,9 @@ TEST_CASE("intensities far from the body are turned below the level, others stay
 
 TEST_CASE("a case's surface at an intensity is made with its body, and its keys are refused elsewhere") {
   const TemporaryFolder folder;
-  folder.write("ball.nrrd", nrrd_of(ball_and_plate()));
+  folder.write("ball.nii", pictures::nifti_of(ball_and_plate()));
   const std::string box = "shape = 'box'\nsize = [10.0, 10.0, 10]\ncells = [10, 10, 10]\n",
-                    labels = "shape = 'labels'\nfile = 'ball.nrrd'\nedge = 2\nkeep = 'largest'\n"
+                    labels = "shape = 'labels'\nfile = 'ball.nii'\nedge = 2\nkeep = 'largest'\n"
                              "[[body.classes]]\nname = 'tissue'\nlower = 100\nupper = 1000\n";
   const std::string boundary =
       "[material]\nmodel = 'linear_elastic'\nyoungs_modulus = 1\npoissons_ratio = 0.3\n"

@@ -70,7 +70,7 @@ TEST_CASE("bytes with any one bit flipped are refused, or hold a mesh whose node
 TEST_CASE("enumerators without a name and truth values that are none are refused") {
   bool truth = false;
   CHECK_THROWS_WITH(from_bytes("\1\2", truth), Catch::Contains("neither 0 nor 1"));
-  LoadKind kind{};
+  Statistic kind{};
   CHECK_NOTHROW(from_bytes(std::string("\1\0\0\0\0", 5), kind));
   CHECK_THROWS_WITH(from_bytes(std::string("\1\77\0\0\0", 5), kind), Catch::Contains("no name"));
   CHECK_THROWS_WITH(from_bytes(std::string("\1\377\377\377\377", 5), kind), Catch::Contains("no name"));

@@ -170,7 +170,7 @@ TEST_CASE("a case on a drawn mesh has the loads of the case on the box", "[verif
   Case definition;
   definition.body = MeshFile{std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/geo/bar.geo", {}};
   definition.fixed.push_back({{"clamped end", std::nullopt, {}}, {true, true, true}});
-  definition.loads.push_back({{"free end", std::nullopt, {}}, LoadKind::traction, {0, 0.1, 0.3}});
+  definition.loads.push_back({{"free end", std::nullopt, {}}, loads::Traction{{0, 0.1, 0.3}}});
   const Scene drawn = make_scene(definition);
   definition.body = Box{{4, 4, 16}, {4, 4, 16}};
   definition.fixed[0].region.name = "z-";

@@ -51,7 +51,7 @@ std::string ball() {
 
 HexMesh voxels(const std::string& facets, double edge) {
   const TemporaryFolder folder;
-  return make_voxel_mesh({folder.write("body.stl", "solid\n" + facets + "endsolid\n"), edge, {}});
+  return make_voxel_mesh({{folder.write("body.stl", "solid\n" + facets + "endsolid\n")}, edge});
 }
 
 } // namespace
@@ -114,7 +114,7 @@ TEST_CASE("an open surface, pieces that share no face, an edge too small or too 
 TEST_CASE("a surface in metres is scaled to mm, and so is the count of its cubes") {
   const TemporaryFolder folder;
   const Voxels body{
-      folder.write("a.stl", "solid\n" + cuboid({0, 0, 0}, {0.25, 0.5, 0.125}) + "endsolid\n"), 125, {}, 1000};
+      {folder.write("a.stl", "solid\n" + cuboid({0, 0, 0}, {0.25, 0.5, 0.125}) + "endsolid\n")}, 125, 1000};
   CHECK(make_voxel_mesh(body).cells.size() == 2 * 4 * 1);
   CHECK(count_voxels(body).in_body == Approx(8).epsilon(1e-6)); // single precision
 }
@@ -127,7 +127,7 @@ TEST_CASE(
   const auto remarks_of = [](const std::string& name, const std::string& content) {
     const TemporaryFolder folder;
     std::vector<std::string> remarks;
-    CHECK(make_voxel_mesh({folder.write(name, content), 1, {}}, &remarks).cells.size() == 8);
+    CHECK(make_voxel_mesh({{folder.write(name, content)}, 1}, &remarks).cells.size() == 8);
     return fmt::format("{}", fmt::join(remarks, "; "));
   };
   const auto of_text = [&](const std::string& facets) {
@@ -140,7 +140,7 @@ TEST_CASE(
   CHECK_THAT(of_text(body + needle + point), Catch::Contains("3 triangles without an area bound nothing"));
 
   const TemporaryFolder folder;
-  const Surface surface = read_stl(folder.write("a.stl", "solid\n" + body + "endsolid\n"), {});
+  const Surface surface = read_stl({folder.write("a.stl", "solid\n" + body + "endsolid\n")});
   std::string binary(80, ' ');
   const auto append = [&](auto value) { binary.append(reinterpret_cast<const char*>(&value), sizeof value); };
   append(static_cast<std::uint32_t>(surface.size()));
@@ -161,7 +161,7 @@ TEST_CASE(
 TEST_CASE("the number of cubes is known from the surface, without making them") {
   const TemporaryFolder folder;
   const auto count = [&](const std::string& facets, double edge) {
-    return count_voxels({folder.write("body.stl", "solid\n" + facets + "endsolid\n"), edge, {}}).in_body;
+    return count_voxels({{folder.write("body.stl", "solid\n" + facets + "endsolid\n")}, edge}).in_body;
   };
   CHECK(count(cuboid({-1, 2, 0.5}, {1, 3, 2}), 0.25) == Approx(8 * 4 * 6).epsilon(1e-6)); // single precision
   CHECK(count(cuboid({100, 2, 0.5}, {103, 3, 2}), 1e-4) == Approx(4.5e12).epsilon(1e-4));

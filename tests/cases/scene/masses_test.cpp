@@ -10,17 +10,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-Region named(const std::string& name) {
-  Region result;
-  result.name = name;
-  return result;
-}
-
 /// A box of 2 x 1 x 1 cells of 10 x 20 x 30 mm, of 1000 kg/m³.
 Case two_cells() {
   Case definition;
   definition.body = Box{{20, 20, 30}, {2, 1, 1}};
-  definition.fixed.push_back({named("x-"), {true, true, true}});
+  definition.fixed.push_back({Region{"x-"}, {true, true, true}});
   definition.material_dynamics = {1000., 0.5, 0.001};
   return definition;
 }
@@ -66,7 +60,7 @@ TEST_CASE("uniform masses share the body's out equally, of several materials too
 
 TEST_CASE("a weight is shared by its region's nodes, on the refined mesh too, and is not damped") {
   Case definition = two_cells();
-  definition.masses.push_back({named("x+ z+"), 0.052});
+  definition.masses.push_back({Region{"x+ z+"}, 0.052});
   const Scene scene = make_scene(definition);
   const std::vector<NodeMass> added = added_masses(scene);
   CHECK(added.size() == 2);
@@ -84,8 +78,8 @@ TEST_CASE("a weight is shared by its region's nodes, on the refined mesh too, an
 
 TEST_CASE("a weight on a symmetry plane is the modelled part's, less at nodes on the plane") {
   Case definition = two_cells();
-  definition.symmetry.push_back({named("y-"), {false, true, false}});
-  definition.masses.push_back({named("x+ z+"), 0.03});
+  definition.symmetry.push_back({Region{"y-"}, {false, true, false}});
+  definition.masses.push_back({Region{"x+ z+"}, 0.03});
   const Scene scene = make_scene(definition);
   const std::vector<NodeMass> added = added_masses(scene);
   CHECK(added.size() == 2);
@@ -96,13 +90,9 @@ TEST_CASE("a weight on a symmetry plane is the modelled part's, less at nodes on
 
 TEST_CASE("gravity weighs every point with its mass, in N, and what is added too") {
   Case definition = two_cells();
-  definition.masses.push_back({named("x+ z+"), 0.052});
+  definition.masses.push_back({Region{"x+ z+"}, 0.052});
   Scene scene = make_scene(definition);
-  Load down, sideways;
-  down.kind = sideways.kind = LoadKind::gravity;
-  down.value = {0, 0, -9.81};
-  sideways.value = {2, 0, 0};
-  scene.loads = {{{}, down}, {{}, sideways}};
+  scene.loads = {{{}, {{}, loads::Gravity{{0, 0, -9.81}}}}, {{}, {{}, loads::Gravity{{2, 0, 0}}}}};
   CHECK((gravity(scene) - Vector3d(2000, 0, -9810)).norm() < 1e-9);
   Vector3d sum = Vector3d::Zero();
   for (const auto& [node, force] : weights(point_masses(scene), gravity(scene))) sum += force;

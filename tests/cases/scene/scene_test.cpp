@@ -14,25 +14,11 @@ namespace {
 
 constexpr double force_rounding = 1e-13;
 
-Region region(const std::string& name) {
-  Region result;
-  result.name = name;
-  return result;
-}
-
 Case box(const Vector3d& size, const std::array<int, 3>& cells) {
   Case definition;
   definition.body = Box{size, cells};
-  definition.fixed.push_back({region("z-"), {true, true, true}});
+  definition.fixed.push_back({{"z-"}, {true, true, true}});
   return definition;
-}
-
-Load load(LoadKind kind, const std::string& where, const Vector3d& value) {
-  Load result;
-  result.region = region(where);
-  result.kind = kind;
-  result.value = value;
-  return result;
 }
 
 Vector3d sum(const std::vector<Vector3d>& forces) {
@@ -57,14 +43,14 @@ TEST_CASE("regions of a box, found from numbers, are those that a search of its 
     stored.nodes.stored();
     stored.cells.stored();
     for (const char* name : {"x-", "y+", "z+", "z- x+", "x+ y- z-", "y- y-"}) {
-      const Selection found = select(ruled, region(name)), searched = select(stored, region(name));
+      const Selection found = select(ruled, {name}), searched = select(stored, {name});
       INFO(name);
       CHECK(found.nodes == searched.nodes);
       CHECK(found.edges == searched.edges);
       CHECK(found.faces == searched.faces);
     }
-    CHECK_THROWS_AS(select(ruled, region("x- x+")), InputError);
-    CHECK_THROWS_AS(select(stored, region("x- x+")), InputError);
+    CHECK_THROWS_AS(select(ruled, {"x- x+"}), InputError);
+    CHECK_THROWS_AS(select(stored, {"x- x+"}), InputError);
     for (const Vector3d& node : ruled.nodes) {
       Region near;
       near.near = node + Vector3d(4e-7, -4e-7, 4e-7);
@@ -86,17 +72,17 @@ TEST_CASE("regions of a box, found from numbers, are those that a search of its 
 
 TEST_CASE("faces, edges and vertices of a box are selected with their nodes, edges and faces") {
   const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
-  const Selection face = select(mesh, region("z+"));
+  const Selection face = select(mesh, {"z+"});
   CHECK(face.nodes.size() == 12);
   CHECK(face.faces.size() == 6);
   CHECK(face.edges.size() == 17);
-  const Selection edge = select(mesh, region("z+ y-"));
+  const Selection edge = select(mesh, {"z+ y-"});
   CHECK(edge.nodes.size() == 3);
   CHECK(edge.edges.size() == 2);
   CHECK(edge.faces.empty());
-  CHECK(mesh.nodes[static_cast<std::size_t>(select_node(mesh, region("z+ x- y+")))] == Vector3d(0, 3, 4));
-  CHECK_THROWS_AS(select_node(mesh, region("z+ y-")), InputError);
-  CHECK_THROWS_AS(select(mesh, region("top")), InputError);
+  CHECK(mesh.nodes[static_cast<std::size_t>(select_node(mesh, {"z+ x- y+"}))] == Vector3d(0, 3, 4));
+  CHECK_THROWS_AS(select_node(mesh, {"z+ y-"}), InputError);
+  CHECK_THROWS_AS(select(mesh, {"top"}), InputError);
 }
 
 TEST_CASE("near names a node, and does not search for one") {
@@ -112,19 +98,19 @@ TEST_CASE("each kind of load adds up to what it says") {
   Case definition = box({2, 3, 4}, {2, 3, 4});
   const Vector3d value(0.1, -0.2, 0.3);
   SECTION("nodal_force: on every node") {
-    definition.loads = {load(LoadKind::nodal_force, "z+", value)};
+    definition.loads = {{{"z+"}, loads::NodalForce{value}}};
     CHECK((sum(nodal_forces(make_scene(definition))) - 12 * value).norm() < force_rounding);
   }
   SECTION("total_force: in all") {
-    definition.loads = {load(LoadKind::total_force, "z+ x-", value)};
+    definition.loads = {{{"z+ x-"}, loads::TotalForce{value}}};
     CHECK((sum(nodal_forces(make_scene(definition))) - value).norm() < force_rounding);
   }
   SECTION("traction: times the area, a vertex carrying a quarter of an inner node's part") {
-    definition.loads = {load(LoadKind::traction, "z+", value)};
+    definition.loads = {{{"z+"}, loads::Traction{value}}};
     const Scene scene = make_scene(definition);
     const auto forces = nodal_forces(scene);
     CHECK((sum(forces) - 6 * value).norm() < force_rounding);
-    CHECK((forces[static_cast<std::size_t>(select_node(scene.mesh, region("z+ x- y-")))] - value / 4).norm() <
+    CHECK((forces[static_cast<std::size_t>(select_node(scene.mesh, {"z+ x- y-"}))] - value / 4).norm() <
           force_rounding);
     CHECK(moment(scene, forces, {1, 1.5, 4}).norm() < force_rounding); // no moment about the face's centre
   }
@@ -133,36 +119,34 @@ TEST_CASE("each kind of load adds up to what it says") {
 TEST_CASE("a torque gives its moment about its axis and no net force, on any mesh of the face") {
   for (int n : {1, 2, 5}) {
     Case definition = box({2, 3, 4}, {n, n, 1});
-    Load torque = load(LoadKind::torque, "z+", Vector3d::Zero());
-    torque.moment = 0.7;
-    torque.centre = {1, 1.5, 4};
-    definition.loads = {torque};
+    const loads::Torque torque{0.7, Vector3d::UnitZ(), {1, 1.5, 4}};
+    definition.loads = {{{"z+"}, torque}};
     const Scene scene = make_scene(definition);
     const auto forces = nodal_forces(scene);
     CHECK(sum(forces).norm() < force_rounding);
     CHECK((moment(scene, forces, {1, 1.5, 0}) - Vector3d(0, 0, 0.7)).norm() < force_rounding);
-    CHECK(polar_moment(scene.mesh, scene.loads[0]) ==
+    CHECK(polar_moment(scene.mesh, scene.loads[0].selection, torque) ==
           Approx(2.0 * 3.0 * (4 + 9) / 12).epsilon(force_rounding));
   }
 }
 
 TEST_CASE("a traction needs faces") {
   Case definition = box({1, 1, 1}, {1, 1, 1});
-  definition.loads = {load(LoadKind::traction, "z+ x-", {1, 0, 0})};
+  definition.loads = {{{"z+ x-"}, loads::Traction{{1, 0, 0}}}};
   CHECK_THROWS_AS(make_scene(definition), InputError);
 }
 
 TEST_CASE("the quarters of a symmetric scene carry a quarter of its nodal forces") {
   Case whole = box({2, 2, 1}, {2, 2, 1});
-  whole.loads = {load(LoadKind::nodal_force, "z+", {0, 0, 1})};
+  whole.loads = {{{"z+"}, loads::NodalForce{{0, 0, 1}}}};
   Case quarter = box({1, 1, 1}, {1, 1, 1});
   quarter.loads = whole.loads;
-  quarter.symmetry = {{region("x+"), {true, false, false}}, {region("y+"), {false, true, false}}};
+  quarter.symmetry = {{{"x+"}, {true, false, false}}, {{"y+"}, {false, true, false}}};
   const Scene scene = make_scene(quarter);
   CHECK(4 * sum(nodal_forces(scene)).z() ==
         Approx(sum(nodal_forces(make_scene(whole))).z()).epsilon(force_rounding));
   const auto is_constrained = constrained_dofs(scene);
-  const auto corner = static_cast<std::size_t>(select_node(scene.mesh, region("x+ y+ z+")));
+  const auto corner = static_cast<std::size_t>(select_node(scene.mesh, {"x+ y+ z+"}));
   CHECK(is_constrained[3 * corner]);
   CHECK(is_constrained[3 * corner + 1]);
   CHECK_FALSE(is_constrained[3 * corner + 2]);
@@ -171,8 +155,7 @@ TEST_CASE("the quarters of a symmetric scene carry a quarter of its nodal forces
 TEST_CASE(
     "refinement leaves nodal forces on the body's own nodes and shares a total force among the new ones") {
   Case definition = box({1, 1, 4}, {1, 1, 4});
-  definition.loads = {load(LoadKind::nodal_force, "z+", {0, 0, 1}),
-                      load(LoadKind::total_force, "z+ x-", {1, 0, 0})};
+  definition.loads = {{{"z+"}, loads::NodalForce{{0, 0, 1}}}, {{"z+ x-"}, loads::TotalForce{{1, 0, 0}}}};
   const Scene fine = refine(make_scene(definition), 2);
   const auto forces = point_forces(fine);
   int n_pulled = 0, n_pushed = 0;
@@ -187,7 +170,7 @@ TEST_CASE(
 
 TEST_CASE("a patch has the faces of the surface around its point, and a finer mesh has the same patch") {
   Case definition = box({10, 10, 10}, {10, 10, 10});
-  Load press = load(LoadKind::traction, "patch", {0, 0, -1});
+  Load press{{"patch"}, loads::Traction{{0, 0, -1}}};
   press.region.near = Vector3d(5, 5, 10);
   press.region.radius = 2;
   definition.loads.push_back(press);
@@ -212,7 +195,7 @@ TEST_CASE("a part of the body has the nodes in its box, on and beyond its plane"
   const HexMesh mesh = make_box_mesh({0.3, 0.3, 0.6}, {3, 3, 6});
   const double infinity = std::numeric_limits<double>::infinity();
   const auto selected = [&](const Part& part) {
-    Region inside = region("part");
+    Region inside = {"part"};
     inside.part = part;
     return select(mesh, inside);
   };
@@ -230,7 +213,7 @@ TEST_CASE("a class of cells has the nodes of its cells, on finer meshes too") {
   HexMesh mesh = make_box_mesh({2, 2, 4}, {2, 2, 4});
   mesh.group_of_cell.assign(16, "fat");
   for (std::size_t c = 0; c < 8; ++c) mesh.group_of_cell[c] = "bone"; // z from 0 to 2
-  Region bone = region("bone");
+  Region bone = {"bone"};
   const double infinity = std::numeric_limits<double>::infinity();
   bone.part = Part{"bone", Vector3d::Constant(-infinity), Vector3d::Constant(infinity)};
   CHECK(select(mesh, bone).nodes.size() == 3 * 3 * 3);
@@ -269,15 +252,19 @@ TEST_CASE("a cell is of the last material whose region has its centre, and its c
 
 TEST_CASE("a load or a motion that double precision cannot tell from none is refused") {
   Case loaded = box({2, 2, 2}, {2, 2, 2});
-  for (const LoadKind kind : {LoadKind::traction, LoadKind::nodal_force}) {
-    loaded.loads = {load(kind, "z+", {0, 0, 1e-300})};
-    CHECK_THROWS_WITH(make_scene(loaded), Catch::Contains("the largest force on a node"));
-    loaded.loads.push_back(load(kind, "x+", {1e-12, 0, 0}));
+  for (loads::Kind kind :
+       {loads::Kind(loads::Traction{{0, 0, 1}}), loads::Kind(loads::NodalForce{{0, 0, 1}})}) {
+    loaded.loads = {{{"z+"}, kind}, {{"x+"}, kind}};
+    loaded.loads[0].scale(1e-300);
+    loaded.loads[1].scale(1e-12);
+    Case near_nothing = loaded;
+    near_nothing.loads.pop_back();
+    CHECK_THROWS_WITH(make_scene(near_nothing), Catch::Contains("the largest force on a node"));
     CHECK_NOTHROW(make_scene(loaded));
   }
   Case moved = box({2, 2, 2}, {2, 2, 2});
   moved.moved.resize(1);
-  moved.moved[0].region = region("z+");
+  moved.moved[0].region = {"z+"};
   moved.moved[0].displacement = {0, 0, 1e-13};
   CHECK_THROWS_WITH(make_scene(moved), Catch::Contains("moves by 1e-13 mm"));
   moved.moved[0].displacement = {0, 0, -1e-8};
@@ -291,9 +278,9 @@ TEST_CASE("a load or a motion that double precision cannot tell from none is ref
 
 TEST_CASE("the area of a region is that of its faces, and nodes and edges have none") {
   const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
-  CHECK(area(mesh, select(mesh, region("z+"))) == Approx(6).epsilon(1e-14));
-  CHECK(area(mesh, select(mesh, region("x-"))) == Approx(12).epsilon(1e-14));
-  CHECK(area(mesh, select(mesh, region("z+ x-"))) == 0);
+  CHECK(area(mesh, select(mesh, {"z+"})) == Approx(6).epsilon(1e-14));
+  CHECK(area(mesh, select(mesh, {"x-"})) == Approx(12).epsilon(1e-14));
+  CHECK(area(mesh, select(mesh, {"z+ x-"})) == 0);
   Region patch;
   patch.name = "patch";
   patch.near = Vector3d(0.5, 0.5, 4);
@@ -305,14 +292,9 @@ TEST_CASE("the area of a region is that of its faces, and nodes and edges have n
 TEST_CASE("a reaction is measured where something is held, stress and strain inside the body") {
   Case definition = box({2, 2, 2}, {2, 2, 2});
   definition.fixed.front().components = {true, false, true};
-  definition.moved.push_back({region("z+"), {false, false, true}, Vector3d(0, 0, -0.1)});
-  Measure measure;
-  measure.name = "force";
-  measure.kind = MeasureKind::reaction;
+  definition.moved.push_back({{"z+"}, {false, false, true}, Vector3d(0, 0, -0.1)});
   const auto with = [&](const std::string& where, Component component) {
-    measure.region = region(where);
-    measure.component = component;
-    definition.measures = {measure};
+    definition.measures = {{"force", measures::Reaction{{where}, component}}};
     return make_scene(definition);
   };
   CHECK_NOTHROW(with("z-", Component::norm));
@@ -322,14 +304,12 @@ TEST_CASE("a reaction is measured where something is held, stress and strain ins
   CHECK_THROWS_WITH(with("z+", Component::x), Catch::Contains("in component x"));
   definition.moved.clear();
   CHECK_THROWS_WITH(with("z+", Component::norm), Catch::Contains("no node that is fixed or moved"));
-  measure.kind = MeasureKind::stress;
-  measure.point = {1, 1, 2.1};
-  definition.measures = {measure};
+  definition.measures = {{"stress", measures::Stress{{TensorComponent::xx, {1, 1, 2.1}}}}};
   CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("[1, 1, 2.1]"));
-  definition.measures.front().point = {1, 1, 2};
+  definition.measures = {{"stress", measures::Stress{{TensorComponent::xx, {1, 1, 2}}}}};
   CHECK_NOTHROW(make_scene(definition));
   definition.msm.design = Design::network; // whose springs belong to no cell
   CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("design = \"network\""));
-  definition.measures.front().kind = MeasureKind::strain;
+  definition.measures = {{"strain", measures::Strain{{TensorComponent::xx, {1, 1, 2}}}}};
   CHECK_NOTHROW(make_scene(definition));
 }

@@ -41,11 +41,7 @@ Case block(bool is_half) {
   definition.fixed = {Fixed{}};
   definition.fixed.front().region.name = "z-";
   if (is_half) definition.symmetry = {at_plane("x-")};
-  Load load;
-  load.region = patch({is_half ? 0. : 5., 5, 10}, 3);
-  load.kind = LoadKind::traction;
-  load.value = {0, 0, -0.004};
-  definition.loads = {load};
+  definition.loads = {{patch({is_half ? 0. : 5., 5, 10}, 3), loads::Traction{{0, 0, -0.004}}}};
   return definition;
 }
 
@@ -120,7 +116,7 @@ TEST_CASE("a load on nodes that are held in its direction is refused, for nothin
   CHECK_THROWS_WITH(make_scene(definition), Catch::Contains("held in the direction of its force"));
   definition.fixed.front().components = {false, false, true}; // the traction is along z
   CHECK_THROWS_AS(make_scene(definition), InputError);
-  definition.loads.front().value = {0.004, 0, 0};
+  definition.loads.front().kind = loads::Traction{{0.004, 0, 0}};
   CHECK_NOTHROW(make_scene(definition));
 }
 
@@ -131,7 +127,6 @@ TEST_CASE("the area of a patch of stairs is told beside the circle's") {
   definition.loads.front().region.radius = 0.8; // four faces about a node, their centres 0.71 mm away
   const auto warnings = warnings_of_loads(make_scene(definition));
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0],
-             Catch::Contains("load[0] acts on faces of 4 mm2") && Catch::Contains("2.01062 mm2 (+99 %)") &&
-                 !Catch::Contains("finer mesh"));
+  CHECK_THAT(warnings[0], Catch::Contains("load[0] acts on faces of 4 mm2") &&
+                              Catch::Contains("2.01062 mm2 (+99 %)") && !Catch::Contains("finer mesh"));
 }

@@ -20,22 +20,16 @@ std::string box_case(const std::string& cells, const std::string& more) {
          more;
 }
 
-void check_one_line(const ProgramRun& run, const std::string& says) {
-  CHECK(run.status == 2);
-  CHECK(std::count(run.error.begin(), run.error.end(), '\n') == 1);
-  CHECK_THAT(run.error, Catch::Contains(says));
-}
-
 } // namespace
 
 TEST_CASE("too little address space for the libraries is told at once, in one line") {
   for (const char* kilobytes : {"200000", "260000", "330000"})
     for (const std::string& words : {"run --only msm " + gate_case, std::string("--version")})
-      check_one_line(run_program(words, std::string("ulimit -v ") + kilobytes + "; "), "ulimit -v leaves");
+      check_refused(words, "ulimit -v leaves", std::string("ulimit -v ") + kilobytes + "; ");
   // Those behind deal.II and PETSc need more.
   for (const char* kilobytes : {"450000", "620000", "740000", "860000"}) {
     const std::string limit = std::string("ulimit -v ") + kilobytes + "; ";
-    check_one_line(run_program("run " + gate_case, limit), "ulimit -v leaves");
+    check_refused("run " + gate_case, "ulimit -v leaves", limit);
     CHECK(run_program("run --only msm " + gate_case, limit).status == 0);
   }
 }
@@ -52,7 +46,7 @@ TEST_CASE("a body too large for memory is refused before its mesh is made, whate
   for (const std::string& words :
        {"run " + huge, "gate " + huge, "run " + fine, "gate " + fine, "run --set fem.refine=8 " + small,
         "design --case " + huge, "eigen --case " + huge, "design --case " + fine})
-    check_one_line(run_program(words, limit), " of memory, and ulimit -v leaves ");
+    check_refused(words, " of memory, and ulimit -v leaves ", limit);
 }
 
 TEST_CASE("gate holds both models to the same turn, most of a whole one", "[long]") {
@@ -68,9 +62,7 @@ TEST_CASE("gate holds both models to the same turn, most of a whole one", "[long
           std::string(
               "[[expect]]\nmeasure = 'quarter'\nreference = 'exact'\nreason = 'a bar, but for its ends'\n") +
           side + " = [" + quarter + "]\n";
-    const ProgramRun run = run_program("gate " + folder.write("turned.toml", box_case("[2, 2, 12]", more)));
-    INFO(run.out);
-    CHECK(run.status == 0);
+    printed_by("gate " + folder.write("turned.toml", box_case("[2, 2, 12]", more)));
   }
 }
 
@@ -85,10 +77,9 @@ TEST_CASE("small strains refuse more than half a turn, and auto does not choose 
                                    "'\n[[measure]]\nname = 'volume'\nkind = 'volume'\n[[expect]]\nmeasure = "
                                    "'volume'\nfem = [40, 60]\nreference = 'exact'\nreason = 'any'\n"));
   };
-  check_one_line(run_program("run " + turned("small_strain")), "must be at most 180");
-  const ProgramRun run = run_program("run --only fem " + turned("auto"));
-  CHECK(run.status == 0);
-  CHECK_THAT(run.out, Catch::Contains("a region is turned by 360 degrees"));
+  check_refused("run " + turned("small_strain"), "must be at most 180");
+  CHECK_THAT(printed_by("run --only fem " + turned("auto")),
+             Catch::Contains("a region is turned by 360 degrees"));
 }
 
 TEST_CASE(
@@ -122,8 +113,7 @@ TEST_CASE("a reference that is zero but for rounding has no percentage") {
                             "1 2'\ncomponent = 'y'\n[[measure]]\nname = 'along'\nkind = "
                             "'displacement'\nnode = 'near 1 1 2'\ncomponent = 'x'\n"));
   CHECK_THAT(run_program("run " + file).out, Catch::Contains("no percentage"));
-  const auto measures =
-      nlohmann::json::parse(run_program("run --json " + file).out).at("cases").at(0).at("measures");
+  const auto measures = document_of("run --json " + file).at("cases").at(0).at("measures");
   CHECK(measures.at(0).at("error_percent").is_null());
   CHECK(measures.at(1).at("error_percent").is_number());
 }

@@ -2,26 +2,19 @@
 // reason.
 
 #include "tests/support/run_program.hpp"
+#include "tests/support/screen.hpp"
 #include "tests/support/unwrapped.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 #include <vector>
 
 namespace {
 
 const std::string source = SPRINGPROOF_SOURCE_DIR;
 const std::string in_source = "cd '" + source + "' && "; // for paths as a user types them
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 /// The words in capitals of five letters and more.
 std::vector<std::string> shouts_in(const std::string& text) {
@@ -41,7 +34,7 @@ void check_width(const std::vector<std::string>& lines) {
 }
 
 void check_is_a_screen(const std::string& text) {
-  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string> lines = lines_of_text(text);
   CHECK(lines.size() <= 25);
   check_width(lines);
   CHECK(shouts_in(text).empty());
@@ -57,33 +50,28 @@ std::size_t line_that_begins(const std::vector<std::string>& lines, const std::s
 /// The commands that a text ends with, without their comments.
 std::vector<std::string> commands_at_the_end(const std::string& text) {
   std::vector<std::string> commands;
-  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string> lines = lines_of_text(text);
   for (std::size_t n = line_that_begins(lines, "What to type next:") + 1; n < lines.size(); ++n)
     if (const std::string command = lines[n].substr(0, lines[n].find("   #")); command.rfind("  # ", 0) != 0)
       commands.push_back(command.substr(2));
   return commands;
 }
 
-} // namespace
-
-namespace {
-
 /// @param truth  what the verdict says that the errors are from
 void check_static_case(const std::string& file, const std::string& truth) {
   CAPTURE(file);
-  const ProgramRun run = run_program("run " + file, in_source);
-  CAPTURE(run.out);
-  CHECK(run.status == 0);
-  check_is_a_screen(run.out);
-  CHECK_THAT(unwrapped(run.out), Catch::Contains("Verdict: The springs are up to ") &&
-                                     Catch::Contains(truth) && Catch::Contains(" times as fast. "));
-  const std::vector<std::string> lines = lines_of(run.out);
+  const std::string text = printed_by("run " + file, in_source);
+  CAPTURE(text);
+  check_is_a_screen(text);
+  CHECK_THAT(unwrapped(text), Catch::Contains("Verdict: The springs are up to ") && Catch::Contains(truth) &&
+                                  Catch::Contains(" times as fast. "));
+  const std::vector<std::string> lines = lines_of_text(text);
   const std::size_t verdict = line_that_begins(lines, "Verdict: "),
                     next = line_that_begins(lines, "What to type");
   CHECK(line_that_begins(lines, "  measure") < verdict);
   CHECK(verdict < next);
   CHECK(next + 7 >= lines.size());
-  CHECK_THAT(run.out, Catch::Contains(" run " + file + " --designs all"));
+  CHECK_THAT(text, Catch::Contains(" run " + file + " --designs all"));
 }
 
 const std::string from_the_limit =
@@ -103,8 +91,7 @@ TEST_CASE("a study is a screen too", "[long]") {
 
 TEST_CASE("the verdict has the numbers of the JSON", "[long]") {
   const std::string file = "cases/gates/sheared_block.toml";
-  const auto measures =
-      nlohmann::json::parse(run_program("run --json " + file, in_source).out)["cases"][0]["measures"];
+  const auto measures = document_of("run --json " + file, in_source)["cases"][0]["measures"];
   double worst = 0, bar = 0, own = 0;
   for (const auto& m : measures) {
     own = std::max(own, std::abs(m["fem_error_percent"].get<double>()));
@@ -128,9 +115,8 @@ TEST_CASE("what is to be typed next is a command that works, with the settings t
   const std::string text = content(source + "/cases/gates/sheared_block.toml");
   const std::string file = folder.write("it's a case.toml", text.substr(0, text.find("[[expect]]")));
   const std::string here = "cd '" + folder.path.string() + "' && ";
-  const ProgramRun run = run_program("run \"it's a case.toml\" --set fem.accuracy=none", here);
-  REQUIRE(run.status == 0);
-  const std::vector<std::string> commands = commands_at_the_end(run.out);
+  const std::string words = "run \"it's a case.toml\" --set fem.accuracy=none";
+  const std::vector<std::string> commands = commands_at_the_end(printed_by(words, here));
   REQUIRE(commands.size() == 3);
   for (const std::string& command : commands) {
     CAPTURE(command);
@@ -138,27 +124,22 @@ TEST_CASE("what is to be typed next is a command that works, with the settings t
     REQUIRE(command.rfind(program + " run 'it'\\''s a case.toml' --set fem.accuracy=none", 0) == 0);
     CHECK(run_program(command.substr(program.size()), here).status == 0);
   }
-  const ProgramRun ranked =
-      run_program("run \"it's a case.toml\" --set fem.accuracy=none --designs all", here);
-  CHECK(ranked.status == 0);
-  for (const std::string& line : lines_of(ranked.out))
+  for (const std::string& line : lines_of_text(printed_by(words + " --designs all", here)))
     if (const std::size_t at = line.find("--set 'msm="); at != std::string::npos)
       CHECK(run_program(line.substr(std::string("  ").size() + std::string(SPRINGPROOF_PROGRAM).size()), here)
                 .status == 0);
 }
 
 TEST_CASE("a motion's text says whether a step keeps up with a screen") {
-  const ProgramRun run = run_program(
+  const std::string printed = printed_by(
       "run tests/compare/interact/pulled_block.toml --set dynamics.end=0.1 --set dynamics.step=0.01",
       in_source);
-  CAPTURE(run.out);
-  CHECK(run.status == 0);
-  const std::string text = unwrapped(run.out);
+  CAPTURE(printed);
   CHECK(std::regex_search(
-      text,
+      unwrapped(printed),
       std::regex("Time: the springs [0-9.e+]+ ms a step: (keeps|does not keep) 60 Hz; the finite elements "
                  "[0-9.e+]+ ms a step: (keeps|does not keep) 60 Hz\\.")));
-  check_width(lines_of(run.out));
+  check_width(lines_of_text(printed));
 }
 
 TEST_CASE("springs that fail leave the reason, and the command that looks for others") {
@@ -177,20 +158,18 @@ TEST_CASE("run --converge has the table of its meshes in 100 columns, and --out 
           "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
-  const ProgramRun run =
-      run_program("run --converge=4 cases/gates/sheared_block.toml --out " + out, in_source);
-  CHECK(run.status == 0);
-  check_width(lines_of(run.out));
-  CHECK_THAT(run.out, Catch::Contains("fem on refined meshes") && Catch::Contains("GCI %"));
-  CHECK_THAT(unwrapped(run.out), Catch::Contains(out + "/results.json, comparison.csv, sheared-block.vtu"));
+  const std::string text =
+      printed_by("run --converge=4 cases/gates/sheared_block.toml --out " + out, in_source);
+  check_width(lines_of_text(text));
+  CHECK_THAT(text, Catch::Contains("fem on refined meshes") && Catch::Contains("GCI %"));
+  CHECK_THAT(unwrapped(text), Catch::Contains(out + "/results.json, comparison.csv, sheared-block.vtu"));
 }
 
 TEST_CASE("every design of a case is a table of 100 columns, and the advice comes last") {
-  const ProgramRun run = run_program("run cases/gates/sheared_cube.toml --designs all", in_source);
-  CAPTURE(run.out);
-  CHECK(run.status == 0);
-  const std::vector<std::string> lines = lines_of(run.out);
+  const std::string text = printed_by("run cases/gates/sheared_cube.toml --designs all", in_source);
+  CAPTURE(text);
+  const std::vector<std::string> lines = lines_of_text(text);
   check_width(lines);
-  CHECK(shouts_in(run.out).empty());
+  CHECK(shouts_in(text).empty());
   CHECK(line_that_begins(lines, "    design") < line_that_begins(lines, "Use "));
 }

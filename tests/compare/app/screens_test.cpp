@@ -16,19 +16,15 @@ const std::string source_folder = SPRINGPROOF_SOURCE_DIR;
 const std::string tiny = source_folder + "/tests/compare/sweep/tiny.toml";
 constexpr std::size_t screen = 100; ///< characters
 
-/// Standard output of the program in the project's folder; the exit status must be 0.
-std::string printed_by(const std::string& words) {
-  const ProgramRun run = run_program(words, "cd " + source_folder + " && ");
-  REQUIRE(run.status == 0);
-  return run.out;
-}
+/// For paths in the project's folder.
+const std::string in_the_source = "cd " + source_folder + " && ";
 
 } // namespace
 
 TEST_CASE("the tables' audit leaves the text for files of --out, which the text names", "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
-  const std::string text = printed_by("tables 4.1 --out " + out);
+  const std::string text = printed_by("tables 4.1 --out " + out, in_the_source);
   CHECK(width_of_text(text.substr(0, text.find("Audit"))) <= screen);
   for (const char* file : {"audit.txt", "tables.csv", "tables.json", "report.html"}) {
     CHECK_THAT(text, Contains(file));
@@ -36,7 +32,7 @@ TEST_CASE("the tables' audit leaves the text for files of --out, which the text 
   }
   const std::string audit = content(out + "/audit.txt");
   CHECK_THAT(audit, Contains("build/springproof design --young") && Contains("by the declared reference"));
-  CHECK(audit == printed_by("tables 4.1 --trace"));
+  CHECK(audit == printed_by("tables 4.1 --trace", in_the_source));
   CHECK(text.rfind(content(out + "/tables.txt"), 0) == 0);
 }
 
@@ -56,7 +52,7 @@ TEST_CASE("a comparison of designs ends with the one to use", "[long]") {
   const auto last = std::find(lines.rbegin(), lines.rend(), "");
   REQUIRE(last != lines.rend());
   const std::string words_of_end = *last.base();
-  const Json document = Json::parse(printed_by(words + " --json"));
+  const Json document = document_of(words + " --json");
   const std::string recommended = document["recommended"];
   CHECK(words_of_end.rfind("Use " + recommended + " for E = 0.3 MPa and nu = 0.35: its worst error", 0) == 0);
   double least = 1e9; // percent
@@ -80,20 +76,16 @@ TEST_CASE("--set changes a key of the case in sweep, gate, eigen and design, and
           "tells it") {
   const std::string cube = "cases/gates/sheared_cube.toml";
   const std::string eigen = "eigen --case " + cube;
-  CHECK(printed_by(eigen) != printed_by(eigen + " --set material.poissons_ratio=0.2"));
-  CHECK(Json::parse(
-            printed_by("design --case " + cube + " --set material.poissons_ratio=0.2 --json"))["settings"] ==
-        Json{"material.poissons_ratio=0.2"});
+  CHECK(printed_by(eigen, in_the_source) != printed_by(eigen + " --set material.poissons_ratio=0.2", in_the_source));
+  const Json designed =
+      document_of("design --case " + cube + " --set material.poissons_ratio=0.2 --json", in_the_source);
+  CHECK(designed["settings"] == Json{"material.poissons_ratio=0.2"});
   const std::string wrong = " --set material.poisson=0.2";
-  const std::string before = "cd " + source_folder + " && ";
-  const ProgramRun run = run_program("run " + cube + wrong, before);
+  const ProgramRun run = run_program("run " + cube + wrong, in_the_source);
   REQUIRE(run.status == 2);
   for (const std::string& command :
-       {"gate " + cube, "sweep " + cube, eigen, "eigen " + cube, "design --case " + cube}) {
-    const ProgramRun other = run_program(command + wrong, before);
-    CHECK(other.status == 2);
-    CHECK(other.error == run.error);
-  }
+       {"gate " + cube, "sweep " + cube, eigen, "eigen " + cube, "design --case " + cube})
+    CHECK(run_program(command + wrong, in_the_source).error == run.error);
   CHECK(run_program("eigen --poisson 0.3 --set material.poissons_ratio=0.2").status == 2);
 }
 
@@ -114,34 +106,13 @@ TEST_CASE("a sweep with --set has it in its text and its JSON, and answers anoth
   CHECK(with["reference"]["field"]["value"] != without["reference"]["field"]["value"]);
 }
 
-TEST_CASE("a part of a sweep that was timed with another --set is timed again, and never merged", "[long]") {
-  const TemporaryFolder folder;
-  const std::string words = "sweep --quick --budget 1e-3 " + tiny;
-  const auto part = [&](const std::string& number, const std::string& settings) {
-    const std::string out = (folder.path / number).string();
-    REQUIRE(run_program(words + settings + " --shard " + number + "/2 --out " + out).status == 0);
-    return out;
-  };
-  const std::string setting = " --set material.poissons_ratio=0.3";
-  const std::string one = part("1", ""), two = part("2", setting);
-  CHECK(run_program("merge " + one + " " + two).status == 2);
-  part("1", setting); // over what is kept
-  const ProgramRun merged = run_program("merge " + one + " " + two + " --json");
-  REQUIRE(merged.status == 0);
-  const Json document = Json::parse(merged.out);
-  CHECK(document["settings"] == Json{"material.poissons_ratio=0.3"});
-  const ProgramRun whole = run_program(words + setting + " --json");
-  CHECK(Json::parse(whole.out)["reference"]["field"] == document["reference"]["field"]);
-}
-
 TEST_CASE("designs that are refused among others leave the status of what was answered", "[long]") {
   // The multi-load method designs for cubes alone.
   const std::string words = "eigen " + source_folder +
                             "/cases/studies/released_bar.toml --modes 2 --set body.cells=[1,1,4] --designs ";
-  const ProgramRun both = run_program(words + "multi_load,moduli");
-  CHECK(both.status == 0);
-  CHECK_THAT(both.out, Contains("multi_load: ") && Contains("moduli\n"));
-  CHECK(width_of_text(both.out) <= screen);
+  const std::string both = printed_by(words + "multi_load,moduli");
+  CHECK_THAT(both, Contains("multi_load: ") && Contains("moduli\n"));
+  CHECK(width_of_text(both) <= screen);
   CHECK(run_program(words + "multi_load").status == 1); // all that was asked for is refused
   CHECK(run_program("design --young 0.3 --poisson -0.2 --compare").status == 0);
   CHECK(run_program("design --young 0.3 --poisson -0.2 --method hybrid").status == 2);
@@ -155,7 +126,7 @@ TEST_CASE("what eigen, export and stress print stands in 100 characters") {
         std::string("eigen --young 1 --poisson 0 --method moduli"),
         std::string("stress mechanism disconnected_piece"),
         "export cases/gates/sheared_cube.toml --to sofa --set msm.design=moduli --out " + out}) {
-    const std::string text = printed_by(words);
+    const std::string text = printed_by(words, in_the_source);
     INFO(text);
     CHECK(width_of_text(text) <= screen);
     CHECK_FALSE(has_shouting(text, {"SOFA"}));

@@ -5,7 +5,6 @@ usage: shards_test.py SPRINGPROOF SOURCE_FOLDER
 Only Python's standard library is used.
 """
 
-import csv
 import json
 import re
 import subprocess
@@ -15,7 +14,6 @@ from pathlib import Path
 
 PROGRAM, SOURCE = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
 GATES = sorted((Path(SOURCE) / "cases/gates").glob("*.toml"))
-TINY = Path(SOURCE) / "tests/compare/sweep/tiny.toml"
 SECONDS = re.compile(r'("(?:setup|solve)": |unknowns in the last, )[-+.e\d]+')
 
 
@@ -134,43 +132,6 @@ def test_tables(folder):
         assert_same(found, files(folder / "whole", but=("report.html",)))
         assert len(found) > 10, found.keys()
         assert (folder / f"merged{n}" / "report.html").stat().st_size > 100_000
-
-
-def rows(folder):
-    with open(folder / "sweep.csv", newline="") as file:
-        return [{key: value for key, value in row.items() if not key.endswith("_s") and key not in ("rounds", "warm_up")}
-                for row in csv.DictReader(file)]
-
-
-def assert_same_rows(found, expected, n):
-    """But for second solves of one side alone: they are left out where the first took longer than the budget."""
-    assert len(found) == len(expected) == n, (len(found), len(expected))
-    n_again = 0
-    for one, other in zip(found, expected):
-        have_again = one["again_newton"] and other["again_newton"]
-        n_again += bool(have_again)
-        for key, value in one.items():
-            assert value == other[key] or key.startswith("again_") and not have_again, (key, one, other)
-    assert n_again > n // 2, n_again
-
-
-def test_sweep(folder):
-    """A sweep: the same rows, errors and counters, and every file; the mechanism is a failed row."""
-    whole = springproof("sweep", "--quick", TINY, "--out", folder / "whole")
-    assert whole.returncode == 0, whole
-    cut = [springproof("sweep", "--quick", "--budget", 1e-3, TINY, "--out", folder / "cut")]
-    cut.append(springproof("merge", *shards(folder / "cut-parts", 2, "sweep", "--quick", "--budget", 1e-3, TINY), "--out", folder / "cut-merged"))
-    assert [done.returncode for done in cut] == [0, 0] and all("budget of 0.001" in done.stdout for done in cut), cut
-    assert_same_rows(rows(folder / "cut-merged"), rows(folder / "cut"), 3)  # the reference's meshes
-    for n in (2, 3):
-        parts = shards(folder, n, "sweep", "--quick", TINY)
-        merged = springproof("merge", *parts, "--out", folder / f"merged{n}")
-        assert merged.returncode == 0 and "no stiffness" in merged.stdout, merged
-        assert_same_rows(rows(folder / f"merged{n}"), rows(folder / "whole"), 54)
-        assert files(folder / f"merged{n}").keys() == files(folder / "whole").keys()
-    record = parts[0] / "shard.json"
-    record.write_text(re.sub(r'("processor": ").*"', r'\1another"', record.read_text()))
-    refused("cannot be compared", "merge", *parts)
 
 
 def main():

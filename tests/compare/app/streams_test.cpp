@@ -69,24 +69,14 @@ TEST_CASE("a sweep's plan and tables have the texts of a case as data", "[long]"
                R"(name = "a ##[add-mask]a\u009b")");
   const std::string out = (folder.path / "out").string();
   // One cell by the nonlinear method is a mechanism: a failed row, beside which others answer.
-  const ProgramRun run = run_program("sweep --quick --out " + out + " " + folder.write("case.toml", text));
-  REQUIRE(run.status == 0);
-  check_harmless(run.out);
+  check_harmless(printed_by("sweep --quick --out " + out + " " + folder.write("case.toml", text)));
   for (const char* name : {"plan.txt", "sweep.txt", "sweep.csv", "field_first.gp", "field_first.svg"})
     check_harmless(content(out + "/" + name));
 }
 
-TEST_CASE("output that cannot be written is an error of one line") {
-  for (const char* lost : {" >/dev/full", " >&-"}) {
-    INFO(lost);
-    const ProgramRun run = run_program("run --only msm " + sheared_cube + lost);
-    CHECK(run.status == 2);
-    CHECK(run.error == "springproof: standard output cannot be written\n");
-  }
-}
-
-TEST_CASE("the version and help that cannot be written are errors too") {
-  for (const std::string words : {"--version", "--help", "run --help"})
+TEST_CASE("output that cannot be written is an error of one line, the version and help too") {
+  for (const std::string& words : {"run --only msm " + sheared_cube, std::string("--version"),
+                                   std::string("--help"), std::string("run --help")})
     for (const char* lost : {" >/dev/full", " >&-"}) {
       INFO(words << lost);
       const ProgramRun run = run_program(words + lost);
@@ -110,9 +100,8 @@ TEST_CASE("what is wrong with a command line is said once, by one rank", "[long]
 }
 
 TEST_CASE("what PETSc is asked to print does not get into the results") {
-  const ProgramRun run = run_program("run --only fem --json " + sheared_cube, "PETSC_OPTIONS=-log_view ");
-  CHECK(run.status == 0);
-  CHECK(nlohmann::json::accept(run.out));
+  CHECK(nlohmann::json::accept(
+      printed_by("run --only fem --json " + sheared_cube, "PETSC_OPTIONS=-log_view ")));
 }
 
 TEST_CASE("options of PETSc that write a file or start a program are refused") {
@@ -123,17 +112,12 @@ TEST_CASE("options of PETSc that write a file or start a program are refused") {
         std::string("-on_error_attach_debugger"), std::string("-ksp_view binary"),
         std::string("-ksp_converged_reason binary"), "-ksp_" + std::string(100000, 'a'),
         std::string("-dll_append x"), "-log_trace " + view}) {
-    const ProgramRun run = run_program("run --only msm " + sheared_cube,
-                                       "cd " + folder.path.string() + " && PETSC_OPTIONS='" + option + "' ");
-    INFO(option);
-    CHECK(run.status == 2);
-    CHECK(run.error.rfind("PETSC_OPTIONS: has ", 0) == 0);
-    CHECK(std::count(run.error.begin(), run.error.end(), '\n') == 1);
+    check_refused("run --only msm " + sheared_cube, "PETSC_OPTIONS: has ",
+                  "cd " + folder.path.string() + " && PETSC_OPTIONS='" + option + "' ");
     CHECK(std::filesystem::is_empty(folder.path));
   }
-  const ProgramRun solver = run_program("run --only msm " + sheared_cube,
-                                        "PETSC_OPTIONS='-msm_ksp_rtol 1e-9 -msm_pc_type gamg -ksp_monitor' ");
-  CHECK(solver.status == 0);
+  printed_by("run --only msm " + sheared_cube,
+             "PETSC_OPTIONS='-msm_ksp_rtol 1e-9 -msm_pc_type gamg -ksp_monitor' ");
 }
 
 TEST_CASE("options of PETSc in the working folder are not read") {

@@ -1,66 +1,10 @@
 #include "compare/cube/cube_benchmark.hpp"
 
-#include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/thesis/designs.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace springproof;
-
-namespace {
-
-constexpr double benchmark_poissons_ratio = 0.45;
-
-/// As `design --young E --edge L0 --poisson 0.45 --method hybrid --measure`.
-compare::CubeErrors measured_by_design(double youngs_modulus, double edge) {
-  cases::Msm options;
-  options.design = cases::Design::hybrid;
-  const msm::DesignRequest request = compare::design_request(
-      cases::LinearElastic{youngs_modulus, benchmark_poissons_ratio}, msm::cube(edge), options);
-  std::vector<compare::DesignAttempt> attempts{compare::attempt_one(request)};
-  compare::measure_on_cube(attempts, request);
-  return *attempts.front().cube;
-}
-
-/// As the advice of `tables` has it, for which the case files' E = 0.3 MPa is solved.
-compare::Advice advised() {
-  const compare::AdviceQuestion question{benchmark_poissons_ratio, "hybrid"};
-  compare::Solutions solutions;
-  std::vector<compare::SolveJob> jobs;
-  for (const auto& [fem, msm] : compare::advice_jobs(question)) jobs.insert(jobs.end(), {fem, msm});
-  compare::SolveOptions options;
-  options.program = SPRINGPROOF_PROGRAM;
-  const auto solved = compare::solve_jobs(jobs, [&](const std::vector<compare::Question>& questions) {
-    return compare::answer_all(questions, compare::FinishedCases("", {}), compare::solve_fem, options);
-  });
-  for (std::size_t j = 0; j < jobs.size(); ++j)
-    solutions[jobs[j]] = compare::comparison_of(solved[j].scene, solved[j].answers);
-  return compare::advise({question}, solutions).front();
-}
-
-/// Percent. Both end at 1e-9 of the load, which leaves less than this of an error.
-constexpr double solved_to = 1e-5;
-
-void check_same(const compare::LoadSetErrors& a, const compare::LoadSetErrors& b) {
-  CHECK(*a.worst == Approx(*b.worst).margin(solved_to));
-  CHECK(*a.mean == Approx(*b.mean).margin(solved_to));
-  CHECK(*a.worst_volume == Approx(*b.worst_volume).margin(solved_to));
-  CHECK(a.is_stable == b.is_stable);
-}
-
-} // namespace
-
-TEST_CASE("design --measure finds the errors that tables advises with, whatever Young's modulus and edge",
-          "[verification][long]") {
-  const compare::Advice advice = advised();
-  for (const auto& [youngs_modulus, edge] : {std::pair(0.05, 1.0), std::pair(7.0, 2.5)}) {
-    CAPTURE(youngs_modulus, edge);
-    const compare::CubeErrors errors = measured_by_design(youngs_modulus, edge);
-    check_same(errors.small, advice.cube.small);
-    check_same(errors.large, advice.cube.large);
-  }
-}
 
 TEST_CASE("a cube of another material has the declared formulation, and loads that grow with E L0²") {
   for (const compare::CubeTest& test : compare::cube_tests) {
@@ -71,8 +15,11 @@ TEST_CASE("a cube of another material has the declared formulation, and loads th
     CHECK(thesis.fem.element == cases::Element::q1_bbar);
     CHECK(std::get<cases::Box>(other.body).size == Eigen::Vector3d(30, 30, 30));
     REQUIRE(other.loads.size() == thesis.loads.size());
+    const auto force = [](const cases::Load& load) {
+      return std::get<cases::loads::NodalForce>(load.kind).value;
+    };
     for (std::size_t l = 0; l < thesis.loads.size(); ++l)
-      CHECK((other.loads[l].value - 18 * thesis.loads[l].value).norm() <=
+      CHECK((force(other.loads[l]) - 18 * force(thesis.loads[l])).norm() <=
             1e-15);                          // rounding of forces below 1 N
     CHECK_NOTHROW(cases::make_scene(other)); // the measures find their nodes
   }
@@ -87,18 +34,15 @@ compare::Comparison test_with(double height, double volume, cases::Status status
   test.scene.definition.measures.resize(2);
   test.scene.definition.measures[0].name = "L_1";
   test.scene.definition.measures[1].name = "volume";
-  test.scene.definition.measures[1].kind = cases::MeasureKind::volume;
+  test.scene.definition.measures[1].kind = cases::measures::Volume{};
   test.measures = {{"L_1", "mm", 100.0, height, std::nullopt},
                    {"volume", "mm3", 100.0, volume, std::nullopt}};
+  if (status == cases::Status::converged)
+    for (compare::MeasuredValue& measured : test.measures)
+      measured.error_same_mesh_percent = *measured.msm - *measured.fem;
   test.answers.fem.solution.status = test.answers.msm.solution.status = status;
   test.answers.msm.solution.outcome = cases::Outcome::stable_equilibrium;
   return test;
-}
-
-compare::CubeErrors errors_of(const std::vector<compare::Comparison>& tests) {
-  std::vector<compare::CubeSolve> solves;
-  for (const compare::Comparison& test : tests) solves.push_back({test, test});
-  return compare::cube_errors(solves);
 }
 
 } // namespace
@@ -106,7 +50,7 @@ compare::CubeErrors errors_of(const std::vector<compare::Comparison>& tests) {
 TEST_CASE("the worst error of a load set is an absolute one, the mean leaves the volume apart") {
   std::vector<compare::Comparison> tests(6, test_with(101, 100, cases::Status::converged));
   tests[1] = test_with(96, 107, cases::Status::converged);
-  const compare::CubeErrors errors = errors_of(tests);
+  const compare::CubeErrors errors = compare::cube_errors(tests);
   CHECK(*errors.small.worst == Approx(4));
   CHECK(*errors.small.mean == Approx(2));
   CHECK(*errors.small.worst_volume == Approx(7));
@@ -119,7 +63,7 @@ TEST_CASE("a load set with a failed test has no errors, but says why") {
   std::vector<compare::Comparison> tests(6, test_with(101, 100, cases::Status::converged));
   tests[4] = test_with(101, 100, cases::Status::failed);
   tests[4].answers.fem.solution.message = "no equilibrium";
-  const compare::CubeErrors errors = errors_of(tests);
+  const compare::CubeErrors errors = compare::cube_errors(tests);
   CHECK(errors.small.worst);
   CHECK_FALSE(errors.large.worst);
   CHECK_FALSE(errors.large.is_stable);
@@ -129,11 +73,11 @@ TEST_CASE("a load set with a failed test has no errors, but says why") {
 
 TEST_CASE("an inverted cell or an equilibrium that is not stable makes a load set unstable") {
   std::vector<compare::Comparison> tests(6, test_with(101, 100, cases::Status::converged));
-  CHECK(errors_of(tests).small.is_stable);
+  CHECK(compare::cube_errors(tests).small.is_stable);
   tests[0].answers.msm.solution.inverted_cells = 1;
   tests[3].answers.msm.solution.outcome = cases::Outcome::unstable_equilibrium;
-  CHECK_FALSE(errors_of(tests).small.is_stable);
-  CHECK_FALSE(errors_of(tests).large.is_stable);
+  CHECK_FALSE(compare::cube_errors(tests).small.is_stable);
+  CHECK_FALSE(compare::cube_errors(tests).large.is_stable);
 }
 
 namespace {

@@ -1,4 +1,3 @@
-#include "compare/cube/recommendation.hpp"
 
 #include "compare/cube/write_design.hpp"
 #include "compare/solve/springs.hpp"

@@ -16,17 +16,8 @@ cases::Case block(double traction, double width) {
   definition.body = cases::Box{{2, 2, 2}, {2, 2, 2}};
   definition.material = cases::LinearElastic{1, 0.3};
   definition.fixed.push_back({{"z-", std::nullopt, {}}, {true, true, true}});
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {traction, 0, 0};
-  definition.loads.push_back(load);
-  cases::Measure measure;
-  measure.name = "shift";
-  measure.kind = cases::MeasureKind::displacement;
-  measure.node.name = "z+ x+ y+";
-  measure.component = cases::Component::x;
-  definition.measures.push_back(measure);
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{{traction, 0, 0}}});
+  definition.measures.push_back({"shift", cases::measures::Displacement{{"z+ x+ y+"}, cases::Component::x}});
   definition.expectations.push_back({"shift",
                                      cases::Quantity::error_percent,
                                      {-width / 2, width / 2},
@@ -37,9 +28,7 @@ cases::Case block(double traction, double width) {
 }
 
 double shift(const cases::Scene& scene, const Answer& answer) {
-  return answer.solution
-      .displacement[static_cast<std::size_t>(
-          cases::select_node(scene.mesh, scene.definition.measures[0].node))]
+  return answer.solution.displacement[static_cast<std::size_t>(cases::select_node(scene.mesh, {"z+ x+ y+"}))]
       .x();
 }
 
@@ -124,7 +113,7 @@ TEST_CASE("concentrated forces, hard cases and accuracy = none are not refined")
   definition.stress->max_iterations = 100;
   CHECK_FALSE(solve_fem(cases::make_scene(definition), 0).refined);
   definition.stress.reset();
-  definition.loads[0].kind = cases::LoadKind::nodal_force;
+  definition.loads[0].kind = cases::loads::NodalForce{{1e-3, 0, 0}};
   const auto refined = solve_fem(cases::make_scene(definition), 0).refined;
   REQUIRE(refined.has_value());
   CHECK(refined->solutions.empty());

@@ -15,36 +15,19 @@ using namespace compare;
 
 namespace {
 
-cases::Measure measure_of(const std::string& name, cases::MeasureKind kind) {
-  cases::Measure measure;
-  measure.name = name;
-  measure.kind = kind;
-  return measure;
-}
-
 /// Pulled and sheared by a traction of (0.004, 0, 0.01) MPa on 4 x 4 mm.
 cases::Case pulled_block() {
   cases::Case definition = bodies::clamped_box({4, 4, 4}, {});
-  cases::Load load;
-  load.region = bodies::region("z+");
-  load.kind = cases::LoadKind::traction;
-  load.value = {0.004, 0, 0.01};
-  definition.loads = {load};
+  definition.loads = {{bodies::region("z+"), cases::loads::Traction{{0.004, 0, 0.01}}}};
   definition.msm.design = cases::Design::hybrid;
   definition.msm.split = 0.8;
-  cases::Measure pull = measure_of("pull", cases::MeasureKind::reaction), shove = pull;
-  pull.region = bodies::region("z-");
-  pull.component = cases::Component::z;
-  shove.name = "shove";
-  shove.region = pull.region;
-  shove.component = cases::Component::x;
-  cases::Measure stress = measure_of("stress", cases::MeasureKind::stress), strain = stress;
-  stress.point = strain.point = {2, 2, 2};
-  stress.tensor_component = strain.tensor_component = cases::TensorComponent::zz;
-  strain.name = "strain";
-  strain.kind = cases::MeasureKind::strain;
-  definition.measures = {pull, shove, measure_of("energy", cases::MeasureKind::strain_energy), stress,
-                         strain};
+  namespace measures = cases::measures;
+  const measures::OfCells middle{cases::TensorComponent::zz, {2, 2, 2}};
+  definition.measures = {{"pull", measures::Reaction{{"z-"}, cases::Component::z}},
+                         {"shove", measures::Reaction{{"z-"}, cases::Component::x}},
+                         {"energy", measures::StrainEnergy{}},
+                         {"stress", measures::Stress{middle}},
+                         {"strain", measures::Strain{middle}}};
   definition.has_fields = true;
   return definition;
 }

@@ -9,7 +9,7 @@
 using namespace springproof;
 
 using namespace compare;
-using cases::LoadKind;
+using namespace cases::loads;
 
 namespace {
 
@@ -25,20 +25,8 @@ cases::Case block(const cases::Load& load) {
   definition.loads.push_back(load);
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.element = cases::Element::q1;
-  cases::Measure height;
-  height.name = "height";
-  height.kind = cases::MeasureKind::coordinate;
-  height.node.name = "z+ x+ y+";
-  definition.measures.push_back(height);
+  definition.measures.push_back({"height", cases::measures::Coordinate{{"z+ x+ y+"}}});
   return definition;
-}
-
-cases::Load load(const std::string& region, LoadKind kind) {
-  cases::Load result;
-  result.region.name = region;
-  result.kind = kind;
-  result.value = {0, 0, 0.1};
-  return result;
 }
 
 std::optional<std::string> reason_for(const cases::Load& applied) {
@@ -52,18 +40,16 @@ MeshStudy study_on_three(const cases::Scene& scene) {
 } // namespace
 
 TEST_CASE("forces on nodes and edges have no continuum limit, forces over an area have one") {
-  CHECK(reason_for(load("z+", LoadKind::nodal_force)).has_value());
-  CHECK(reason_for(load("z+ x+ y+", LoadKind::total_force)).has_value());
-  CHECK(reason_for(load("z+ x+", LoadKind::total_force)).has_value());
-  CHECK_FALSE(reason_for(load("z+", LoadKind::total_force)).has_value());
-  CHECK_FALSE(reason_for(load("z+", LoadKind::traction)).has_value());
-  cases::Load none = load("z+", LoadKind::nodal_force);
-  none.value.setZero();
-  CHECK_FALSE(reason_for(none).has_value());
+  CHECK(reason_for({{"z+"}, NodalForce{{0, 0, 0.1}}}).has_value());
+  CHECK(reason_for({{"z+ x+ y+"}, TotalForce{{0, 0, 0.1}}}).has_value());
+  CHECK(reason_for({{"z+ x+"}, TotalForce{{0, 0, 0.1}}}).has_value());
+  CHECK_FALSE(reason_for({{"z+"}, TotalForce{{0, 0, 0.1}}}).has_value());
+  CHECK_FALSE(reason_for({{"z+"}, Traction{{0, 0, 0.1}}}).has_value());
+  CHECK_FALSE(reason_for({{"z+"}, NodalForce{}}).has_value());
 }
 
 TEST_CASE("a study of concentrated forces solves nothing and says why") {
-  const MeshStudy study = study_on_three(cases::make_scene(block(load("z+ x+", LoadKind::total_force))));
+  const MeshStudy study = study_on_three(cases::make_scene(block({{"z+ x+"}, TotalForce{{0, 0, 0.1}}})));
   REQUIRE(study.measures.size() == 1);
   CHECK(study.refine.empty());
   CHECK(study.measures[0].values.empty());
@@ -72,13 +58,10 @@ TEST_CASE("a study of concentrated forces solves nothing and says why") {
 }
 
 TEST_CASE("the error bar of a clamped block covers what the next finer mesh answers", "[verification]") {
-  cases::Load shear = load("z+", LoadKind::traction);
-  shear.value = {0.1, 0, 0};
-  cases::Case definition = block(shear);
+  cases::Case definition = block({{"z+"}, Traction{{0.1, 0, 0}}});
   definition.fixed = {{{"z-", std::nullopt, {}}, {true, true, true}}};
-  definition.measures[0].kind = cases::MeasureKind::displacement;
-  definition.measures[0].component = cases::Component::x;
-  definition.measures[0].node = {"", Eigen::Vector3d(1, 1, 2), {}};
+  const cases::Region middle{"", Eigen::Vector3d(1, 1, 2)};
+  definition.measures[0].kind = cases::measures::Displacement{middle, cases::Component::x};
   definition.fem.refine = 1;
   const cases::Scene scene = cases::make_scene(definition);
   const cases::Solution own = compare::make_finite_elements(scene)->solve();
@@ -87,7 +70,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
   CHECK(study.refine == std::vector<int>{0, 1, 2});
   const StudiedMeasure& measure = study.measures.at(0);
   REQUIRE(measure.limit.has_value());
-  const int node = cases::select_node(scene.mesh, definition.measures[0].node);
+  const int node = cases::select_node(scene.mesh, middle);
   const auto x_at = [&](const cases::Solution& solution) {
     return solution.displacement[static_cast<std::size_t>(node)].x();
   };
@@ -106,7 +89,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
 }
 
 TEST_CASE("a stretch that every mesh has exactly leaves nothing to extrapolate", "[verification]") {
-  const cases::Scene scene = cases::make_scene(block(load("z+", LoadKind::traction)));
+  const cases::Scene scene = cases::make_scene(block({{"z+"}, Traction{{0, 0, 0.1}}}));
   const MeshStudy study = study_on_three(scene);
   CHECK(study.measures.at(0).values.size() == 3);
   CHECK(study.measures.at(0).values[0] == Approx(2.2)); // 2 mm at 0.1 MPa and E = 1 MPa

@@ -21,10 +21,7 @@ inline compare::Comparison comparison(const std::vector<cases::Expectation>& exp
   definition.name = "cube";
   definition.file = "cube.toml";
   definition.expectations = expectations;
-  cases::Measure measure{};
-  measure.name = "L";
-  measure.kind = cases::MeasureKind::coordinate;
-  definition.measures = {measure};
+  definition.measures = {{"L", cases::measures::Coordinate{}}};
   result.answers.fem.solution.status = result.answers.msm.solution.status = cases::Status::converged;
   result.measures = {{"L", "mm", 10.0, 9.0, -10.0}};
   return result;

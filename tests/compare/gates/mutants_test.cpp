@@ -1,7 +1,7 @@
 // The gates gate: what can go wrong in a simulator or in its measuring is done to a case on purpose, and some
 // gate must say so. The mutants live here alone; the program knows nothing of them.
 
-#include "compare/write/write_gates.hpp"
+#include "compare/write/write.hpp"
 
 #include "cases/case/read_case.hpp"
 
@@ -40,12 +40,15 @@ void give_springs(Case& definition, const std::array<double, 3>& newtons_per_met
 }
 
 void swap_axes(Case& definition) {
-  for (cases::Load& load : definition.loads) std::swap(load.value.x(), load.value.z());
+  for (cases::Load& load : definition.loads) {
+    Eigen::Vector3d& force = std::get<cases::loads::NodalForce>(load.kind).value;
+    std::swap(force.x(), force.z());
+  }
 }
 
-cases::Measure& measure(Case& definition, const std::string& name) {
+cases::measures::Tilt& tilt(Case& definition, const std::string& name) {
   for (cases::Measure& m : definition.measures)
-    if (m.name == name) return m;
+    if (m.name == name) return std::get<cases::measures::Tilt>(m.kind);
   throw std::logic_error("no measure " + name);
 }
 
@@ -66,16 +69,13 @@ const std::vector<Mutant> mutants{
        give_springs(c, {31, 0, 33});
      }},
     {"swapped axes", "gates/uniaxial_exact.toml", swap_axes},
-    {"halved force", "gates/small_strain_exact.toml", [](Case& c) { c.loads[0].value /= 2; }},
-    {"halved force far from rest", "gates/sheared_cube.toml", [](Case& c) { c.loads[0].value /= 2; }},
+    {"halved force", "gates/small_strain_exact.toml", [](Case& c) { c.loads[0].scale(0.5); }},
+    {"halved force far from rest", "gates/sheared_cube.toml", [](Case& c) { c.loads[0].scale(0.5); }},
     {"alpha measured on the wrong edge", "gates/sheared_cube.toml",
-     [](Case& c) {
-       measure(c, "alpha_1").top = measure(c, "alpha_2").top;
-       measure(c, "alpha_1").bottom = measure(c, "alpha_2").bottom;
-     }},
+     [](Case& c) { tilt(c, "alpha_1") = tilt(c, "alpha_2"); }},
     {"B-bar off", "gates/sheared_cube.toml", [](Case& c) { c.fem.element = cases::Element::q1; }},
     {"a tilt towards the wrong axis", "gates/sheared_cube.toml",
-     [](Case& c) { measure(c, "alpha_2").toward = cases::Axis::y; }},
+     [](Case& c) { tilt(c, "alpha_2").toward = cases::Axis::y; }},
     {"another law", "gates/calculix_cube.toml",
      [](Case& c) { c.fem.formulation = cases::Formulation::log_strain; }},
     {"renamed measure", "gates/calculix_cube.toml", [](Case& c) { c.measures[0].name = "alpha_left"; }},

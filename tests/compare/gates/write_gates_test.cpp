@@ -1,4 +1,4 @@
-#include "compare/write/write_gates.hpp"
+#include "compare/write/write.hpp"
 
 #include "tests/compare/gates/judged.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 #include "compare/hard/stress.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/gates/judge.hpp"
+#include "compare/gates/comparison.hpp"
 #include "compare/solve/solve.hpp"
 
 #include <catch2/catch.hpp>

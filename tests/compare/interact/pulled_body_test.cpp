@@ -1,8 +1,9 @@
 #include "compare/interact/pulled_body.hpp"
 
 #include "cases/case/read_case.hpp"
+#include "cases/mesh/triangle_mesh.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/interact/recording.hpp"
+#include "compare/interact/read_recording.hpp"
 #include "compare/interact/replay.hpp"
 #include "compare/solve/solve.hpp"
 
@@ -62,6 +63,36 @@ double largest_displacement(PulledBody& body) {
   return largest;
 }
 
+/// A block in cubes of 10 mm, whose surface has triangles of 1.25 mm.
+cases::Scene finely_drawn_block() {
+  cases::Case definition = block("[4, 4, 6]", "").definition;
+  definition.dynamics->step = 0.1;
+  definition.dynamics->end = 0.2;
+  definition.fem.formulation = cases::Formulation::small_strain;
+  std::get<cases::measures::Displacement>(definition.measures.front().kind).node.near = Vector3d(40, 20, 40);
+  cases::Scene scene = cases::make_scene(definition);
+  scene.surface = cases::outer_surface(cases::make_box_mesh({40, 40, 60}, {32, 32, 48}));
+  scene.definition.surface.emplace();
+  return scene;
+}
+
+/// Displacement (mm) of the middle of the pulled place at the end, with each cell of the body halved n times.
+double pulled(cases::Scene scene, int n) {
+  scene.definition.fem.refine = n;
+  const Answers answers = solve(scene, {}, solve_fem);
+  CAPTURE(answers.fem.solution.message);
+  REQUIRE(answers.fem.converged());
+  return answers.fem.solution.trajectory->displacement.back().x();
+}
+
+/// How many times less the second halving of the cells changes the pulled place than the first.
+double ratio_of_changes(const cases::Scene& scene) {
+  const double coarse = pulled(scene, 0), fine = pulled(scene, 1), finer = pulled(scene, 2);
+  CAPTURE(coarse, fine, finer);
+  REQUIRE(coarse > 0.1); // mm: it was pulled
+  return (fine - coarse) / (finer - fine);
+}
+
 } // namespace
 
 TEST_CASE("a body that is pulled comes to the static equilibrium of the spring's force", "[verification]") {
@@ -82,9 +113,7 @@ TEST_CASE("a body that is pulled comes to the static equilibrium of the spring's
     const auto patch = mechanics::patch_within(
         body.surface(), body.surface().rest.vertices[cases::index(*held)], body.spheres().radius);
     for (const auto& [node, weight] : cases::on_nodes(patch, scene.mesh)) {
-      cases::Load load;
-      load.kind = cases::LoadKind::nodal_force;
-      load.value = weight * body.force();
+      cases::Load load{{}, cases::loads::NodalForce{weight * body.force()}};
       loaded.loads.push_back({{{node}, {}, {}}, load});
     }
     loaded.definition.dynamics.reset();
@@ -284,4 +313,17 @@ TEST_CASE("what is no recording of a case is refused with its line") {
     CAPTURE(text);
     CHECK_THROWS_WITH(with_recording(scene, text, "a.csv"), Catch::Contains(says));
   }
+}
+
+TEST_CASE(
+    "a recorded patch is pulled to a limit as cells are halved, and would not be by forces on its nodes",
+    "[verification]") {
+  const std::string rows = "1,0.1,40,20,40,15,0.01,0,0.002\n2,0.2,40,20,40,15,0.01,0,0.002\n";
+  cases::Scene scene = with_recording(finely_drawn_block(), recording_header + "\n" + rows, "pulls.csv");
+  // Second order has 4; this place has 3.95, in a sphere of 18 mm 3.3. One of 10 mm, a cell's edge, is too
+  // small for the coarse mesh to have an order.
+  CHECK(ratio_of_changes(scene) >= 3);
+  // The same forces left on the nodes of the body's own cells: each halving changes more than the one before.
+  for (cases::Scene::AppliedLoad& load : scene.loads) load.points.clear();
+  CHECK(ratio_of_changes(scene) < 1);
 }

@@ -1,8 +1,8 @@
-#include "compare/measure/landmarks.hpp"
+#include "compare/measure/surfaces.hpp"
 
 #include "cases/case/read_case.hpp"
 #include "compare/gates/comparison.hpp"
-#include "compare/write/write_landmarks.hpp"
+#include "compare/write/write.hpp"
 #include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>

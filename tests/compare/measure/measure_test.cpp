@@ -1,4 +1,4 @@
-#include "compare/gates/judge.hpp"
+#include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/tensor.hpp"
 
@@ -8,24 +8,12 @@
 #include <limits>
 
 using namespace springproof;
+namespace measures = cases::measures;
 
-using cases::MeasureKind;
 using cases::OverTime;
 using Eigen::Vector3d;
 
 namespace {
-
-cases::Region region(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
-
-cases::Region near(const Vector3d& point) {
-  cases::Region result;
-  result.near = point;
-  return result;
-}
 
 cases::Scene cube() {
   cases::Case definition;
@@ -44,18 +32,12 @@ cases::Solution moved(const cases::Scene& scene, const Motion& motion) {
   return solution;
 }
 
-cases::Measure measure(MeasureKind kind) {
-  cases::Measure result;
-  result.name = "m";
-  result.kind = kind;
-  return result;
-}
+const cases::Region corner{"z+ x+ y+"};
 
-/// A motion of a measure's node, mm once a second; the others rest. All of it is kept of the two ends.
-cases::Solution in_time(const cases::Scene& scene, const cases::Measure& measure,
-                        const std::vector<Vector3d>& course) {
+/// A motion of the corner, mm once a second; the others rest. All of it is kept of the two ends.
+cases::Solution in_time(const cases::Scene& scene, const std::vector<Vector3d>& course) {
   cases::Solution solution = moved(scene, [](const Vector3d& x) { return x; });
-  const int node = cases::select_node(scene.mesh, measure.node);
+  const int node = cases::select_node(scene.mesh, corner);
   cases::Trajectory& motion = solution.trajectory.emplace();
   motion.nodes = {node};
   motion.displacement = course;
@@ -72,9 +54,7 @@ constexpr double rounding = 1e-12; ///< relative to numbers of order 1 to 100
 
 TEST_CASE("a twist about z is measured as the angle turned, beyond a right angle and in both senses") {
   const cases::Scene scene = cube();
-  cases::Measure twist = measure(MeasureKind::twist);
-  twist.node = region("z+ x- y-");
-  twist.centre = near({1, 1, 2});
+  const cases::Measure twist{"m", measures::Twist{{"z+ x- y-"}, {"", Vector3d(1, 1, 2)}}};
   for (double degrees : {-170.0, -30.0, 0.0, 5.0, 120.0, 179.0}) {
     const Eigen::AngleAxisd turn(degrees * M_PI / 180, Vector3d::UnitZ());
     const auto solution =
@@ -85,29 +65,26 @@ TEST_CASE("a twist about z is measured as the angle turned, beyond a right angle
 
 TEST_CASE("a simple shear tilts the vertical edge by the arc tangent of its amount") {
   const cases::Scene scene = cube();
-  cases::Measure tilt = measure(MeasureKind::tilt);
-  tilt.top = region("z+ x- y-");
-  tilt.bottom = region("z- x- y-");
+  measures::Tilt tilt{{"z+ x- y-"}, {"z- x- y-"}};
   const auto sheared =
       moved(scene, [](const Vector3d& x) { return Vector3d(x.x() + 0.4 * x.z(), x.y(), x.z()); });
-  CHECK(compare::evaluate(tilt, scene, sheared) == Approx(std::atan(0.4) * 180 / M_PI).epsilon(rounding));
+  CHECK(compare::evaluate({"m", tilt}, scene, sheared) ==
+        Approx(std::atan(0.4) * 180 / M_PI).epsilon(rounding));
   tilt.toward = cases::Axis::y;
-  CHECK(compare::evaluate(tilt, scene, sheared) == Approx(0).margin(rounding));
+  CHECK(compare::evaluate({"m", tilt}, scene, sheared) == Approx(0).margin(rounding));
 }
 
 TEST_CASE("a coordinate is a place, a displacement a change, and the volume follows the stretch") {
   const cases::Scene scene = cube();
   const auto stretched =
       moved(scene, [](const Vector3d& x) { return Vector3d(0.5 * x.x(), x.y(), 3 * x.z()); });
-  cases::Measure coordinate = measure(MeasureKind::coordinate);
-  coordinate.node = region("z+ x+ y+");
-  CHECK(compare::evaluate(coordinate, scene, stretched) == Approx(6).epsilon(rounding));
-  cases::Measure displacement = measure(MeasureKind::displacement);
-  displacement.node = region("z+ x+ y+");
-  CHECK(compare::evaluate(displacement, scene, stretched) == Approx(std::hypot(1.0, 4.0)).epsilon(rounding));
-  displacement.component = cases::Component::x;
-  CHECK(compare::evaluate(displacement, scene, stretched) == Approx(-1).epsilon(rounding));
-  CHECK(compare::evaluate(measure(MeasureKind::volume), scene, stretched) == Approx(12).epsilon(rounding));
+  const auto value = [&](const measures::Kind& kind) {
+    return compare::evaluate({"m", kind}, scene, stretched);
+  };
+  CHECK(value(measures::Coordinate{corner}) == Approx(6).epsilon(rounding));
+  CHECK(value(measures::Displacement{corner}) == Approx(std::hypot(1.0, 4.0)).epsilon(rounding));
+  CHECK(value(measures::Displacement{corner, cases::Component::x}) == Approx(-1).epsilon(rounding));
+  CHECK(value(measures::Volume{}) == Approx(12).epsilon(rounding));
 }
 
 TEST_CASE("a tensor's components, von Mises equivalent and principal values") {
@@ -128,9 +105,9 @@ TEST_CASE(
     "cells at a point") {
   const cases::Scene scene = cube();
   auto fem = moved(scene, [](const Vector3d& x) { return Vector3d(1.1 * x); });
-  const cases::Measure energy = measure(MeasureKind::strain_energy);
+  const cases::Measure energy{"m", measures::StrainEnergy{}};
   CHECK_FALSE(compare::can_evaluate(energy, fem));
-  CHECK(compare::can_evaluate(measure(MeasureKind::volume), fem));
+  CHECK(compare::can_evaluate({"m", measures::Volume{}}, fem));
   cases::Fields fields;
   for (const Vector3d& x : scene.mesh.nodes)
     fields.reaction.push_back(x.z() < 1e-9 ? Vector3d(1, 2, 2) : Vector3d(0, 0, 0));
@@ -143,23 +120,20 @@ TEST_CASE(
   fem.fields = fields;
   CHECK(compare::can_evaluate(energy, fem));
   CHECK(compare::evaluate(energy, scene, fem) == 4);
-  cases::Measure reaction = measure(MeasureKind::reaction);
-  reaction.region = region("z-");
+  const auto value = [&](const measures::Kind& kind) { return compare::evaluate({"m", kind}, scene, fem); };
+  const cases::Measure reaction{"m", measures::Reaction{{"z-"}}};
   CHECK(compare::evaluate(reaction, scene, fem) == Approx(27).epsilon(rounding)); // nine nodes
-  reaction.component = cases::Component::y;
-  CHECK(compare::evaluate(reaction, scene, fem) == 18);
-  cases::Measure stress = measure(MeasureKind::stress), strain = measure(MeasureKind::strain);
-  stress.point = {1.5, 0.5, 0.5};
-  CHECK(compare::evaluate(stress, scene, fem) == 1);
-  stress.point = {1, 1, 1.5}; // the upper four cells
-  CHECK(compare::evaluate(stress, scene, fem) == 5.5);
-  strain.point = stress.point;
-  strain.tensor_component = cases::TensorComponent::zz;
-  CHECK(compare::evaluate(strain, scene, fem) == Approx(0.55).epsilon(rounding));
+  CHECK(value(measures::Reaction{{"z-"}, cases::Component::y}) == 18);
+  using cases::TensorComponent;
+  const cases::Measure stress{"m", measures::Stress{{TensorComponent::xy, {0.5, 0.5, 0.5}}}};
+  const measures::OfCells upper{TensorComponent::zz, {1, 1, 1.5}}; // four cells
+  CHECK(value(measures::Stress{{TensorComponent::xx, {1.5, 0.5, 0.5}}}) == 1);
+  CHECK(value(measures::Stress{{TensorComponent::xx, upper.point}}) == 5.5);
+  CHECK(value(measures::Strain{upper}) == Approx(0.55).epsilon(rounding));
   CHECK(compare::unit_of(reaction) == "N");
   CHECK(compare::unit_of(energy) == "N mm");
   CHECK(compare::unit_of(stress) == "MPa");
-  CHECK(compare::unit_of(strain) == "1");
+  CHECK(compare::unit_of({"m", measures::Strain{}}) == "1");
   auto network = fem; // whose springs belong to no cell
   network.fields->has_stress = false;
   CHECK_FALSE(compare::can_evaluate(stress, network));
@@ -168,8 +142,6 @@ TEST_CASE(
   auto msm = fem;
   fem.fields->stress[0] = {1, 0, 0, 1e-9, 0, 0};
   msm.fields->stress[0] = {1, 0, 0, 3e-9, 0, 0};
-  stress.point = {0.5, 0.5, 0.5};
-  stress.tensor_component = cases::TensorComponent::xy;
   CHECK_FALSE(compare::measure_error_percent(stress, scene, fem, msm));
 }
 
@@ -180,8 +152,8 @@ TEST_CASE("field norms: a stretch along z has the root mean square of a linear f
     return moved(scene, [=](const Vector3d& x) { return Vector3d(x.x(), x.y(), (1 + strain) * x.z()); });
   };
   const auto fem = along_z(0.3), msm = along_z(0.2);
-  const cases::Measure l2 = measure(MeasureKind::displacement_field_l2);
-  const cases::Measure largest = measure(MeasureKind::displacement_field_max);
+  const cases::Measure l2{"m", measures::DisplacementFieldL2{}};
+  const cases::Measure largest{"m", measures::DisplacementFieldMax{}};
   CHECK(compare::evaluate(l2, scene, fem) ==
         Approx(0.3 * 2 / std::sqrt(3.0)).epsilon(rounding)); // mean of z² is 4/3
   CHECK(compare::evaluate(largest, scene, fem) == Approx(0.6).epsilon(rounding));
@@ -195,8 +167,8 @@ TEST_CASE("the norm of a field one of whose displacements is not a number is non
   const cases::Scene scene = cube();
   auto solution = moved(scene, [](const Vector3d& x) { return Vector3d(2 * x); });
   solution.displacement[1].y() = std::numeric_limits<double>::quiet_NaN();
-  for (const MeasureKind norm : {MeasureKind::displacement_field_l2, MeasureKind::displacement_field_max})
-    CHECK(std::isnan(compare::evaluate(measure(norm), scene, solution)));
+  CHECK(std::isnan(compare::evaluate({"m", measures::DisplacementFieldL2{}}, scene, solution)));
+  CHECK(std::isnan(compare::evaluate({"m", measures::DisplacementFieldMax{}}, scene, solution)));
 }
 
 TEST_CASE("the relative error has no value where the reference is zero or a side is not a number") {
@@ -221,13 +193,9 @@ TEST_CASE("what rounding leaves of a displacement or an angle that is zero has n
     return moved(scene,
                  [=](const Vector3d& x) { return Vector3d(x.x(), x.y() + noise * x.z(), 1.3 * x.z()); });
   };
-  cases::Measure across = measure(MeasureKind::displacement), along = across,
-                 tilt = measure(MeasureKind::tilt);
-  across.node = along.node = tilt.top = region("z+ x+ y+");
-  across.component = cases::Component::y;
-  along.component = cases::Component::z;
-  tilt.bottom = region("z- x+ y+");
-  tilt.toward = cases::Axis::y;
+  const cases::Measure across{"m", measures::Displacement{corner, cases::Component::y}},
+      along{"m", measures::Displacement{corner, cases::Component::z}},
+      tilt{"m", measures::Tilt{corner, {"z- x+ y+"}, cases::Axis::y}};
   for (const double noise : {1e-16, 1e-10}) {
     const auto fem = sheared(noise), msm = sheared(-0.36 * noise);
     CHECK_FALSE(compare::measure_error_percent(across, scene, fem, msm)); // -136 %
@@ -265,12 +233,9 @@ TEST_CASE("a statistic of cells is of those with a face in the region, weighted 
   cases::Solution solution = moved(scene, [](const Vector3d& x) { return x; });
   solution.fields.emplace();
   for (int c = 0; c < 8; ++c) solution.fields->strain.push_back({c + 1., 0, 0, 0, 0, 0}); // x runs fastest
-  cases::Measure strain = measure(MeasureKind::strain);
-  strain.tensor_component = cases::TensorComponent::principal_1;
   const auto value = [&](cases::Statistic statistic, const std::string& where) {
-    strain.statistic = statistic;
-    strain.region = region(where);
-    return compare::evaluate(strain, scene, solution);
+    const measures::OfCells component{cases::TensorComponent::principal_1, {}, {}, statistic, {where}};
+    return compare::evaluate({"m", measures::Strain{component}}, scene, solution);
   };
   using cases::Statistic;
   CHECK(value(Statistic::largest, "") == 8);
@@ -294,34 +259,27 @@ TEST_CASE("the curvature of a line that is bent to a circle is the inverse of it
     const double angle = x.x() / radius;
     return Vector3d(radius * std::sin(angle), x.y(), x.z() + radius * (1 - std::cos(angle)));
   });
-  cases::Measure curvature = measure(MeasureKind::curvature);
-  curvature.axis = cases::Axis::x;
-  for (const char* where : {"z+", "z+ y-"}) {
-    curvature.region = region(where);
-    CHECK(compare::evaluate(curvature, scene, bent) == Approx(1 / radius).epsilon(1e-12)); // rounding
-  }
-  curvature.axis = cases::Axis::y; // stays straight
-  curvature.region = region("z+");
-  CHECK(compare::evaluate(curvature, scene, bent) == 0);
-  CHECK(compare::unit_of(curvature) == "1/mm");
+  const auto curvature = [&](const char* where, cases::Axis axis, const cases::Solution& solution) {
+    return compare::evaluate({"m", measures::Curvature{{where}, axis}}, scene, solution);
+  };
+  for (const char* where : {"z+", "z+ y-"})
+    CHECK(curvature(where, cases::Axis::x, bent) == Approx(1 / radius).epsilon(1e-12)); // rounding
+  CHECK(curvature("z+", cases::Axis::y, bent) == 0);                                    // stays straight
+  CHECK(compare::unit_of({"m", measures::Curvature{}}) == "1/mm");
   auto broken = bent; // on the first of three lines
-  broken.displacement[cases::index(cases::select_node(scene.mesh, region("x- y- z+")))].z() =
+  broken.displacement[cases::index(cases::select_node(scene.mesh, {"x- y- z+"}))].z() =
       std::numeric_limits<double>::quiet_NaN();
-  curvature.axis = cases::Axis::x;
-  CHECK(std::isnan(compare::evaluate(curvature, scene, broken)));
+  CHECK(std::isnan(curvature("z+", cases::Axis::x, broken)));
 }
 
 TEST_CASE("the end of a motion that has come to rest has no percentage: zero is by the largest displacement "
           "on the way") {
   const cases::Scene scene = cube();
-  cases::Measure end = measure(MeasureKind::displacement);
-  end.node = region("z+ x+ y+");
-  end.component = cases::Component::z;
-  end.over_time = OverTime::end;
+  const cases::Measure end{"m", measures::Displacement{corner, cases::Component::z}, {}, OverTime::end};
   const auto ends_at = [&](double z) {
-    return in_time(scene, end, {{0, 0, 0}, {0, 0, 1}, {0, 0, -0.5}, {0, 0, z}});
+    return in_time(scene, {{0, 0, 0}, {0, 0, 1}, {0, 0, -0.5}, {0, 0, z}});
   };
-  const cases::Measure l2 = measure(MeasureKind::displacement_field_l2);
+  const cases::Measure l2{"m", measures::DisplacementFieldL2{}};
   for (const cases::Measure& of_end : {end, l2}) {
     CHECK_FALSE(compare::measure_error_percent(of_end, scene, ends_at(1e-12), ends_at(3e-9)));
     CHECK_FALSE(compare::measure_error_percent(of_end, scene, ends_at(0), ends_at(0)));
@@ -332,13 +290,11 @@ TEST_CASE("the end of a motion that has come to rest has no percentage: zero is 
 
 TEST_CASE("what rounding leaves of a course that is zero has no error, swings or turns") {
   const cases::Scene scene = cube();
-  cases::Measure across = measure(MeasureKind::displacement);
-  across.node = region("z+ x+ y+");
-  across.component = cases::Component::x;
+  cases::Measure across{"m", measures::Displacement{corner, cases::Component::x}};
   const auto trembling = [&](double size, double way) {
     std::vector<Vector3d> course; // four swings of ten steps each
     for (int i = 0; i <= 40; ++i) course.emplace_back(size * std::sin(2 * M_PI * i / 10), 0, way * i / 40);
-    return in_time(scene, across, course);
+    return in_time(scene, course);
   };
   const auto value = [&](OverTime what, const cases::Solution& solution) {
     across.over_time = what;
@@ -369,12 +325,10 @@ TEST_CASE("what rounding leaves of a course that is zero has no error, swings or
 
 TEST_CASE("the error of a course one of whose values is not a number is none") {
   const cases::Scene scene = cube();
-  cases::Measure course = measure(MeasureKind::displacement);
-  course.node = region("z+ x+ y+");
-  course.over_time = OverTime::trajectory_l2;
+  const cases::Measure course{"m", measures::Displacement{corner}, {}, OverTime::trajectory_l2};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const cases::Solution good = in_time(scene, course, {{0, 0, 0}, {0, 0, 1}}),
-                        bad = in_time(scene, course, {{0, 0, nan}, {0, 0, 1}});
+  const cases::Solution good = in_time(scene, {{0, 0, 0}, {0, 0, 1}}),
+                        bad = in_time(scene, {{0, 0, nan}, {0, 0, 1}});
   CHECK_FALSE(compare::measure_error_percent(course, scene, good, bad));
   CHECK_FALSE(compare::measure_error_percent(course, scene, bad, good));
 }

@@ -1,6 +1,6 @@
-#include "compare/measure/surface_motion.hpp"
+#include "compare/measure/surfaces.hpp"
 
-#include "compare/write/write_motion.hpp"
+#include "compare/write/write.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -11,7 +11,6 @@
 
 using namespace springproof;
 
-using cases::MeasureKind;
 using Eigen::Vector3d;
 
 // An angle that wraps. Looked for also in: courses over time (series_of(), whose peaks and swings follow),

@@ -36,7 +36,7 @@ Eigen::VectorXd lame_shape(const cases::HexMesh& mesh) {
 /// Frequency (Hz) of the mode of a free cube that the Lamé mode overlaps most.
 double lame_frequency(const cases::HexMesh& mesh, const Eigen::SparseMatrix<double>& stiffness,
                       const Eigen::SparseMatrix<double>& mass) {
-  const compare::Spectrum modes = compare::lowest_vibrations(stiffness, mass, 40);
+  const compare::Spectrum modes = compare::solvers().lowest_vibrations(stiffness, mass, 40);
   const Eigen::VectorXd shape = lame_shape(mesh), weighted = mass * shape;
   const Eigen::VectorXd overlap = modes.vectors.transpose() * weighted;
   // Two modes have one frequency: any of their space will do.
@@ -108,7 +108,7 @@ TEST_CASE("a free body has six vibrations of frequency 0, and modes of unit mass
   const auto stiffness =
       compare::assemble(mesh, fem_reference::element_stiffness(vertices, {1, 0.3}, cases::Element::q1));
   const auto mass = compare::assemble(mesh, mechanics::consistent_mass(vertices, density));
-  const compare::Spectrum modes = compare::lowest_vibrations(stiffness, mass, 12);
+  const compare::Spectrum modes = compare::solvers().lowest_vibrations(stiffness, mass, 12);
   CHECK(modes.values.head(6).cwiseAbs().maxCoeff() <= 1e-8 * modes.values[6]);
   const Eigen::MatrixXd products = modes.vectors.transpose() * (mass * modes.vectors);
   CHECK((products - Eigen::MatrixXd::Identity(12, 12)).norm() <= 1e-8);

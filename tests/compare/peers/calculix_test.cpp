@@ -117,7 +117,7 @@ TEST_CASE("the last displacements of a .dat file are read, and zeros with expone
          2 -1.250000E-01  1.234567-101  3.000000E+02
          1  0.000000E+00  0.000000E+00 -4.500000E-10
 )");
-  const CalculixOutput output = read_calculix_output(dat, 2);
+  const CalculixOutput output = read_calculix_blocks(dat, 2).back();
   CHECK(output.load_reached == 1);
   CHECK(output.displacement[0] == Vector3d(0, 0, -4.5e-10));
   CHECK(output.displacement[1] == Vector3d(-0.125, 0, 300));
@@ -126,8 +126,8 @@ TEST_CASE("the last displacements of a .dat file are read, and zeros with expone
 TEST_CASE("a .dat file with a node missing is refused") {
   const std::string heading = " displacements (vx,vy,vz) for set NALL and time  0.1000000E+01\n\n";
   std::istringstream one(heading + "         1  0.000000E+00  0.000000E+00 -4.500000E-10\n"), none("");
-  CHECK_THROWS_AS(read_calculix_output(one, 2), cases::SolveError);
-  CHECK_THROWS_AS(read_calculix_output(none, 2), cases::SolveError);
+  CHECK_THROWS_AS(read_calculix_blocks(one, 2), cases::SolveError);
+  CHECK_THROWS_AS(read_calculix_blocks(none, 2), cases::SolveError);
 }
 
 TEST_CASE("small strain on the cube agrees with CalculiX on every node", "[peer]") {

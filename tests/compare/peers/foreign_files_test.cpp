@@ -339,9 +339,7 @@ TEST_CASE("the output states what interpolation may add, and a gate must hold fo
   Eigen::AlignedBox3d box;
   for (const Vector3d& node : body.nodes) box.extend(node);
   const std::string path = vtu_on(folder, cases::make_box_mesh(box.sizes(), {3, 3, 3}), pulled);
-  const ProgramRun refused = run_program("run --json --msm-displacements " + path + " " + example);
-  CHECK(refused.status == 2);
-  CHECK_THAT(refused.error, Catch::Contains("need --interpolate"));
+  check_refused("run --json --msm-displacements " + path + " " + example, "need --interpolate");
   const ProgramRun run = run_program("run --json --interpolate --msm-displacements " + path + " " + example);
   const auto found = nlohmann::json::parse(run.out)["cases"][0];
   CHECK(found["msm"]["interpolated"]["points"] == 64);
@@ -350,5 +348,5 @@ TEST_CASE("the output states what interpolation may add, and a gate must hold fo
   const ProgramRun text = run_program("run --interpolate --msm-displacements " + path + " " + example);
   CHECK_THAT(text.out, Catch::Contains("interpolated between 64 points\n") &&
                            Catch::Contains("fem's displacement, interpolated there and back"));
-  CHECK(run_program("run --interpolate " + example).status == 2); // belongs to --msm-displacements
+  check_refused("run --interpolate " + example, "--msm-displacements");
 }

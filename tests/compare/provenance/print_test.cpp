@@ -5,7 +5,10 @@
 
 using namespace springproof;
 
+using compare::in_short;
+using compare::n_characters;
 using compare::one_line;
+using compare::paragraph;
 
 TEST_CASE("a text for people stays as it is in one line") {
   for (const std::string text :
@@ -44,4 +47,30 @@ TEST_CASE("what is printed is escaped value by value, once and for all") {
   const std::string name = "a\nb";
   compare::print(out, "{:<6}|{}|{:.1f}|{}\n", name, name.c_str(), 0.25, one_line(name));
   CHECK(out.str() == "a\\nb  |a\\nb|0.2|a\\nb\n");
+}
+
+TEST_CASE("a paragraph breaks at blanks, and no line but a longer word's is wider than it may be") {
+  CHECK(paragraph("one two three four", "- ", "  ", 9) == "- one two\n  three\n  four\n");
+  CHECK(paragraph("a_word_longer_than_that b", "", "", 5) == "a_word_longer_than_that\nb\n");
+  CHECK(paragraph("", "x:") == "x:\n");
+}
+
+TEST_CASE("a character counts once, however many bytes it has") {
+  CHECK(n_characters("45\u00b0 \u00b5m") == 6);
+  CHECK(paragraph("\u00b0\u00b0\u00b0 \u00b0\u00b0\u00b0", "", "", 7) ==
+        "\u00b0\u00b0\u00b0 \u00b0\u00b0\u00b0\n");
+}
+
+TEST_CASE("a text in short ends at a word, and one that fits is whole") {
+  CHECK(in_short("one two three", 13) == "one two three");
+  CHECK(in_short("one two three", 12) == "one two...");
+  CHECK(in_short("onetwothree", 8) == "onetw...");
+  for (std::size_t n = 4; n < 20; ++n)
+    CHECK(n_characters(in_short("\u00b0\u00b0 \u00b0\u00b0\u00b0\u00b0 \u00b0\u00b0 lost", n)) <= n);
+}
+
+TEST_CASE("what a stranger's text would break a line with stands as an escape") {
+  std::ostringstream out;
+  compare::write_paragraph(out, "a\nb");
+  CHECK(out.str() == "a\\nb\n");
 }

@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/ranking/verdict.hpp"
+#include "compare/study/verdict.hpp"
 #include "compare/solve/springs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -94,7 +94,7 @@ TEST_CASE("a page draws some two thousand times of a motion at most, and says so
     definition.material_dynamics.density = 1000;
     definition.measures = {definition.measures.front()};
     definition.measures.front().over_time = cases::OverTime::end;
-    definition.loads.front().value *= 0.01;
+    definition.loads.front().scale(0.01);
     definition.dynamics.emplace();
     definition.dynamics->step = 1e-3;
     definition.dynamics->end = end;

@@ -17,11 +17,7 @@ namespace {
 constexpr double modulus = 0.3, ratio = 0.35, strain = 1e-7; // of which finite rotations are another 1e-7
 
 cases::Load traction(const std::string& where, const Vector3d& value) {
-  cases::Load load;
-  load.region = bodies::region(where);
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
-  return load;
+  return {bodies::region(where), cases::loads::Traction{value}};
 }
 
 cases::Case body(const Vector3d& cell, cases::Design design) {
@@ -119,12 +115,8 @@ TEST_CASE("flat cells answer as finite elements do", "[verification]") {
   definition.body = cases::Box{{6, 6, 6}, {6, 6, 10}}; // 1 x 1 x 0.6 mm
   definition.loads = {traction("z+", {0.002, 0, 0})};
   definition.fem.has_auto_accuracy = false;
-  cases::Measure shift;
-  shift.name = "shift";
-  shift.kind = cases::MeasureKind::displacement;
-  shift.node = bodies::region("z+ x+ y+");
-  shift.component = cases::Component::x;
-  definition.measures = {shift};
+  definition.measures = {
+      {"shift", cases::measures::Displacement{bodies::region("z+ x+ y+"), cases::Component::x}}};
   const compare::Comparison comparison = compare::compare_case(definition);
   // What springs of cubes of that size err by under such a shear is 2 %; one stiffness a kind missed by 40 %
   // here.

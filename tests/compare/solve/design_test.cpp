@@ -1,6 +1,6 @@
 #include "compare/solve/springs.hpp"
 
-#include "cases/case/read_models.hpp"
+#include "cases/case/readers.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
@@ -143,11 +143,7 @@ TEST_CASE("a quarter of a body between planes of symmetry answers as the whole, 
           "[verification]") {
   const auto solved = [](const std::array<int, 3>& cells, const std::vector<std::string>& planes) {
     cases::Case box = bodies::clamped_box(cells, {});
-    cases::Load load;
-    load.region = bodies::region("z+");
-    load.kind = cases::LoadKind::traction;
-    load.value = {0, 0, 0.004};
-    box.loads = {load};
+    box.loads = {{bodies::region("z+"), cases::loads::Traction{{0, 0, 0.004}}}};
     box.msm.design = cases::Design::uniform;
     for (const std::string& plane : planes)
       box.symmetry.push_back({bodies::region(plane), {plane[0] == 'x', plane[0] == 'y', false}});

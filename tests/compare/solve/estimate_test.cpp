@@ -165,7 +165,21 @@ TEST_CASE("a machine has to hold its ranks' part of a model, and a process its o
   CHECK(compare::megabytes_within(process, scene, ranks) == 100);
 }
 
-TEST_CASE("a motion is held by the first rank, and its trajectory by every rank") {
+TEST_CASE("finite elements in motion are divided among the ranks, but for their trajectory") {
+  cases::Case definition = cube(40);
+  definition.dynamics.emplace();
+  definition.dynamics->step = 1e-3;
+  definition.dynamics->end = 0.01;
+  definition.dynamics->write_every = 10;
+  const Estimate motion = compare::estimate(body(definition), {}).front();
+  CHECK(motion.held_by == compare::HeldBy::all_ranks_together);
+  CHECK(motion.megabytes_of_each >= 1e-6 * 2 * 24 * 2 * cubed(41)); // of two bodies
+  CHECK(motion.megabytes > 226);                                    // measured: log_strain q1_bbar
+  const double rest = motion.megabytes - motion.megabytes_of_each;
+  CHECK(compare::megabytes_within(limit(1), motion, {2, 1}) == Approx(rest / 2 + motion.megabytes_of_each));
+}
+
+TEST_CASE("springs in motion are held by the first rank, and its trajectory by every rank") {
   cases::Case definition = cube(100);
   definition.dynamics.emplace();
   definition.dynamics->step = 1e-3;

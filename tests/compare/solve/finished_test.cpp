@@ -3,7 +3,7 @@
 #include "cases/case/error.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
-#include "compare/solve/frame.hpp"
+#include "compare/solve/kept.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <algorithm>
@@ -28,11 +28,7 @@ cases::Case cell(const std::string& name) {
   definition.body = cases::Box{{1, 1, 1}, {1, 1, 1}};
   definition.material = cases::LinearElastic{1, 0.3};
   definition.fixed.push_back({{"z-", std::nullopt, {"a.toml", 7, 1, "fixed[0].region"}}});
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 1};
-  definition.loads.push_back(load);
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, 1}}});
   return definition;
 }
 
@@ -150,13 +146,13 @@ TEST_CASE("a kept file of another format counts as none, and its line says so") 
 TEST_CASE("a kept file with a sound digest of answers that are none counts as none") {
   const Kept kept;
   const std::string whole = compare::read_file(kept.file);
-  std::string framed = whole.substr(whole.find('\n') + 1);
-  const compare::Frame frame = compare::take_frame(framed).value();
+  const std::size_t line = whole.find('\n') + 1, result = whole.find('\n', line) + 1;
+  const std::string identity = whole.substr(line, whole.find(' ', line) - line);
   const auto find_forged = [&](const std::string& content) {
-    return find_in(kept, whole.substr(0, whole.find('\n') + 1) + compare::framed({frame.kind, content}));
+    return find_in(kept, compare::kept_text(identity, content));
   };
-  CHECK(find_forged(frame.content).is_something);
-  CHECK_FALSE(find_forged(frame.content.substr(0, frame.content.size() / 2)).is_something);
+  CHECK(find_forged(whole.substr(result)).is_something);
+  CHECK_FALSE(find_forged(whole.substr(result, (whole.size() - result) / 2)).is_something);
   Answers forged = answers();
   forged.msm.solution.displacement.resize(7);
   CHECK_FALSE(find_forged(cases::to_bytes(forged)).is_something);

@@ -25,21 +25,12 @@ cases::Case column(double lower_modulus, double upper_modulus) {
     cases::Fixed fixed{{face, std::nullopt, {}}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}};
     definition.symmetry.push_back(fixed);
   }
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 1e-4};
-  definition.loads.push_back(load);
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, 1e-4}}});
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.element = cases::Element::q1;
   definition.msm.design = cases::Design::moduli;
   for (const auto& [name, node] : {std::pair("whole", "z+ x+ y+"), std::pair("whole_too", "z+ x- y-")}) {
-    cases::Measure measure;
-    measure.name = name;
-    measure.kind = cases::MeasureKind::displacement;
-    measure.node.name = node;
-    measure.component = cases::Component::z;
-    definition.measures.push_back(measure);
+    definition.measures.push_back({name, cases::measures::Displacement{{node}, cases::Component::z}});
   }
   return definition;
 }

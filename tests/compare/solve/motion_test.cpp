@@ -1,13 +1,11 @@
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/sharing.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/numerical_damping.hpp"
-#include "compare/solve/answer_bytes.hpp"
+#include "compare/measure/over_time.hpp"
 #include "compare/solve/fields.hpp"
+#include "compare/solve/kept.hpp"
 #include "compare/write/write.hpp"
-#include "compare/write/write_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -185,7 +183,7 @@ TEST_CASE(
 }
 
 // A warning that needs what the fault removes. Looked for also in: the overshoot and frequency of a measure
-// (why_without_number() says that it does not swing), --converge-time (an error from two solutions that are
+// (number_over_time() says that it does not swing), --converge-time (an error from two solutions that are
 // both damped: its figures say so), a limit of the mesh (taken from several meshes, not from one).
 TEST_CASE(
     "a step beyond the period of the slowest vibration is warned about, though nothing swings any more") {
@@ -247,15 +245,15 @@ over_time = "peak"
 TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") {
   const compare::Comparison comparison = compare::compare_case(released(), {cases::Side::msm});
   compare::Answer answer = comparison.answers.msm;
-  const cases::Share all = cases::share_here(comparison.scene.mesh, nullptr);
-  const auto copy = compare::answer_from(cases::to_bytes(answer), all);
+  const cases::HexMesh& mesh = comparison.scene.mesh;
+  const auto copy = compare::result_from<compare::Answer>(cases::to_bytes(answer), mesh);
   REQUIRE(copy.solution.trajectory);
   CHECK((copy.solution.trajectory->displacement == answer.solution.trajectory->displacement));
   CHECK(copy.solution.trajectory->bodies.size() == 5); // steps 0, 25, 50, 75, 100
   const auto refuses = [&](const auto& damage) {
     compare::Answer damaged = answer;
     damage(*damaged.solution.trajectory);
-    CHECK_THROWS(compare::answer_from(cases::to_bytes(damaged), all));
+    CHECK_THROWS(compare::result_from<compare::Answer>(cases::to_bytes(damaged), mesh));
   };
   refuses([](cases::Trajectory& motion) { motion.displacement.pop_back(); });
   refuses([](cases::Trajectory& motion) { motion.nodes.front() = 1000000; });

@@ -41,7 +41,7 @@ TEST_CASE("a network of the cube's own springs answers as the built-in lattice d
   cases::Scene network = built_in;
   network.definition.msm = {};
   network.definition.msm.design = cases::Design::network;
-  network.definition.msm.network = cases::NetworkFile{file, {}};
+  network.definition.msm.network = cases::NamedFile{file};
   network = cases::make_scene(network.definition);
   REQUIRE(network.network.size() > 10000);
   const cases::Solution found = solved(network),

@@ -22,19 +22,12 @@ cases::TransverselyIsotropic with_fibre(int axis) {
 }
 
 void hold(cases::Case& definition, const std::string& face, const std::array<bool, 3>& components) {
-  cases::Fixed fixed;
-  fixed.region.name = face;
-  fixed.components = components;
-  definition.fixed.push_back(fixed);
+  definition.fixed.push_back({{face}, components});
 }
 
 void measure_displacement(cases::Case& definition, const std::string& node, cases::Component component) {
-  cases::Measure measure;
-  measure.name = node + cases::name_of(component);
-  measure.kind = cases::MeasureKind::displacement;
-  measure.node.name = node;
-  measure.component = component;
-  definition.measures.push_back(measure);
+  definition.measures.push_back(
+      {node + cases::name_of(component), cases::measures::Displacement{{node}, component}});
 }
 
 /// A block under a traction of its top along z, or along x.
@@ -44,11 +37,7 @@ cases::Case fibrous_block(const cases::Material& material, const std::array<int,
   definition.name = "block";
   definition.body = cases::Box{{2, 2, 4}, cells};
   definition.material = material;
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = traction;
-  definition.loads.push_back(load);
+  definition.loads.push_back({{"z+"}, cases::loads::Traction{traction}});
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.msm.design = cases::Design::transverse;
   return definition;

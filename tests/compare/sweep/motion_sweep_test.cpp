@@ -1,9 +1,9 @@
-#include "compare/sweep/write_motion_sweep.hpp"
+#include "compare/sweep/write_sweep.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/sweep/motion_conclusions.hpp"
+#include "compare/sweep/analysis.hpp"
 #include "msm/design/design.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,8 +16,8 @@
 using namespace springproof;
 
 using Catch::Contains;
-using compare::MotionRow;
-using compare::MotionSweep;
+using compare::Sweep;
+using compare::SweepRow;
 
 namespace motion_sweeps {
 
@@ -70,40 +70,40 @@ cases::Trajectory motion(const std::vector<double>& times, double factor) {
   return result;
 }
 
-MotionRow springs(double step, double seconds, std::optional<double> error, int n_cells = 2) {
-  return {"springs hybrid",
-          cases::Design::hybrid,
-          {n_cells, n_cells, n_cells},
-          step,
-          error ? cases::Status::converged : cases::Status::failed,
-          "",
-          81,
-          seconds,
-          error};
-}
-
-MotionRow elements(double step, double seconds, std::optional<double> error, int n_cells = 2) {
-  MotionRow row = springs(step, seconds, error, n_cells);
-  row.method = "log_strain q1";
-  row.design.reset();
+SweepRow springs(double step, double seconds, std::optional<double> error, int n_cells = 2) {
+  SweepRow row;
+  row.variant.design = cases::Design::hybrid;
+  row.variant.cells = {n_cells, n_cells, n_cells};
+  row.variant.step = step;
+  row.run.first.status = error ? cases::Status::converged : cases::Status::failed;
+  if (error) row.run.first_seconds = {seconds};
+  row.field_error_percent = error;
   return row;
 }
 
-MotionSweep swept(const std::vector<MotionRow>& rows, double uncertainty = 0.5) {
-  MotionSweep sweep;
-  sweep.uncertainty_percent = uncertainty;
+SweepRow elements(double step, double seconds, std::optional<double> error, int n_cells = 2) {
+  SweepRow row = springs(step, seconds, error, n_cells);
+  row.variant.program = compare::Program::finite_elements;
+  row.variant.formulation = cases::Formulation::log_strain;
+  row.variant.element = cases::Element::q1;
+  return row;
+}
+
+Sweep swept(const std::vector<SweepRow>& rows, double uncertainty = 0.5) {
+  Sweep sweep;
+  sweep.reference.emplace().field.uncertainty_percent = uncertainty;
   sweep.rows = rows;
   return sweep;
 }
 
-MotionSweep quickly(const cases::Case& definition) {
-  return compare::sweep_motion(definition, compare::Extent::quick, [](const MotionSweep&) {});
+Sweep quickly(const cases::Case& definition) {
+  return compare::sweep_motion(definition, compare::Extent::quick, [](const Sweep&) {});
 }
 
-std::vector<const MotionRow*> rows_of(const MotionSweep& sweep, const std::string& method) {
-  std::vector<const MotionRow*> rows;
-  for (const MotionRow& row : sweep.rows)
-    if (row.method == method) rows.push_back(&row);
+std::vector<const SweepRow*> rows_of(const Sweep& sweep, const std::string& method) {
+  std::vector<const SweepRow*> rows;
+  for (const SweepRow& row : sweep.rows)
+    if (method_name(row.variant) == method) rows.push_back(&row);
   return rows;
 }
 
@@ -118,16 +118,16 @@ TEST_CASE("the difference of two motions is of the times that both have") {
 }
 
 TEST_CASE("the most accurate motion at a rate keeps up with it") {
-  const MotionSweep sweep = swept({springs(0.02, 0.1, 2), springs(0.01, 0.5, 5), springs(0.01, 0.9, 3),
-                                   springs(0.005, 1.1, 1.5), springs(0.01, 0.2, std::nullopt)});
+  const Sweep sweep = swept({springs(0.02, 0.1, 2), springs(0.01, 0.5, 5), springs(0.01, 0.9, 3),
+                             springs(0.005, 1.1, 1.5), springs(0.01, 0.2, std::nullopt)});
   CHECK_THAT(compare::interactive_sentence(sweep, 60), Contains("error 3 %, 0.9 s"));
   CHECK_THAT(compare::interactive_sentence(sweep, 30), Contains("error 2 %"));
   CHECK(compare::interactive_sentence(sweep, 500) == "at 500 Hz: none of these motions keeps up");
-  CHECK(compare::conclusions(sweep).size() == 3);
+  CHECK(compare::interactive_sentences(sweep).size() == 3);
 }
 
 TEST_CASE("the most accurate motion at a rate is held against the other family's") {
-  const auto at_60 = [](const std::vector<MotionRow>& rows, double uncertainty = 0.5) {
+  const auto at_60 = [](const std::vector<SweepRow>& rows, double uncertainty = 0.5) {
     return compare::interactive_sentence(swept(rows, uncertainty), 60);
   };
   CHECK_THAT(at_60({springs(0.01, 0.2, 4), elements(0.01, 0.9, 3)}),
@@ -148,7 +148,7 @@ TEST_CASE("the most accurate motion at a rate is held against the other family's
 }
 
 TEST_CASE("an error that is small by accident is told, with the most accurate motion that is not") {
-  const std::vector<MotionRow> rows{springs(0.01, 0.2, 2), springs(0.01, 5, 20, 4), elements(0.01, 0.9, 9)};
+  const std::vector<SweepRow> rows{springs(0.01, 0.2, 2), springs(0.01, 5, 20, 4), elements(0.01, 0.9, 9)};
   const std::string sentence = compare::interactive_sentence(swept(rows), 60);
   CHECK_THAT(sentence, Contains("error 2 % by accident (more cells and shorter steps lead to 20 %)"));
   CHECK_THAT(sentence, Contains("the most accurate not by accident: log_strain q1"));
@@ -160,42 +160,42 @@ TEST_CASE(
     "a quick sweep in time has all designs with the case's step, its own and finite elements with three",
     "[long]") {
   int n_calls = 0;
-  const MotionSweep sweep =
-      compare::sweep_motion(block(), compare::Extent::quick, [&](const MotionSweep&) { ++n_calls; });
+  const Sweep sweep =
+      compare::sweep_motion(block(), compare::Extent::quick, [&](const Sweep&) { ++n_calls; });
   const auto designs = msm::methods(block().material);
   REQUIRE(sweep.rows.size() == 3 * 3 + 3 * (designs.size() - 1) + 3 * 3);
   CHECK(n_calls == static_cast<int>(sweep.rows.size()));
   for (const cases::Design design : designs)
     CHECK(rows_of(sweep, "springs " + cases::name_of(design)).size() ==
           (design == cases::Design::hybrid ? 9 : 3));
-  CHECK(sweep.uncertainty_percent > 0);
-  CHECK(sweep.uncertainty_percent < 20); // coarse as the meshes are
+  CHECK(sweep.reference->field.uncertainty_percent > 0);
+  CHECK(sweep.reference->field.uncertainty_percent < 20); // coarse as the meshes are
   int n_moved = 0;
-  for (const MotionRow& motion : sweep.rows) {
-    INFO(motion.method << " " << compare::cells_name(motion.cells) << " " << motion.step << " "
-                       << motion.message);
-    CHECK(motion.error_percent.has_value() == (motion.status == cases::Status::converged));
-    CHECK(motion.message.empty() == motion.error_percent.has_value());
-    if (!motion.error_percent) continue;
+  for (const SweepRow& motion : sweep.rows) {
+    const cases::Solution& found = motion.run.first;
+    INFO(full_name(motion.variant) << " " << found.message);
+    CHECK(motion.field_error_percent.has_value() == (found.status == cases::Status::converged));
+    CHECK(found.message.empty() == motion.field_error_percent.has_value());
+    if (!motion.field_error_percent) continue;
     ++n_moved;
-    CHECK(std::isfinite(*motion.error_percent));
-    CHECK(motion.seconds_per_second > 0);
+    CHECK(std::isfinite(*motion.field_error_percent));
+    CHECK(motion.run.first_seconds.at(0) > 0);
   }
   CHECK(n_moved > 18);
   const auto fem = rows_of(sweep, "log_strain q1_bbar"), own = rows_of(sweep, "springs hybrid");
   REQUIRE(fem.size() == 9);
   // coarsest with the longest step, finest with the shortest
-  CHECK(fem.back()->error_percent.value() < 0.5 * fem.front()->error_percent.value());
-  CHECK(own.back()->error_percent.value() < own.front()->error_percent.value());
-  REQUIRE(sweep.left_out.size() == 1);
-  CHECK(sweep.left_out[0].reason == "--quick was asked for");
+  CHECK(fem.back()->field_error_percent.value() < 0.5 * fem.front()->field_error_percent.value());
+  CHECK(own.back()->field_error_percent.value() < own.front()->field_error_percent.value());
+  REQUIRE(sweep.plan.left_out.size() == 1);
+  CHECK(sweep.plan.left_out[0].reason == "--quick was asked for");
   std::ostringstream text, csv;
-  compare::write_motion_sweep_text(text, sweep);
+  compare::write_sweep_text(text, sweep);
   CHECK_THAT(text.str(), Contains("\nat 60 Hz: ") && Contains("\nleft out: "));
-  compare::write_motion_sweep_csv(csv, sweep);
+  compare::write_sweep_csv(csv, sweep);
   const std::string lines = csv.str();
   CHECK(std::count(lines.begin(), lines.end(), '\n') == static_cast<int>(sweep.rows.size()) + 1);
-  const auto document = compare::motion_sweep_to_json(sweep);
+  const auto document = compare::sweep_to_json(sweep);
   CHECK(document["motions"].size() == sweep.rows.size());
   CHECK(document["left_out"].size() == 1);
   CHECK(document["conclusions"].size() == 3);
@@ -206,17 +206,17 @@ TEST_CASE("a design that is refused is a failed row of a sweep in time, with the
   std::get<cases::LinearElastic>(auxetic.material).poissons_ratio = -0.1;
   auxetic.msm.design = cases::Design::moduli;
   auxetic.dynamics->end = 0.01;
-  const MotionSweep sweep = quickly(auxetic);
+  const Sweep sweep = quickly(auxetic);
   const auto refused = rows_of(sweep, "springs hybrid"), own = rows_of(sweep, "springs moduli");
   REQUIRE(refused.size() == 3);
-  for (const MotionRow* row : refused) {
-    CHECK(row->status == cases::Status::failed);
-    CHECK_THAT(row->message, Contains("nu"));
-    CHECK_FALSE(row->error_percent);
+  for (const SweepRow* row : refused) {
+    CHECK(row->run.first.status == cases::Status::failed);
+    CHECK_THAT(row->run.first.message, Contains("nu"));
+    CHECK_FALSE(row->field_error_percent);
   }
   REQUIRE(own.size() == 9);
-  CHECK(own.back()->error_percent);
-  const auto document = compare::motion_sweep_to_json(sweep);
+  CHECK(own.back()->field_error_percent);
+  const auto document = compare::sweep_to_json(sweep);
   for (const auto& motion : document["motions"])
     CHECK(motion["error_percent"].is_null() == (motion["status"] == "failed"));
 }
@@ -241,10 +241,10 @@ TEST_CASE("the springs of a sweep are all that the material has, and what is too
 
 TEST_CASE("the figure of a sweep in time has two blocks of points for every method, and the front") {
   const TemporaryFolder folder;
-  MotionSweep sweep = swept({springs(0.005, 0.1, 9), springs(0.0025, 0.3, 8), springs(0.005, 0.9, 3, 4),
-                             springs(0.005, 0.2, std::nullopt), elements(0.005, 0.5, 4)});
+  Sweep sweep = swept({springs(0.005, 0.1, 9), springs(0.0025, 0.3, 8), springs(0.005, 0.9, 3, 4),
+                       springs(0.005, 0.2, std::nullopt), elements(0.005, 0.5, 4)});
   sweep.definition = block();
-  compare::plot_motion_sweep(folder.path.string(), sweep);
+  compare::plot_sweep(folder.path.string(), sweep);
   const std::string points = content(folder.path / "motion_sweep_points.csv");
   std::vector<std::size_t> n_rows{0}; // of every block, its header too
   std::istringstream lines(points);
@@ -264,7 +264,7 @@ TEST_CASE("a sweep in time says what it cannot sweep") {
   odd.dynamics->end = 0.065;
   CHECK_THROWS_AS(quickly(odd), cases::InputError);
   cases::Case at_rest = block();
-  at_rest.loads[0].value.setZero();
+  at_rest.loads[0].scale(0);
   CHECK_THROWS_WITH(quickly(at_rest), Contains("do not move"));
 }
 

@@ -1,8 +1,8 @@
 // What a sweep prints: its answers, on one screen.
 
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/sweep/analysis.hpp"
-#include "compare/sweep/write_screen.hpp"
+#include "compare/sweep/write_sweep.hpp"
 #include "tests/support/screen.hpp"
 
 #include <catch2/catch.hpp>
@@ -141,28 +141,23 @@ TEST_CASE("a front is thinned evenly, and keeps its ends") {
 }
 
 TEST_CASE("a sweep in time is one screen too, and has an answer with any motion") {
-  MotionSweep sweep;
+  Sweep sweep;
   sweep.definition.name = "a-case";
   sweep.definition.description = "moves";
-  sweep.reference = "log_strain q1_bbar, 32x32x32 cells, generalized_alpha with steps of 2.5 ms";
-  sweep.uncertainty_percent = 0.1;
+  sweep.definition.dynamics.emplace();
+  sweep.reference.emplace().field = {
+      "", "", 0, 0.1, "log_strain q1_bbar, 32x32x32 cells, generalized_alpha with steps of 2.5 ms"};
   for (int i = 0; i < 30; ++i) {
-    MotionRow row{"springs nonlinear_method", cases::Design::nonlinear_method, {10, 10, 10}, 0.001};
-    row.seconds_per_second = 0.01 * (i + 1);
-    if (i < 25) row.error_percent = 40 - i;
-    row.message = i < 25 ? "" : "lost " + std::string(60, 'm') + " " + std::string(60, 'n');
+    SweepRow row = i < 25 ? with_answer(lattice(10), 0.01 * (i + 1), 40. - i) : with_failure(lattice(10));
+    row.variant.step = 0.001;
     sweep.rows.push_back(row);
   }
-  const auto text_of_motions = [&] {
-    std::ostringstream out;
-    write_motion_sweep_screen(out, sweep, "results");
-    return out.str();
-  };
-  INFO(text_of_motions());
-  CHECK(lines_of_text(text_of_motions()).size() <= one_screen);
-  CHECK(width_of_text(text_of_motions()) <= screen_width);
-  CHECK_THAT(text_of_motions(), Contains("at 60 Hz") && Contains("and 3 more failed") && Contains("results"));
+  const std::string text = screen_of(sweep, "results");
+  INFO(text);
+  CHECK(lines_of_text(text).size() <= one_screen);
+  CHECK(width_of_text(text) <= screen_width);
+  CHECK_THAT(text, Contains("at 60 Hz") && Contains("and 3 more failed") && Contains("results"));
   CHECK(has_answer(sweep));
-  for (MotionRow& row : sweep.rows) row.error_percent.reset();
+  for (SweepRow& row : sweep.rows) row = with_failure(row.variant);
   CHECK_FALSE(has_answer(sweep));
 }

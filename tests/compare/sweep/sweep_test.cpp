@@ -4,7 +4,6 @@
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/sweep/analysis.hpp"
-#include "compare/sweep/costs.hpp"
 #include "compare/sweep/instructions.hpp"
 #include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
@@ -108,7 +107,7 @@ TEST_CASE("a body that is no box, or a material without small strain, is refused
 
 TEST_CASE("forces on points have no limit to be measured against, and are refused") {
   cases::Case definition = tiny();
-  definition.loads[0].kind = cases::LoadKind::nodal_force;
+  definition.loads[0].kind = cases::loads::NodalForce{{0, 0, 1e-3}};
   CHECK_THROWS_WITH(make_sweep(definition, Extent::quick, {}), Contains("no continuum limit"));
 }
 

@@ -1,10 +1,14 @@
+#include "compare/thesis/regenerate.hpp"
+
 #include "compare/thesis/entries.hpp"
+#include "compare/thesis/published.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <limits>
 
 using namespace springproof;
-
 using compare::SummaryGroup;
 using compare::TableEntry;
 
@@ -93,4 +97,41 @@ TEST_CASE("a large alpha_1 is marked when print lies above the reference that me
   entries[0].computed[0].value = 14; // print lies below
   compare::explain(entries);
   CHECK(entries[0].finding.empty());
+}
+
+TEST_CASE("the design with the smallest worst error is recommended among those that are stable everywhere") {
+  const auto advice = [](double nu, double small, double large, bool is_stable) {
+    compare::Advice a;
+    a.poissons_ratio = nu;
+    a.cube.small = {small, small, 0.0, true};
+    a.cube.large = {large, large, 0.0, is_stable};
+    return a;
+  };
+  compare::Advice failed = advice(0.3, 0.1, 0.1, true);
+  failed.cube.large.worst.reset();
+  std::vector<compare::Advice> all{
+      advice(0.3, 3, 9, true),   advice(0.3, 1, 1, false),   failed,
+      advice(0.3, 8, 8.5, true), advice(0.45, 20, 30, true), advice(0.49, 1, 1, false)};
+  compare::recommend(all);
+  std::vector<bool> marked;
+  for (const compare::Advice& a : all) marked.push_back(a.is_recommended);
+  CHECK(marked == std::vector<bool>{false, false, false, true, true, false});
+}
+
+TEST_CASE("the published figures are read whole, and a broken row is named") {
+  // three stiffnesses for eleven nu; 6 + 9 eigenvalues and their multiplicities; eleven h;
+  // six measures in the columns of 4.5, 4.6, 4.7, 5.1, 5.3, 5.4; six volumes; three bars
+  CHECK(compare::published_figures().size() ==
+        3 * 11 + 2 * (6 + 9) + 11 + 6 * (5 + 5 + 2 + 2 + 2 + 2) + 6 + 3);
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "broken.csv").string();
+  std::ofstream(path) << "a,b\n1,2\n1\n";
+  CHECK_THROWS_WITH(compare::read_csv(path), Catch::Contains("broken.csv:3") && Catch::Contains("1 fields"));
+}
+
+TEST_CASE("stiffnesses that the thesis prints are found, others are not made up") {
+  CHECK(*compare::published_stiffness("linear_method", "linear_elastic", 0.35) ==
+        std::array<double, 3>{31, 47, 33});
+  CHECK(*compare::published_stiffness("nonlinear_method", "ogden", 0.5) == std::array<double, 3>{14, 17, 63});
+  CHECK_FALSE(compare::published_stiffness("linear_method", "linear_elastic", 0.3));
 }

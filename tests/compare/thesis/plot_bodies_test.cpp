@@ -1,4 +1,4 @@
-#include "compare/thesis/plot_bodies.hpp"
+#include "compare/thesis/figures.hpp"
 
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
-#include "compare/thesis/write_text.hpp"
+#include "compare/thesis/write.hpp"
 
-#include "compare/provenance/paragraph.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/thesis/layout.hpp"
 #include "tests/support/screen.hpp"
 

@@ -2,11 +2,9 @@
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/write/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
-#include <sstream>
 
 using namespace springproof;
 
@@ -58,23 +56,4 @@ TEST_CASE("gnuplot's message is the error, and no picture is left") {
   CHECK_THROWS_WITH(compare::draw(folder.path.string(), "plot", "uniaxial"),
                     Contains("plot.gp") && Contains("gnuplot failed") && Contains("plot.csv"));
   CHECK_FALSE(fs::exists(folder.path / "plot.svg"));
-}
-
-TEST_CASE("a row has numbers to the writer's digits, texts in quotes where needed, nothing for no value") {
-  std::ostringstream out;
-  compare::CsvWriter csv(out, 3);
-  csv.row(1.23456, 7, "a,b", "say \"so\"", std::optional<double>(), std::vector<double>{0.5, 2});
-  CHECK(out.str() == "1.23,7,\"a,b\",\"say \"\"so\"\"\",,0.5,2\n");
-}
-
-TEST_CASE("a text is no formula of a spreadsheet's") {
-  std::ostringstream out;
-  compare::CsvWriter(out).row("=1+1", "@x", "+y", "-2+cmd|x", "-", -2.5, "a=b", "-2.5");
-  CHECK(out.str() == "'=1+1,'@x,'+y,'-2+cmd|x,'-,-2.5,a=b,-2.5\n");
-}
-
-TEST_CASE("a text makes no second line in a row, and no escape of a terminal") {
-  std::ostringstream out;
-  compare::CsvWriter(out).row("case\n::add-mask::x", "\x1b[2J");
-  CHECK(out.str() == "case\\n::add-mask::x,\\x1b[2J\n");
 }

@@ -1,5 +1,5 @@
 #include "compare/write/write.hpp"
-#include "compare/write/write_springs.hpp"
+#include "compare/write/write_fields.hpp"
 
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/unwrapped.hpp"
@@ -35,6 +35,26 @@ compare::Comparison one_cell_comparison() {
   return comparison;
 }
 
+/// Adds a traction on the upper face, MPa.
+cases::Load& add_traction(compare::Comparison& comparison, const Eigen::Vector3d& value) {
+  const cases::Load load{{"z+"}, cases::loads::Traction{value}};
+  auto& loads = comparison.scene.loads;
+  loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
+  return loads.back().load;
+}
+
+std::string text_of(const compare::Comparison& comparison) {
+  std::ostringstream out;
+  compare::write_text(out, comparison);
+  return out.str();
+}
+
+std::string vtu_of(const compare::Comparison& comparison) {
+  std::ostringstream out;
+  compare::write_vtu(out, comparison);
+  return out.str();
+}
+
 /// Values of an appended raw array of a .vtu, found by name as ParaView does.
 template<class Value>
 std::vector<Value> read_array(const std::string& vtu, const std::string& name) {
@@ -52,9 +72,7 @@ std::vector<Value> read_array(const std::string& vtu, const std::string& name) {
 } // namespace
 
 TEST_CASE("a .vtu carries the mesh in VTK's order and the fields of the sides that converged") {
-  std::ostringstream out;
-  compare::write_vtu(out, one_cell_comparison());
-  const std::string vtu = out.str();
+  const std::string vtu = vtu_of(one_cell_comparison());
   CHECK(vtu.find("NumberOfPoints=\"8\" ") != std::string::npos);
   CHECK(vtu.find("NumberOfCells=\"1\"") != std::string::npos);
   CHECK(read_array<std::int64_t>(vtu, "connectivity") == std::vector<std::int64_t>{0, 1, 3, 2, 4, 5, 7, 6});
@@ -83,15 +101,9 @@ TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and 
                              {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}};
   msm.fields = fem.fields;
   msm.fields->stress[0] = {4, 0, 0, 0, 0, 0};
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, 4};
-  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
+  add_traction(comparison, {0, 0, 4});
   comparison.scene.material_of_cell = {2};
-  std::ostringstream out;
-  compare::write_vtu(out, comparison);
-  const std::string vtu = out.str();
+  const std::string vtu = vtu_of(comparison);
   CHECK(read_array<double>(vtu, "fem_stress") == std::vector<double>{3, 0, 0, 0, 0, 0});
   CHECK(read_array<double>(vtu, "fem_strain") == std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
   CHECK(read_array<double>(vtu, "fem_von_mises")[0] == Approx(3).epsilon(1e-14));
@@ -110,15 +122,10 @@ TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and 
 
 TEST_CASE("the text says what force is applied and on what area") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0.25, -4};
-  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
-  std::ostringstream out;
-  compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains("  body     1 x 1 x 1 mm, 1 mm3, 1 cells, 8 nodes\n"));
-  CHECK_THAT(unwrapped(out.str()),
+  add_traction(comparison, {0, 0.25, -4});
+  const std::string text = text_of(comparison);
+  CHECK_THAT(text, Catch::Contains("  body     1 x 1 x 1 mm, 1 mm3, 1 cells, 8 nodes\n"));
+  CHECK_THAT(unwrapped(text),
              Catch::Contains(" loads    applied force (0, 0.25, -4) N; moment about (0.5, 0.5, 0.5) "
                              "(-0.125, 0, 0) N mm; load[0] on 1 mm2 "));
   const auto loads = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["loads"];
@@ -132,27 +139,19 @@ TEST_CASE("the place that a moment is about is printed to six digits, as the mom
   cases::Case definition;
   definition.body = cases::Box{{1.0 / 3, 20.0 / 7, 1}, {1, 1, 1}};
   comparison.scene = cases::make_scene(definition);
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, -4};
-  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
-  std::ostringstream out;
-  compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains("moment about (0.166667, 1.42857, 0.5) (0, 0, 0) N mm"));
+  add_traction(comparison, {0, 0, -4});
+  const std::string text = text_of(comparison);
+  CHECK_THAT(text, Catch::Contains("moment about (0.166667, 1.42857, 0.5) (0, 0, 0) N mm"));
 }
 
 TEST_CASE("the error of a field is marked as a norm, which has no sign") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Measure field;
-  field.name = "everywhere";
-  field.kind = cases::MeasureKind::displacement_field_l2;
+  cases::Measure field{"everywhere", cases::measures::DisplacementFieldL2{}};
   comparison.scene.definition.measures = {field};
   comparison.measures = {{"everywhere", "mm", 2.0, 2.0, 12.5}};
-  std::ostringstream out;
-  compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), Catch::Contains(" 12.50*\n") && !Catch::Contains("+12.50") &&
-                            Catch::Contains("  * of a field over the body"));
+  const std::string text = text_of(comparison);
+  CHECK_THAT(text, Catch::Contains(" 12.50*\n") && !Catch::Contains("+12.50") &&
+                       Catch::Contains("  * of a field over the body"));
 }
 
 TEST_CASE("what a program warns of is in its text and in its JSON, a sentence each and not in capitals") {
@@ -161,28 +160,20 @@ TEST_CASE("what a program warns of is in its text and in its JSON, a sentence ea
   comparison.answers.msm_warnings = {"held nodes have moved"};
   comparison.answers.design.emplace();
   comparison.answers.design->warnings = {"the lattice is too soft"};
-  std::ostringstream out;
-  compare::write_text(out, comparison);
+  const std::string text = text_of(comparison);
   const auto warnings = nlohmann::json::parse(compare::to_json({comparison}).dump())["cases"][0]["warnings"];
   REQUIRE(warnings.size() == 3);
-  for (const std::string warning : warnings) CHECK_THAT(out.str(), Catch::Contains("  Warning: " + warning));
+  for (const std::string warning : warnings) CHECK_THAT(text, Catch::Contains("  Warning: " + warning));
 }
 
 TEST_CASE("forces that follow a history are not added up as if their factors were 1") {
   compare::Comparison comparison = one_cell_comparison();
-  cases::Load load;
-  load.region.name = "z+";
-  load.kind = cases::LoadKind::traction;
-  load.value = {0, 0, -4};
-  comparison.scene.loads = {{cases::select(comparison.scene.mesh, load.region), load}};
-  load.history.points = {{0, 0}, {1, 0.5}};
-  comparison.scene.loads.push_back({cases::select(comparison.scene.mesh, load.region), load});
-  std::ostringstream out, vtu;
-  compare::write_text(out, comparison);
-  CHECK_THAT(out.str(), !Catch::Contains("applied force"));
-  CHECK_THAT(out.str(), Catch::Contains("  loads    load[0] on 1 mm2; load[1] on 1 mm2\n"));
-  compare::write_vtu(vtu, comparison);
-  CHECK(vtu.str().find("applied_force") == std::string::npos);
+  add_traction(comparison, {0, 0, -4});
+  add_traction(comparison, {0, 0, -4}).history.points = {{0, 0}, {1, 0.5}};
+  const std::string text = text_of(comparison);
+  CHECK_THAT(text, !Catch::Contains("applied force"));
+  CHECK_THAT(text, Catch::Contains("  loads    load[0] on 1 mm2; load[1] on 1 mm2\n"));
+  CHECK(vtu_of(comparison).find("applied_force") == std::string::npos);
 }
 
 TEST_CASE("springs are lines with their stretch and tension, where they are ours") {

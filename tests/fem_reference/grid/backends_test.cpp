@@ -67,7 +67,7 @@ cases::Case cube(cases::Formulation formulation, Element element, Test test = Te
   }
   auto definition = scenes::cube(test, set, material, formulation, element, 5);
   // on fewer nodes; point forces on the vertices of quadratic elements tear a body that has no energy
-  for (auto& load : definition.loads) load.value *= 121. / 36 / (element == Element::q2 ? 4 : 2);
+  for (auto& load : definition.loads) load.scale(121. / 36 / (element == Element::q2 ? 4 : 2));
   return definition;
 }
 
@@ -85,11 +85,7 @@ void agree_for_every_law_and_element(std::initializer_list<Test> tests) {
 }
 
 cases::Load traction(const std::string& where, const Vector3d& value) {
-  cases::Load load;
-  load.region.name = where;
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
-  return load;
+  return {{where}, cases::loads::Traction{value}};
 }
 
 } // namespace
@@ -112,10 +108,7 @@ TEST_CASE("both backends agree on flat cells, tractions, torques, symmetry and s
   definition.body = cases::Box{Vector3d(10, 6, 4), {7, 6, 9}};
   definition.fixed.clear();
   for (const char* face : {"x-", "y-", "z-"}) {
-    cases::Fixed fixed;
-    fixed.region.name = face;
-    fixed.components = {face[0] == 'x', face[0] == 'y', face[0] == 'z'};
-    definition.fixed.push_back(fixed);
+    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
   }
   definition.loads = {traction("x+", {0.02, 0.003, -0.002})};
   agree(cases::make_scene(definition));
@@ -125,12 +118,7 @@ TEST_CASE("both backends agree on flat cells, tractions, torques, symmetry and s
   agree(cases::make_scene(definition));
 
   auto twisted = cube(cases::Formulation::hyperelastic, element == Element::q2 ? element : Element::q1);
-  cases::Load torque;
-  torque.region.name = "z+";
-  torque.kind = cases::LoadKind::torque;
-  torque.moment = 3;
-  torque.centre = Vector3d(5, 5, 10);
-  twisted.loads = {torque};
+  twisted.loads = {{{"z+"}, cases::loads::Torque{3, Eigen::Vector3d::UnitZ(), Vector3d(5, 5, 10)}}};
   agree(cases::make_scene(twisted));
 }
 
@@ -198,10 +186,7 @@ TEST_CASE("both backends agree on gravity, of two materials and of weights", "[v
     definition.masses.emplace_back();
     definition.masses.back().region.name = "z+";
     definition.masses.back().mass = element == Element::q2 ? 0.02 : 0.1; // kg; vertices of q2 tear
-    cases::Load gravity;
-    gravity.kind = cases::LoadKind::gravity;
-    gravity.value = Vector3d(20, 5, -9.81);
-    definition.loads = {gravity};
+    definition.loads = {{{}, cases::loads::Gravity{Vector3d(20, 5, -9.81)}}};
     agree(cases::make_scene(definition));
   }
 }
@@ -223,7 +208,7 @@ TEST_CASE("both backends count the negative eigenvalues of a column pressed beyo
 TEST_CASE(
     "a load that cannot be carried is refused by both backends, at the same load, with the work it took") {
   auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar, Test::tensile);
-  for (auto& load : definition.loads) load.value *= 10;
+  for (auto& load : definition.loads) load.scale(10);
   const cases::Scene scene = cases::make_scene(definition);
   const std::vector<bool> constrained = cases::constrained_dofs(scene);
   const auto n_free = std::size_t(std::count(constrained.begin(), constrained.end(), false));

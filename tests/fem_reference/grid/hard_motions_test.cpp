@@ -39,11 +39,7 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
 }
 
 cases::Load traction(const std::string& where, const Vector3d& value) {
-  cases::Load load;
-  load.region = region(where);
-  load.kind = cases::LoadKind::traction;
-  load.value = value;
-  return load;
+  return {region(where), cases::loads::Traction{value}};
 }
 
 } // namespace
@@ -100,11 +96,7 @@ TEST_CASE("a body that nothing holds is set spinning by a torque, and both backe
           "[verification]") {
   cases::Case definition = block(cases::Formulation::log_strain, Element::q1_bbar);
   definition.fixed.clear();
-  cases::Load torque;
-  torque.region = region("z+");
-  torque.kind = cases::LoadKind::torque;
-  torque.moment = 2e-3;
-  torque.centre = Vector3d(4, 3, 12);
+  cases::Load torque{region("z+"), cases::loads::Torque{2e-3, Eigen::Vector3d::UnitZ(), Vector3d(4, 3, 12)}};
   torque.history.points = {{{0., 1.}}, {{0.05, 1.}}, {{0.05, 0.}}};
   definition.loads = {torque};
   definition.dynamics->scheme = {cases::Scheme::generalized_alpha, 0.25, 0.5, 1};

@@ -81,10 +81,7 @@ TEST_CASE("both backends move alike with several materials, weights, histories a
     stiff.upper = Vector3d(7, INFINITY, INFINITY);
     definition.region_materials = {stiff};
     definition.masses.push_back({region("z+"), 1e-4}); // kg; the block has 6e-4
-    cases::Load push;
-    push.region = region("x-");
-    push.kind = cases::LoadKind::traction;
-    push.value = Vector3d(2e-5, 0, 0);
+    cases::Load push{region("x-"), cases::loads::Traction{Vector3d(2e-5, 0, 0)}};
     push.history.frequency = 15;
     definition.loads.push_back(push);
     agree(definition);

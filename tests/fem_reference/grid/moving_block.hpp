@@ -1,14 +1,11 @@
 #pragma once
 
 #include "tests/fem_reference/scenes.hpp"
+#include "tests/support/bodies.hpp"
 
 namespace scenes {
 
-inline cases::Region region(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
+using bodies::region;
 
 /// A block of soft rubber on a table, 12 mm high, whose weight sets in at once; its period is about 0.08 s.
 inline cases::Case block(cases::Formulation formulation, cases::Element element) {
@@ -25,16 +22,10 @@ inline cases::Case block(cases::Formulation formulation, cases::Element element)
   definition.fem.formulation = formulation;
   definition.fem.element = element;
   definition.fixed.push_back({region("z-"), {true, true, true}});
-  cases::Measure tip;
-  tip.kind = cases::MeasureKind::displacement;
-  tip.node = region("x+ y+ z+");
-  cases::Measure volume;
-  volume.kind = cases::MeasureKind::volume;
+  cases::Measure tip{"", cases::measures::Displacement{region("x+ y+ z+")}};
+  cases::Measure volume{"", cases::measures::Volume{}};
   definition.measures = {tip, volume};
-  cases::Load weight;
-  weight.kind = cases::LoadKind::gravity;
-  weight.value = Eigen::Vector3d(2, 0, -4);
-  definition.loads = {weight};
+  definition.loads = {{{}, cases::loads::Gravity{Eigen::Vector3d(2, 0, -4)}}};
   cases::Dynamics dynamics;
   dynamics.scheme.rho_infinity = 0.6;
   dynamics.step = 0.004;

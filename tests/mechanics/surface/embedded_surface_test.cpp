@@ -117,32 +117,6 @@ TEST_CASE("a point outside of a body is bound to the nearest point of its cells"
   }
 }
 
-TEST_CASE("normals of a moved sphere are those of the ellipsoid that it becomes", "[verification]") {
-  const auto largest_error = [](const cases::TriangleMesh& ball) {
-    std::vector<Vector3d> normals;
-    cases::vertex_normals(ball.triangles, ball.vertices, normals);
-    double largest = 0;
-    for (std::size_t v = 0; v < normals.size(); ++v)
-      largest = std::max(largest, (normals[v] - ball.vertices[v]).norm());
-    return largest;
-  };
-  const double coarse = largest_error(sphere(1, 20, 30)), fine = largest_error(sphere(1, 40, 60));
-  CHECK(fine < 0.02);
-  CHECK(coarse / fine > 1.9); // first order at least in the edge, where triangles are unequal
-
-  const cases::TriangleMesh ball = sphere(1, 40, 60);
-  std::vector<Vector3d> normals;
-  cases::vertex_normals(ball.triangles, ball.vertices, normals);
-  const cases::HexMesh mesh = body(0.05);
-  const auto surface = mechanics::embed(ball, mesh);
-  std::vector<Vector3d> moved, turned;
-  mechanics::move(surface, linear_displacement(mesh.nodes.to_vector()), moved);
-  cases::vertex_normals(ball.triangles, moved, turned);
-  const Matrix3d gradient = Matrix3d::Identity() + any_gradient();
-  for (std::size_t v = 0; v < normals.size(); ++v) // areas follow the cofactor: n ~ F^-T N, exactly
-    REQUIRE((turned[v] - (gradient.inverse().transpose() * normals[v]).normalized()).norm() < 1e-11);
-}
-
 TEST_CASE("the outer surface of a box is closed, bound to its nodes and seen from outside") {
   const cases::HexMesh mesh = body(0);
   const cases::TriangleMesh outer = cases::outer_surface(mesh);

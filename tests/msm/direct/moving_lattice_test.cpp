@@ -15,24 +15,15 @@ namespace {
 
 const msm::CellStiffness hybrid_springs{0.2, 0.1, 0.3, 0.05}; // N/mm, MPa
 
-cases::Region region_of(const std::string& name) {
-  cases::Region result;
-  result.name = name;
-  return result;
-}
-
 cases::Load gravity(const Vector3d& value) {
-  cases::Load load;
-  load.kind = cases::LoadKind::gravity;
-  load.value = value;
-  return load;
+  return {{}, cases::loads::Gravity{value}};
 }
 
 /// A box of 2 x 1 x 1 cells of 10 mm, of water, held at one end or nowhere.
 cases::Scene two_cells(bool is_held, double mass_damping, double stiffness_damping) {
   cases::Case definition;
   definition.body = cases::Box{{20, 10, 10}, {2, 1, 1}};
-  if (is_held) definition.fixed.push_back({region_of("x-"), {true, true, true}});
+  if (is_held) definition.fixed.push_back({cases::Region{"x-"}, {true, true, true}});
   definition.material_dynamics = {1000., mass_damping, stiffness_damping};
   cases::Scene scene = cases::make_scene(definition);
   scene.loads.push_back({{}, gravity({0, 0, -9.81})});

@@ -90,10 +90,7 @@ cases::Scene arch(double force, const cases::Dynamics& dynamics) {
   scene.mesh = cases::make_grid_mesh(grid);
   for (std::size_t end = 0; end < 2; ++end)
     scene.constrained[end].selection = cases::select(scene.mesh, region_of(end == 0 ? "x-" : "x+"));
-  cases::Load push;
-  push.region = region_of("z+");
-  push.kind = cases::LoadKind::total_force;
-  push.value = {0, 0, -force};
+  cases::Load push{region_of("z+"), cases::loads::TotalForce{{0, 0, -force}}};
   push.history.points = {{0., 0.}, {0.5, 1.}};
   scene.loads.push_back({cases::select(scene.mesh, push.region), push});
   return scene;
@@ -172,7 +169,7 @@ TEST_CASE("springs of a million times the stiffness of others move on a grid as 
 TEST_CASE("a step on a grid that fails is halved, and the motion goes on", "[verification]") {
   // It begins with ten times its weight, of which nothing is left after three steps.
   cases::Scene scene = block(steps(cases::Scheme::implicit_euler, 0.01, 0.05), {1000., 0, 0.002});
-  scene.loads.front().load.value *= 10;
+  scene.loads.front().load.scale(10);
   scene.loads.front().load.history.points = {{0., 1.}, {0.03, 0.}};
   mechanics::IntegrationSettings few;
   few.newton.max_newton_per_step = 2;

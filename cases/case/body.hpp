@@ -1,0 +1,86 @@
+#pragma once
+
+#include "cases/case/error.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <variant>
+#include <vector>
+
+/// [body] of a case file. Units: mm.
+namespace springproof::cases {
+
+SPRINGPROOF_ENUMERATION(Axis, x, y, z)
+
+struct Box {
+  Eigen::Vector3d size;     ///< mm, > 0; the box reaches from the origin to size
+  std::array<int, 3> cells; ///< > 0
+};
+SPRINGPROOF_FIELDS(Box, size, cells)
+
+/// An all-hexahedral gmsh mesh (.msh, format 4), or a .geo that gmsh meshes on the fly.
+struct MeshFile {
+  NamedFile file;
+  double scale = 1; ///< mm of a unit of the file
+};
+SPRINGPROOF_FIELDS(MeshFile, file, scale)
+
+/// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts at the lower corner
+/// of the surface's bounding box.
+struct Voxels {
+  NamedFile file;
+  double edge;      ///< mm, > 0
+  double scale = 1; ///< mm of a unit of the file
+};
+SPRINGPROOF_FIELDS(Voxels, file, edge, scale)
+
+/// A class of voxels, and of the cells that they fill.
+struct LabelClass {
+  std::string name;    ///< of no face, and another than the other classes'
+  double lower, upper; ///< intensities, closed, lower <= upper
+  bool is_rigid;       ///< bone: nodes of its cells are held unless something moves them; one class at most
+};
+SPRINGPROOF_FIELDS(LabelClass, name, lower, upper, is_rigid)
+
+/// Which of the pieces that share no face is the body.
+SPRINGPROOF_ENUMERATION(Keep,
+                        all,     ///< there is but one
+                        largest, ///< the one of the most cells
+                        seed     ///< the one with a point
+)
+
+/// The cells of a picture in three dimensions (NIfTI, InVesalius) that are of some class.
+struct Labels {
+  NamedFile file;
+  double edge;                                        ///< mm, > 0, of a cell
+  std::vector<LabelClass> classes;                    ///< 1 to 255; a voxel is of the first that has it
+  std::optional<std::array<Eigen::Vector3d, 2>> crop; ///< mm: two corners, the lower one first
+  Keep keep = Keep::all;
+  Eigen::Vector3d seed = Eigen::Vector3d::Zero(); ///< mm
+  double scale = 1;                               ///< on the lengths that the file says
+};
+SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale)
+
+using Body = std::variant<Box, MeshFile, Voxels, Labels>;
+
+/// The class whose cells are rigid, if there is one.
+inline const LabelClass* rigid_class(const Body& body) {
+  const Labels* labels = std::get_if<Labels>(&body);
+  if (labels == nullptr) return nullptr;
+  const auto found = std::find_if(labels->classes.begin(), labels->classes.end(),
+                                  [](const LabelClass& one) { return one.is_rigid; });
+  return found == labels->classes.end() ? nullptr : &*found;
+}
+
+/// A piece that is cut out of the body: the cells whose centre lies in a box. Where its two sides along an
+/// axis are joined (thesis section 6.1.3, the removing method), the upper one ends on the lower one.
+struct Removed {
+  Eigen::Vector3d lower, upper; ///< mm
+  std::optional<Axis> join;     ///< absent: the cut stays open
+  Where where;
+};
+SPRINGPROOF_FIELDS(Removed, lower, upper, join, where)
+
+} // namespace springproof::cases

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "cases/case/body.hpp"
+#include "cases/case/dynamics.hpp"
+
+/// [material] and [[region_material]] of a case file. Units: MPa, mm.
+namespace springproof::cases {
+
+struct LinearElastic {
+  double youngs_modulus; ///< MPa, > 0
+  double poissons_ratio; ///< in (-1, 0.5)
+};
+SPRINGPROOF_FIELDS(LinearElastic, youngs_modulus, poissons_ratio)
+
+/// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) of the isochoric stretches
+/// + kappa/4 (J² - 1 - 2 ln J). Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
+struct Ogden {
+  std::vector<double> mu;             ///< MPa; the sum is the initial shear modulus, > 0
+  std::vector<double> alpha;          ///< as many, none 0
+  std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
+};
+SPRINGPROOF_FIELDS(Ogden, mu, alpha, bulk_modulus)
+
+/// Linear elastic with an axis of symmetry, its fibre: engineering constants along and across it. The strain
+/// energy is positive when poissons_ratio_along² < (1 - poissons_ratio_across) E_along/(2 E_across).
+struct TransverselyIsotropic {
+  double youngs_modulus_along, youngs_modulus_across; ///< E_L, E_T, MPa, > 0
+  double poissons_ratio_along;  ///< nu_LT: contraction across the fibre, pulled along it
+  double poissons_ratio_across; ///< nu_TT in (-1, 1): contraction across the fibre, pulled across it
+  double shear_modulus_along;   ///< G_LT, MPa, > 0: between the fibre and a direction across it
+  Eigen::Vector3d fibre;        ///< unit length
+};
+SPRINGPROOF_FIELDS(TransverselyIsotropic, youngs_modulus_along, youngs_modulus_across, poissons_ratio_along,
+                   poissons_ratio_across, shear_modulus_along, fibre)
+
+using Material = std::variant<LinearElastic, Ogden, TransverselyIsotropic>;
+
+/// The axis along which a direction lies, to 1e-9 of its length; none when it lies askew.
+inline std::optional<Axis> axis_along(const Eigen::Vector3d& direction) {
+  int axis = 0;
+  const double along = direction.cwiseAbs().maxCoeff(&axis);
+  Eigen::Vector3d across = direction;
+  across[axis] = 0;
+  if (across.norm() > 1e-9 * along) return std::nullopt;
+  return static_cast<Axis>(axis);
+}
+
+inline bool is_isotropic(const Material& material) {
+  return !std::holds_alternative<TransverselyIsotropic>(material);
+}
+
+/// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
+/// those whose centre lies in a box.
+struct RegionMaterial {
+  Material material;            ///< of the same model as the body's own
+  std::string group;            ///< empty: the box
+  Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
+  Where where;
+  MaterialDynamics dynamics{};
+};
+SPRINGPROOF_FIELDS(RegionMaterial, material, group, lower, upper, where, dynamics)
+
+} // namespace springproof::cases

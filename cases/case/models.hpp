@@ -1,0 +1,98 @@
+#pragma once
+
+#include "cases/case/designs.hpp"
+#include "cases/case/dynamics.hpp"
+#include "cases/case/error.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+/// [fem] and [msm] of a case file.
+namespace springproof::cases {
+
+SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
+SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q2, q2_p1)
+
+/// What a side that converged must not be, unless its case accepts it.
+SPRINGPROOF_ENUMERATION(Doubt,
+                        inverted, ///< has cells with a corner Jacobian <= 0
+                        unstable  ///< its tangent has negative eigenvalues
+)
+
+struct Fem {
+  Formulation formulation = Formulation::log_strain;
+  Element element = Element::q1_bbar;
+  int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
+  bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
+  bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
+  std::vector<Doubt> accepted;       ///< not held against the side
+  ElementMass mass = ElementMass::consistent;
+  Where where;
+};
+SPRINGPROOF_FIELDS(Fem, formulation, element, refine, has_auto_formulation, has_auto_accuracy, accepted, mass,
+                   where)
+
+/// Homogeneous deformations that the multi-load design is fitted to.
+SPRINGPROOF_ENUMERATION(LoadPath,
+                        uniaxial,    ///< along a lattice axis, free sides
+                        equibiaxial, ///< along two lattice axes, the third free
+                        pure_shear,  ///< planar tension: one axis stretched, one held, the third free
+                        simple_shear ///< between two lattice axes
+)
+
+/// How the springs' equilibrium is computed. All but the first are for comparison.
+SPRINGPROOF_ENUMERATION(
+    Solver,
+    newton,        ///< Newton's method with load steps
+    force_scaling, ///< every point moves by a multiple of its force (Brown; thesis eq. 2.11)
+    fire,          ///< damped inertial relaxation (Bitzek et al. 2006)
+    lbfgs,         ///< limited-memory quasi-Newton
+    snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
+)
+
+/// How a spring's tension follows its stretch q.
+SPRINGPROOF_ENUMERATION(SpringLaw,
+                        hooke,    ///< k l0 (q - 1), and a volume term of pressure k_v (J - 1)
+                        power_log ///< k l0 q^p ln q, and k_v ln J
+)
+
+/// How often force scaling moves the points, whether that is enough or not: some steps of the load, and
+/// further iterations at full load.
+struct RelaxationCounts {
+  int load_steps = 1;
+  int per_step = 0; ///< iterations after every load step
+  int further = 0;  ///< iterations after the last one's
+  long all() const { return static_cast<long>(load_steps) * per_step + further; }
+};
+SPRINGPROOF_FIELDS(RelaxationCounts, load_steps, per_step, further)
+
+struct Msm {
+  Design design = Design::linear_method;
+  Solver solver = Solver::newton;
+  std::optional<double> poissons_ratio; ///< design from another nu than the material's
+  std::optional<double> split;          ///< t of the moduli, hybrid, matched and multi_load designs, 0 to 1
+  std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
+  /// N/m: k_e along x, y, z; k_f in the faces across x, y, z; k_d; design = "given", in place of stiffness
+  std::optional<std::array<double, 7>> axis_stiffness;
+  std::optional<double> uniform_stiffness; ///< N/m, of every spring; design = "uniform"
+  double volume_stiffness = 0;             ///< MPa: k_v; design = "given"
+  std::optional<NamedFile> network;        ///< design = "network", CSV: cases/scene/network.hpp
+  SpringLaw law = SpringLaw::hooke;
+  std::optional<std::array<double, 3>> exponent; ///< p of edges, face and internal diagonals; power_log. The
+                                                 ///< matched design finds its own where there is none
+  std::vector<LoadPath> paths;                   ///< multi_load; empty: all
+  std::vector<double> weights;                   ///< multi_load; one per path, >= 0; empty: all 1
+  std::optional<std::array<double, 2>> strain_range; ///< matched, multi_load, nonlinear_method: logarithmic
+  bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
+  std::vector<Doubt> accepted;                       ///< not held against the side
+  PointMass mass = PointMass::cells;
+  std::optional<int> iterations_per_step; ///< in time: of conjugate gradients, as a simulator's step has them
+  Where where;
+  std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: until it is in equilibrium
+};
+SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, stiffness, axis_stiffness, uniform_stiffness,
+                   volume_stiffness, network, law, exponent, paths, weights, strain_range, has_volume_term,
+                   accepted, mass, iterations_per_step, where, relaxation)
+
+} // namespace springproof::cases

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "cases/case/toml_table.hpp"
+
+/// The readers of a case file's tables. Each takes a case in which the tables before it are read, and throws
+/// InputError.
+namespace springproof::cases {
+
+// [body]
+
+/// Reads [body].  @param case_path  of the case file, which names of files are relative to
+Body read_body(Table& table, const std::string& case_path);
+
+std::vector<std::string> names_of(const std::vector<LabelClass>& classes);
+
+/// Reads `scale`: mm of a unit of a file, 1 where it is left out.
+double read_scale(Table& table);
+
+// [material] and [[region_material]]
+
+/// Names of material.model, in the order of Material.
+const std::vector<std::string>& material_models();
+
+/// Poisson's ratio of an isotropic material.
+inline constexpr auto is_poissons_ratio = [](double value) { return value > -1 && value < 0.5; };
+
+/// Reads the materials into a case whose body and [dynamics] are read.  @throws InputError
+void read_materials(Table& root, Case& result);
+
+// Regions, supports, motions, loads and masses
+
+/// A region in a text: "z+ x-", "near 5 5 10", or the name of a physical group.
+Region read_region_text(const Entry& entry, const Body& body);
+
+/// A unit vector: "x", "y", "z", or any direction.
+Eigen::Vector3d read_direction(const Entry& entry);
+
+/// A region as a table gives it: `region`, a text or a table of a part, or the node nearest to `near`, or
+/// with `radius` the patch around it.
+Region read_region(Table& table, const Body& body);
+
+/// Reads supports, motions, loads and masses into a case whose body and [dynamics] are read.
+void read_boundary(Table& root, Case& result);
+
+/// @throws InputError where nothing holds the body, or nothing moves it
+void check_boundary(Table& root, const Case& result);
+
+// [dynamics], and what a case says of time elsewhere
+
+/// [dynamics], where there is one.
+std::optional<Dynamics> read_dynamics(Table& root);
+
+/// density, mass_damping and stiffness_damping of a material's table.
+MaterialDynamics read_material_dynamics(Table& table, bool has_dynamics);
+
+/// history of a load or motion; the key is refused in a static case.
+History read_history(Table& table, bool has_dynamics);
+
+/// over_time of a measure.
+std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind, bool has_dynamics);
+
+/// Checks a case that is read but for what is below it: densities where masses are asked for, motions that
+/// have a beginning, and what a motion does not have.
+void check_dynamics(Table& root, const Case& definition);
+
+// [fem] and [msm]
+
+/// Reads them into a case whose body, [dynamics] and materials are read.
+/// @throws InputError, also if a material has no meaning in the element, or the springs' design does not
+/// exist for it
+void read_models(Table& root, Case& result);
+
+/// The design that we recommend for a body of these materials, which is the one of [msm] without `design` and
+/// of `design` without --method. Transversely isotropic: "transverse". Otherwise "matched" where its lattice
+/// is stable over the strains of its exponents: logarithmic strain with nu from 0.25 to 0.35, and Ogden; else
+/// "hybrid", and with nu < 0, which that has not, "moduli".
+/// @param materials  at least one    @param poissons_ratio  of the design, in place of the materials'
+Design default_design(const std::vector<Material>& materials,
+                      std::optional<double> poissons_ratio = std::nullopt);
+
+} // namespace springproof::cases
