@@ -34,26 +34,6 @@ struct CellSprings {
   bool is_empty() const;
 };
 
-/// Stiffness of a cell's spring by the axes that it crosses: bit a, axis a.
-inline double stiffness_across(const CellSprings& cell, int axes) {
-  switch (axes) {
-  case 1:
-    return cell.edge[0];
-  case 2:
-    return cell.edge[1];
-  case 4:
-    return cell.edge[2];
-  case 6:
-    return cell.face_diagonal[0];
-  case 5:
-    return cell.face_diagonal[1];
-  case 3:
-    return cell.face_diagonal[2];
-  default:
-    return cell.internal_diagonal;
-  }
-}
-
 /// A body made of the cells of a grid, and what holds it.
 struct Body {
   std::array<int, 3> cells;
@@ -63,7 +43,7 @@ struct Body {
   std::vector<std::ptrdiff_t> constrained; ///< entries of a field that never change: constrained dofs, and
                                            ///< entries without a cell. Sorted.
   std::optional<Part> part{};              ///< set when other ranks have the rest of the grid
-  std::optional<Exponents> exponents{};    ///< none: Hooke's springs
+  std::optional<Exponents> exponents{};    ///< of power-log springs; none: Hooke's
 
   bool is_uniform() const { return springs.size() == 1; }
   const CellSprings& cell(int i, int j, int k) const;

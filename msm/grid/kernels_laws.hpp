@@ -2,12 +2,19 @@
 // written for P works on a pack, and on one number in loops that the compiler turns into packs.
 #pragma once
 
-/// A law's functions. A ghost may lie where a node is: hence the 1e-30.
+/// |d|². A ghost may lie where a node is: hence the 1e-30.
+template<class P>
+SPRINGPROOF_INLINE P squared_length(const Vec<P>& d) {
+  const P least = P{} + 1e-30f;
+  return ((least + d.x * d.x) + d.y * d.y) + d.z * d.z;
+}
+
+/// A law's functions.
 struct Fast {
   static constexpr double of_exponential = 1.4426950408889634; ///< 1/ln 2
   template<class P>
   SPRINGPROOF_INLINE static P inverse_length(const P& squared) {
-    return inverse_root(squared + RealOf<P>(1e-30));
+    return inverse_root(squared);
   }
   template<class P>
   SPRINGPROOF_INLINE static P length(const P& squared) {

@@ -82,7 +82,7 @@ double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last
       Real sum = 0;
       for (std::ptrdiff_t i = 0; i < n; ++i) {
         const Vec<Real> d = springs.at(i);
-        sum += laws.spring[spring].twice_energy(dot(d, d), s.counted[i] * springs.share.share[i]);
+        sum += laws.spring[spring].twice_energy(squared_length(d), s.counted[i] * springs.share.share[i]);
       }
       total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum);
     }
@@ -131,7 +131,7 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& l
         for (std::ptrdiff_t i = 0; i < length; ++i) {
           const Vec<Real> d = springs.at(first + i);
           const Real stiffness = springs.share.scale * springs.share.share[first + i];
-          const auto [t, along] = laws.spring[spring].template tangent<clamp>(dot(d, d), stiffness);
+          const auto [t, along] = laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
           b[i] = t + along * d.x * d.x;
           b[i + block] = t + along * d.y * d.y;
           b[i + 2 * block] = t + along * d.z * d.z;

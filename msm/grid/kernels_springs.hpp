@@ -18,7 +18,7 @@ struct Force {
   static constexpr bool needs_direction = false;
   Laws laws;
   SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, int spring) const {
-    return laws.spring[spring].transverse(dot(d, d), k) * d;
+    return laws.spring[spring].transverse(squared_length(d), k) * d;
   }
 };
 
@@ -29,7 +29,7 @@ struct Product {
   static constexpr bool needs_direction = true;
   Laws laws;
   SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, int spring) const {
-    const SpringTangent<P> tangent = laws.spring[spring].template tangent<clamp>(dot(d, d), k);
+    const SpringTangent<P> tangent = laws.spring[spring].template tangent<clamp>(squared_length(d), k);
     return (-tangent.along * dot(d, change)) * d - tangent.transverse * change;
   }
 };

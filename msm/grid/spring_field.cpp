@@ -1,6 +1,7 @@
 #include "msm/grid/spring_field.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "msm/grid/cell_tangent.hpp"
 
 #include <Eigen/LU>
 #include <string_view>
