@@ -4,19 +4,33 @@
 #include "msm/spring.hpp"
 #include "msm/tetrahedron.hpp"
 
+#include <optional>
+
 namespace springproof::msm {
 
 using Points = std::vector<Eigen::Vector3d>;
 using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j + 4k
 
-/// Exponents of power-log springs, by kind.
+/// Parameters of the law of a cell's springs, by kind: the exponents of power-log springs.
 struct Exponents {
   double edge, face_diagonal, internal_diagonal;
+  LawKind law = LawKind::power_log;
   bool operator==(const Exponents& other) const {
     return edge == other.edge && face_diagonal == other.face_diagonal &&
-           internal_diagonal == other.internal_diagonal;
+           internal_diagonal == other.internal_diagonal && law == other.law;
   }
 };
+
+/// The law of a cell's spring that crosses 1 axis (an edge), 2 (a face diagonal) or 3 (an internal diagonal).
+/// @param exponents  nothing: Hooke's
+inline SpringLaw law_of(const std::optional<Exponents>& exponents, int n_axes) {
+  if (!exponents) return {};
+  const auto& [edge, face_diagonal, internal_diagonal, law] = *exponents;
+  return {law, n_axes == 1 ? edge : n_axes == 2 ? face_diagonal : internal_diagonal};
+}
+inline LawKind kind_of(const std::optional<Exponents>& exponents) {
+  return law_of(exponents, 1).kind;
+}
 
 /// The result of a design method for one cell: the springs of its 12 edges, 12 face diagonals and 4 internal
 /// diagonals, and the volume term; all of them at rest.
@@ -25,26 +39,14 @@ struct CellStiffness {
   double face_diagonal = 0;             ///< k_f, N/mm
   double internal_diagonal = 0;         ///< k_d, N/mm
   double volume = 0;                    ///< k_v, MPa
-  std::optional<Exponents> exponents{}; ///< power-log springs and a logarithmic volume term, in place of
-                                        ///< Hooke's springs and the linear one, (k_v/2) V0 (V/V0 - 1)²
+  std::optional<Exponents> exponents{}; ///< another law than Hooke's, with its law of the volume term in
+                                        ///< place of the linear one, (k_v/2) V0 (V/V0 - 1)²
 };
 
 /// All stiffnesses times a factor.
 inline CellStiffness scaled(CellStiffness k, double factor) {
   for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= factor;
   return k;
-}
-
-/// Calls action(vertex, vertex, stiffness, exponent of the power-log law or none) for the springs of a cell.
-template<class Action>
-void for_each_spring(const CellStiffness& stiffness, const Action& action) {
-  const auto of_kind = [&](const auto& pairs, double k, double Exponents::*kind) {
-    const auto p = stiffness.exponents ? std::optional((*stiffness.exponents).*kind) : std::nullopt;
-    for (const auto& [v, w] : pairs) action(v, w, k, p);
-  };
-  of_kind(cases::cell_edges, stiffness.edge, &Exponents::edge);
-  of_kind(cases::cell_face_diagonals, stiffness.face_diagonal, &Exponents::face_diagonal);
-  of_kind(cases::cell_internal_diagonals, stiffness.internal_diagonal, &Exponents::internal_diagonal);
 }
 
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'

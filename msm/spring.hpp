@@ -1,38 +1,57 @@
 #pragma once
 
-#include "mechanics/ramp_integral.hpp"
+#include "msm/spring_laws.hpp"
 
 #include <Eigen/Core>
 #include <cmath>
-#include <optional>
+#include <tuple>
 
 namespace springproof::msm {
 
-/// A spring's law: how its tension T follows its stretch q = |d|/l0. Hooke's is T = k l0 (q - 1), or
-/// k (|d| - l0). The power-log law is T = k l0 q^p ln q: of the same stiffness k at rest, and of the second
-/// derivative (2p - 1) k/l0 there, so that the exponent p decides whether it stiffens or softens.
-struct Spring {
-  double stiffness;                 ///< k at rest, N/mm
-  double rest_length;               ///< l0, mm, > 0
-  std::optional<double> exponent{}; ///< p of the power-log law; without one, Hooke's
+/// The functions of laws for one number, to its last digits.
+struct Exact {
+  static constexpr double of_exponential = 1;
+  static double length(double squared) { return std::sqrt(squared); }
+  static double over_length(double x, double squared) { return x / std::sqrt(squared); }
+  static double over_squared(double x, double squared) { return x / squared; }
+  /// ln q, without the digits that q = 1.000... would lose.
+  static double log_stretch(double squared, double rest, double) {
+    return std::log1p((std::sqrt(squared) - rest) / rest);
+  }
+  static double exponential(double x) { return std::exp(x); }
+  static double log_volume(double ratio, double) { return std::log(ratio); }
 };
 
-/// ln q of a spring's stretch, without the digits that q = 1.000... would lose.
-inline double log_stretch(double length, const Spring& spring) {
-  return std::log1p((length - spring.rest_length) / spring.rest_length);
+/// A law and its parameter.
+struct SpringLaw {
+  LawKind kind = LawKind::hooke;
+  double parameter = 0;
+};
+inline bool operator==(const SpringLaw& a, const SpringLaw& b) {
+  return std::tie(a.kind, a.parameter) == std::tie(b.kind, b.parameter);
+}
+inline bool operator<(const SpringLaw& a, const SpringLaw& b) {
+  return std::tie(a.kind, a.parameter) < std::tie(b.kind, b.parameter);
 }
 
-/// The integral of q^p ln q from 1, of y = ln q:  y² times ramp_integral((p + 1) y).
-inline double power_log_integral(double log, double exponent) {
-  return mechanics::ramp_integral((exponent + 1) * log) * log * log;
+struct Spring {
+  double stiffness;   ///< k at rest, N/mm
+  double rest_length; ///< l0, mm, > 0
+  SpringLaw law{};
+};
+
+/// action(law) with the spring's rest length and parameter.
+template<class Action>
+auto with_law(const Spring& spring, const Action& action) {
+  return with_law<double, Exact>(spring.law.kind, [&](auto law) {
+    return action(typename decltype(law)::type(spring.rest_length, spring.law.parameter));
+  });
 }
 
 /// Energy of a spring: Hooke's is k/2 (|d| - l0)².  @param d  x_j - x_i, mm  @return N mm
 inline double spring_energy(const Eigen::Vector3d& d, const Spring& spring) {
-  const double length = d.norm(), rest = spring.rest_length, k = spring.stiffness;
-  if (spring.exponent)
-    return k * rest * rest * power_log_integral(log_stretch(length, spring), *spring.exponent);
-  return 0.5 * k * (length - rest) * (length - rest);
+  return with_law(spring,
+                  [&](const auto& law) { return law.twice_energy(d.squaredNorm(), spring.stiffness) / 2; });
 }
 
 /// What a spring's second derivative is made of.
@@ -42,10 +61,10 @@ struct SpringSlopes {
 };
 
 inline SpringSlopes spring_slopes(double length, const Spring& spring) {
-  const double k = spring.stiffness;
-  if (!spring.exponent) return {k, k * (1 - spring.rest_length / length)};
-  const double log = log_stretch(length, spring), power = k * std::exp((*spring.exponent - 1) * log);
-  return {power * (*spring.exponent * log + 1), power * log};
+  return with_law(spring, [&](const auto& law) -> SpringSlopes {
+    const auto tangent = law.template tangent<Clamp::no>(length * length, spring.stiffness);
+    return {tangent.transverse + tangent.along * length * length, tangent.transverse};
+  });
 }
 
 /// Force on point i from the spring (i, j):  f = T d/|d|,  d = x_j - x_i: it pulls i towards j when
@@ -53,7 +72,9 @@ inline SpringSlopes spring_slopes(double length, const Spring& spring) {
 /// @param d  x_j - x_i, mm  @return N
 /// Source: thesis eq. 4.8 (Hooke); minus the gradient of spring_energy() with respect to x_i.
 inline Eigen::Vector3d spring_force(const Eigen::Vector3d& d, const Spring& spring) {
-  return spring_slopes(d.norm(), spring).transverse * d;
+  return with_law(spring,
+                  [&](const auto& law) { return law.transverse(d.squaredNorm(), spring.stiffness); }) *
+         d;
 }
 
 enum class TransverseTerm { exact, clamped };
@@ -65,14 +86,12 @@ enum class TransverseTerm { exact, clamped };
 /// @param d  mm  @return N/mm, symmetric; the (i, i) and (j, j) blocks of the tangent get it, (i, j) its
 /// negative
 inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& spring, TransverseTerm term) {
-  const double length_squared = d.squaredNorm();
-  auto [along, transverse] = spring_slopes(std::sqrt(length_squared), spring);
-  if (term == TransverseTerm::clamped) {
-    if (transverse < 0) transverse = 0;
-    if (along < 0 && spring.exponent) along = 0; // Hooke's k < 0 is a property of the lattice
-  }
-  return transverse * Eigen::Matrix3d::Identity() +
-         ((along - transverse) / length_squared) * d * d.transpose();
+  const double squared = d.squaredNorm(), k = spring.stiffness;
+  const SpringTangent<double> tangent = with_law(spring, [&](const auto& law) {
+    return term == TransverseTerm::clamped ? law.template tangent<Clamp::yes>(squared, k)
+                                           : law.template tangent<Clamp::no>(squared, k);
+  });
+  return tangent.transverse * Eigen::Matrix3d::Identity() + tangent.along * d * d.transpose();
 }
 
 /// A volume term's law: its pressure (tension-positive) as a function of the volume ratio J of the cell, over
@@ -82,10 +101,19 @@ struct VolumeLaw {
   double integral, pressure, slope;
 };
 inline VolumeLaw volume_law(double volume_ratio, bool is_logarithmic) {
-  const double j = volume_ratio;
-  if (!is_logarithmic) return {0.5 * (j - 1) * (j - 1), j - 1, 1};
-  const double log = std::log(j);
-  return {power_log_integral(log, 0), log, 1 / j};
+  const auto of = [&](const auto& law) -> VolumeLaw {
+    return {law.twice_energy(volume_ratio, 1) / 2, law.pressure(volume_ratio, 1),
+            law.template slope<Clamp::no>(volume_ratio, 1)};
+  };
+  return is_logarithmic ? of(LogarithmicVolume<double, Exact>{1}) : of(LinearVolume<double>{1});
+}
+/// Name of a law's parameter, null where it has none.
+inline const char* parameter_name(LawKind kind) {
+  return with_law<double, Exact>(kind, [](auto law) { return decltype(law)::type::parameter; });
+}
+/// Whether the volume terms beside springs of the law are logarithmic.
+inline bool has_logarithmic_volume(LawKind kind) {
+  return with_law<double, Exact>(kind, [](auto law) { return decltype(law)::type::Volume::is_logarithmic; });
 }
 
 } // namespace springproof::msm

@@ -107,7 +107,7 @@ SpringBody scaled_body(Network springs, std::size_t /*n_cells*/, const Factor& f
 
 /// Links between the same two points become one with the sum of their stiffnesses.
 std::vector<Link> merge(std::vector<Link> links) {
-  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.exponent); };
+  const auto kind = [](const Link& link) { return std::tuple(link.i, link.j, link.spring.law); };
   std::sort(links.begin(), links.end(), [&](const Link& a, const Link& b) { return kind(a) < kind(b); });
   std::vector<Link> merged;
   for (const Link& link : links) {
@@ -125,7 +125,7 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const std::array<int, 8>
     if (spring.stiffness == 0) continue;
     const auto [i, j] = nodes_of(nodes, spring);
     const double length = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
-    lattice.links.push_back({i, j, {spring.stiffness, length, spring.exponent}});
+    lattice.links.push_back({i, j, {spring.stiffness, length, spring.law}});
   }
   for (const CellTetrahedron& tetrahedron : terms.tetrahedra)
     lattice.tetrahedra.push_back(make_tetrahedron(cases::pick(nodes, tetrahedron.vertices), lattice.rest,
@@ -138,8 +138,8 @@ void add_network(Lattice& lattice, const Network& springs) {
   for (const cases::NetworkSpring& spring : springs) {
     const auto [i, j] = std::minmax(spring.a, spring.b);
     const double distance = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
-    lattice.links.push_back(
-        {i, j, {spring.stiffness, spring.rest_length.value_or(distance), spring.exponent}});
+    const SpringLaw law = spring.exponent ? SpringLaw{LawKind::power_log, *spring.exponent} : SpringLaw{};
+    lattice.links.push_back({i, j, {spring.stiffness, spring.rest_length.value_or(distance), law}});
   }
   std::sort(lattice.links.begin(), lattice.links.end(),
             [](const Link& a, const Link& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
@@ -149,11 +149,15 @@ void add_network(Lattice& lattice, const Network& springs) {
 
 CellTerms terms_of(const CellStiffness& stiffness) {
   CellTerms terms;
-  for_each_spring(stiffness, [&](int v, int w, double k, const std::optional<double>& exponent) {
-    terms.springs.push_back({{v, w}, k, exponent});
-  });
+  const auto add = [&](const auto& pairs, double k, int n_axes) {
+    for (const auto& [v, w] : pairs)
+      terms.springs.push_back({{v, w}, k, law_of(stiffness.exponents, n_axes)});
+  };
+  add(cases::cell_edges, stiffness.edge, 1);
+  add(cases::cell_face_diagonals, stiffness.face_diagonal, 2);
+  add(cases::cell_internal_diagonals, stiffness.internal_diagonal, 3);
   terms.volume = stiffness.volume;
-  terms.is_logarithmic = stiffness.exponents.has_value();
+  terms.is_logarithmic = has_logarithmic_volume(kind_of(stiffness.exponents));
   return terms;
 }
 
@@ -182,9 +186,8 @@ int n_axes(const CellSpring& spring) {
 }
 
 void set_exponents(CellTerms& terms, const Exponents& exponents) {
-  const std::array<double, 3> by_kind{exponents.edge, exponents.face_diagonal, exponents.internal_diagonal};
-  for (CellSpring& spring : terms.springs) spring.exponent = by_kind[index(n_axes(spring) - 1)];
-  terms.is_logarithmic = true;
+  for (CellSpring& spring : terms.springs) spring.law = law_of(exponents, n_axes(spring));
+  terms.is_logarithmic = has_logarithmic_volume(exponents.law);
 }
 
 SpringBody scaled(const SpringBody& springs, std::size_t n_cells, const Factor& factor) {

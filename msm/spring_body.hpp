@@ -14,8 +14,8 @@ namespace springproof::msm {
 /// A spring between two vertices of a cell, at rest in the cell's rest shape.
 struct CellSpring {
   std::array<int, 2> vertices;
-  double stiffness;                 ///< N/mm
-  std::optional<double> exponent{}; ///< of the power-log law; without one, Hooke's
+  double stiffness; ///< N/mm
+  SpringLaw law{};
 };
 
 /// A tetrahedron of a cell, of biquadratic springs.
@@ -87,7 +87,7 @@ SpringBody scaled(const SpringBody& springs, std::size_t n_cells,
 /// internal diagonal.
 int n_axes(const CellSpring& spring);
 
-/// Springs get the exponent of their kind, the volume term is logarithmic.
+/// Springs get the law and the exponent of their kind, the volume term the law beside theirs.
 void set_exponents(CellTerms& terms, const Exponents& exponents);
 
 /// Calls action(number, terms) for cells in ascending order, each spring with the cell's part of its link. A

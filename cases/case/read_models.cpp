@@ -6,6 +6,8 @@
 
 namespace springproof::cases {
 
+#pragma GCC diagnostic error "-Wswitch" // an enumerator that is forgotten here must not compile
+
 namespace {
 
 /// The elements that a formulation has, its default first. The pressure of a mixed or averaged
@@ -182,6 +184,16 @@ std::array<double, 3> read_exponent(const Entry& entry) {
   return {p, p, p};
 }
 
+bool has_exponent(SpringLaw law) {
+  switch (law) {
+  case SpringLaw::hooke:
+    return false;
+  case SpringLaw::power_log:
+    break;
+  }
+  return true;
+}
+
 void read_law(Table& table, Msm& msm) {
   const DesignLaw law = facts_of(msm.design).law;
   if (law != DesignLaw::any && law != DesignLaw::hooke && law != DesignLaw::fitted) {
@@ -193,12 +205,12 @@ void read_law(Table& table, Msm& msm) {
     return;
   }
   msm.law = table.optional("law", read_name<SpringLaw>).value_or(SpringLaw::hooke);
-  const bool is_power_log = msm.law == SpringLaw::power_log;
-  table.refuse_unless(is_power_log, {"exponent"}, "left out: it belongs to law = \"power_log\"");
-  if (!is_power_log) return;
+  table.refuse_unless(has_exponent(msm.law), {"exponent"}, "left out: it belongs to law = \"power_log\"");
+  if (msm.law == SpringLaw::hooke) return;
   if (law == DesignLaw::hooke)
     table.entry("law").refuse(
         fmt::format("\"hooke\" with design = \"{}\", which fits springs of that law", name_of(msm.design)));
+  if (!has_exponent(msm.law)) return;
   if (law == DesignLaw::fitted)
     msm.exponent = table.optional("exponent", read_exponent);
   else

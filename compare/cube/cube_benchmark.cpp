@@ -49,10 +49,7 @@ cases::Msm given(const msm::CellStiffness& k) {
   options.design = cases::Design::given;
   options.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
   options.volume_stiffness = k.volume;
-  if (k.exponents) {
-    options.law = cases::SpringLaw::power_log;
-    options.exponent = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
-  }
+  msm::set_law(options, k.exponents);
   return options;
 }
 

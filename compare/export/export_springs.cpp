@@ -37,9 +37,21 @@ msm::Points prescribed(const msm::Problem& problem) {
   return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
 }
 
+#pragma GCC diagnostic error "-Wswitch" // a law that the files cannot tell must not compile
+/// The exponent of a power-log spring, nothing of a spring of Hooke's.
+std::optional<double> exponent_of(const msm::Spring& spring) {
+  switch (spring.law.kind) {
+  case msm::LawKind::hooke:
+    return std::nullopt;
+  case msm::LawKind::power_log:
+    break;
+  }
+  return spring.law.parameter;
+}
+
 std::ptrdiff_t n_power_log(const msm::Lattice& lattice) {
   return std::count_if(lattice.links.begin(), lattice.links.end(),
-                       [](const msm::Link& link) { return link.spring.exponent.has_value(); });
+                       [](const msm::Link& link) { return exponent_of(link.spring).has_value(); });
 }
 
 /// What these springs have that a target cannot say.
@@ -60,7 +72,7 @@ void write_springs_csv(const std::string& folder, const msm::Lattice& lattice) {
     csv.row("node_a", "node_b", "stiffness_N_per_m", "rest_length_mm", "exponent");
     for (const auto& [i, j, spring] : lattice.links)
       csv.row(i, j, exact(1e3 * spring.stiffness), exact(spring.rest_length),
-              spring.exponent ? exact(*spring.exponent) : "");
+              exponent_of(spring) ? exact(spring.law.parameter) : "");
   });
 }
 
@@ -134,8 +146,8 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
   for (const int number : kinds_of_links(problem.mesh, lattice.links)) kind.push_back(number);
   for (const auto& [i, j, spring] : lattice.links) {
     lines.add(i, j, spring);
-    is_power_log.push_back(spring.exponent ? 1 : 0);
-    exponent.push_back(spring.exponent.value_or(0));
+    is_power_log.push_back(exponent_of(spring) ? 1 : 0);
+    exponent.push_back(exponent_of(spring).value_or(0));
   }
   msm::Points is_constrained;
   for (std::size_t n = 0; n < lattice.rest.size(); ++n) {

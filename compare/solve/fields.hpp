@@ -6,11 +6,12 @@
 /// The fields of answers, for cereal: see cases/mesh/fields.hpp.
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::msm::Exponents, edge, face_diagonal, internal_diagonal)
+SPRINGPROOF_FIELDS(springproof::msm::Exponents, edge, face_diagonal, internal_diagonal, law)
+SPRINGPROOF_FIELDS(springproof::msm::SpringLaw, kind, parameter)
 SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, exponents)
 SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs_modulus, poissons_ratio,
                    shear_modulus)
-SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, exponent)
+SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, law)
 SPRINGPROOF_FIELDS(springproof::msm::CellTetrahedron, vertices, lambda, mu)
 SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, volume, is_logarithmic)
 SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary, planes_of_node)

@@ -26,7 +26,7 @@ msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
   const cases::Material material =
       cases::materials_of(scene.definition)[static_cast<std::size_t>(cases::material_of(scene, cell))];
   cases::Msm options = scene.definition.msm;
-  if (exponents) options.exponent = {exponents->edge, exponents->face_diagonal, exponents->internal_diagonal};
+  if (exponents) msm::set_law(options, exponents);
   return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), options));
 }
 

@@ -101,7 +101,7 @@ Json cell_to_json(const msm::BodyTerms& terms) {
   Json springs = Json::array(), tetrahedra = springs;
   for (const msm::CellSpring& spring : cell.springs) {
     springs.push_back({{"vertices", spring.vertices}, {"stiffness_N_per_m", 1e3 * spring.stiffness}});
-    if (spring.exponent) springs.back()["exponent"] = *spring.exponent;
+    if (const char* name = msm::parameter_name(spring.law.kind)) springs.back()[name] = spring.law.parameter;
   }
   for (const msm::CellTetrahedron& tetrahedron : cell.tetrahedra)
     tetrahedra.push_back(

@@ -180,7 +180,7 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
     work_.linear_iterations += found.iterations;
     return found;
   };
-  if (body_.law == Law::log_strain) { // the unsymmetric one
+  if (!with_law(body_.law, [](auto law) { return decltype(law)::Moduli::is_symmetric; })) {
     auto found = minimise(max_unsymmetric_iterations);
     return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
   }

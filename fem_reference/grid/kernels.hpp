@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem_reference/grid/laws.hpp"
 #include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
 
@@ -27,8 +28,6 @@ constexpr int upper(int r, int s) {
   return r <= s ? 24 * r - r * (r - 1) / 2 + s - r : 24 * s - s * (s - 1) / 2 + r - s;
 }
 
-enum class Law { small_strain, saint_venant_kirchhoff, log_strain, ogden };
-
 /// What the kernels know of a body.
 struct Cells {
   Layout layout;
@@ -37,7 +36,7 @@ struct Cells {
   double gradients[8][8][3];     ///< dN_a/dX at Gauss point q: [q][a], 1/mm
   double point_volume;           ///< of one Gauss point, mm³
   const float* weight;           ///< per cell: 1, 0 where there is none, between on coarser grids
-  int n_parameters;              ///< of the law: mu, kappa; Ogden's: kappa, then mu and alpha of every term
+  int n_parameters;              ///< as parameters_of() of mechanics has them
   const double* parameters;      ///< of all cells; or null
   const double* cell_parameters; ///< [parameter][cell]
 };

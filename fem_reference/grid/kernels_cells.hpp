@@ -1,4 +1,4 @@
-// Part of kernels_source.hpp, in its namespace: forces and tangents of cells.
+// Part of kernels_source.hpp, in its namespace: forces, tangents and masses of cells.
 #pragma once
 
 /// Displacement of a cell's corners: [corner][component].
@@ -40,13 +40,6 @@ SPRINGPROOF_INLINE void displacement_gradient(const Cells& cells, int q, const C
     }
 }
 
-/// det(I + H) - 1, the sum of H's invariants.
-template<class P>
-SPRINGPROOF_INLINE P growth_of(const P (&h)[9]) {
-  P c[9];
-  cofactor(h, c);
-  return h[0] + h[4] + h[8] + (c[0] + c[4] + c[8]) + determinant(h);
-}
 /// J - 1 as the law's kinematics have it.
 template<class L, class P>
 SPRINGPROOF_INLINE P dilatation_of(const P (&h)[9]) {
@@ -97,7 +90,7 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
       load_corners(layout, fields.displacement, node, weight, u);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
       PackD p{}, growth{}, volume{}, lowest{};
-      Pressure<PackD> target{};
+      ValueAndSlope<PackD> target{};
       if constexpr (modes) {
         p = load(fields.pressure + cell);
         p = weight > PackD{} ? p : PackD{};
@@ -162,7 +155,7 @@ void pressure_change_layer(const Cells& cells, const ForceFields& fields, const 
       load_corners(layout, step, node, weight, du);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
       const PackD p = weight > PackD{} ? load(fields.pressure + cell) : PackD{};
-      const Pressure<PackD> target = L::dilatation(p, m);
+      const ValueAndSlope<PackD> target = L::dilatation(p, m);
       PackD growth{};
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
@@ -189,13 +182,13 @@ SPRINGPROOF_INLINE void moduli_of(const PackF (&h)[9], const PackF& p, const Par
     if constexpr (modes) {
       if constexpr (L::is_finite) add_cofactor_derivative<M>(f, p, moduli);
     } else {
-      const Pressure<PackF> pressure = L::pressure(dilatation_of<L>(h), m);
+      const ValueAndSlope<PackF> pressure = L::pressure(dilatation_of<L>(h), m);
       PackF area[9];
       cofactor_of<L>(h, area);
       if constexpr (L::is_finite) add_cofactor_derivative<M>(f, pressure.value, moduli);
       for (int r = 0; r < 9; ++r) {
         const PackF weighted = pressure.slope * area[r];
-        for (int s = M::has(1, 0) ? 0 : r; s < 9; ++s) moduli[M::at(r, s)] += weighted * area[s];
+        for (int s = M::is_symmetric ? r : 0; s < 9; ++s) moduli[M::at(r, s)] += weighted * area[s];
       }
     }
   }
@@ -204,7 +197,7 @@ SPRINGPROOF_INLINE void moduli_of(const PackF (&h)[9], const PackF& p, const Par
 /// A cell's matrix: all of it, or the upper triangle.
 template<class M>
 struct CellMatrix {
-  static constexpr bool is_symmetric = !M::has(1, 0);
+  static constexpr bool is_symmetric = M::is_symmetric;
   static constexpr int n = is_symmetric ? n_upper : 24 * 24;
   static constexpr int at(int r, int s) { return is_symmetric ? upper(r, s) : 24 * r + s; }
   PackF entry[n];
@@ -317,44 +310,56 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
     }
 }
 
+/// product += mass * field, cell by cell.
+void mass_layer(const Layout& layout, const Masses& masses, const double* field, double* product, int k) {
+  for (int j = 0; j < layout.nodes[1] - 1; ++j)
+    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
+      const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
+      const PackD mass = load(masses.of_cell + cell);
+      for (int c = 0; c < 3; ++c) {
+        const std::ptrdiff_t first = c * layout.size + node;
+        PackD value[8];
+        for (int a = 0; a < 8; ++a) {
+          value[a] = load(field + first + corner_of(layout, a));
+          value[a] = mass > PackD{} ? value[a] : PackD{};
+        }
+        for (int a = 0; a < 8; ++a) {
+          PackD sum{};
+          for (int b = 0; b < 8; ++b) sum += value[b] * masses.part[a][b];
+          add(product + first + corner_of(layout, a), mass * sum);
+        }
+      }
+    }
+}
+
 // ---- one entry for all laws -------------------------------------------------------------------------------
 
 /// Calls action(law, whether there are pressure modes).
 template<class Action>
-SPRINGPROOF_INLINE void with_law(const Cells& cells, const Action& action) {
-  const auto with = [&](auto law) {
+SPRINGPROOF_INLINE void with_modes(const Cells& cells, const Action& action) {
+  with_law(cells.law, [&](auto law) {
     if constexpr (decltype(law)::has_pressure)
       if (cells.has_modes) return action(law, Count<1>{});
     action(law, Count<0>{});
-  };
-  switch (cells.law) {
-  case Law::small_strain:
-    return with(SmallStrain{});
-  case Law::saint_venant_kirchhoff:
-    return with(SaintVenantKirchhoff{});
-  case Law::log_strain:
-    return with(InPrincipalStretches<LogStrain>{});
-  case Law::ogden:
-    return with(InPrincipalStretches<Ogden>{});
-  }
+  });
 }
 
 void force(const Cells& cells, const ForceFields& fields, int layer, Checks& checks) {
-  with_law(cells, [&](auto law, auto modes) {
+  with_modes(cells, [&](auto law, auto modes) {
     force_layer<decltype(law), decltype(modes)::value == 1>(cells, fields, layer, checks);
   });
 }
 
 void pressure_change(const Cells& cells, const ForceFields& fields, const double* step, double* change,
                      int layer) {
-  with_law(cells, [&](auto law, auto modes) {
+  with_modes(cells, [&](auto law, auto modes) {
     if constexpr (decltype(modes)::value == 1)
       pressure_change_layer<decltype(law)>(cells, fields, step, change, layer);
   });
 }
 
 void tangent(const Cells& cells, const TangentFields& fields, const Coarsening& coarsening, int layer) {
-  with_law(cells, [&](auto law, auto modes) {
+  with_modes(cells, [&](auto law, auto modes) {
     tangent_layer<decltype(law), decltype(modes)::value == 1>(cells, fields, coarsening, layer);
   });
 }

@@ -172,18 +172,16 @@ void quadratic_product_layer(const Quadratic& elements, const float* all, const 
 // ---- one entry for all laws -------------------------------------------------------------------------------
 
 void quadratic_force(const Quadratic& elements, const ForceFields& fields, int layer, Checks& checks) {
-  with_law(elements.cells,
-           [&](auto law, auto) { quadratic_force_layer<decltype(law)>(elements, fields, layer, checks); });
+  with_law(elements.cells.law,
+           [&](auto law) { quadratic_force_layer<decltype(law)>(elements, fields, layer, checks); });
 }
 void quadratic_moduli(const Quadratic& elements, const double* displacement, float* moduli, int layer) {
-  with_law(elements.cells, [&](auto law, auto) {
-    quadratic_moduli_layer<decltype(law)>(elements, displacement, moduli, layer);
-  });
+  with_law(elements.cells.law,
+           [&](auto law) { quadratic_moduli_layer<decltype(law)>(elements, displacement, moduli, layer); });
 }
 void quadratic_product(const Quadratic& elements, const float* moduli, const double* field, double* product,
                        int layer) {
-  if (elements.cells.law == Law::log_strain)
-    quadratic_product_layer<LogStrain::Moduli>(elements, moduli, field, product, layer);
-  else
-    quadratic_product_layer<Upper>(elements, moduli, field, product, layer);
+  with_law(elements.cells.law, [&](auto law) {
+    quadratic_product_layer<typename decltype(law)::Moduli>(elements, moduli, field, product, layer);
+  });
 }

@@ -1,8 +1,9 @@
 // The kernels' one source, compiled once per instruction set with SPRINGPROOF_ISA as the name of the set.
 // It must include nothing that defines functions others share: the linker might keep the copy compiled for
 // instructions that the machine lacks.
-#include "fem_reference/grid/kernels.hpp"
 #include "mechanics/grid/packs.hpp"
+// The laws see the numbers that come before them.
+#include "fem_reference/grid/kernels.hpp"
 
 namespace springproof::fem_reference::grid {
 
@@ -16,13 +17,9 @@ struct Count {
   static constexpr int value = n;
 };
 
-#include "fem_reference/grid/kernels_laws.hpp"
-
 #include "fem_reference/grid/kernels_stencil.hpp"
 
 #include "fem_reference/grid/kernels_cells.hpp"
-
-#include "fem_reference/grid/kernels_inertia.hpp"
 
 #include "fem_reference/grid/kernels_quadratic.hpp"
 

@@ -1,6 +1,6 @@
 #include "fem_reference/grid/on_grid.hpp"
 
-#include "mechanics/laws/ogden.hpp"
+#include "mechanics/laws/principal_stress.hpp"
 
 #include <algorithm>
 
@@ -12,6 +12,7 @@ constexpr std::size_t most_terms = 8; ///< of Ogden's law
 
 } // namespace
 
+#pragma GCC diagnostic error "-Wswitch" // a formulation without its law must not compile
 Law law_of(cases::Formulation formulation) {
   switch (formulation) {
   case cases::Formulation::small_strain:
@@ -27,25 +28,16 @@ Law law_of(cases::Formulation formulation) {
 }
 
 std::vector<double> parameters_of(const cases::Material& material) {
-  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material)) {
-    const auto moduli = mechanics::elastic_moduli(*elastic);
-    return {moduli.mu, moduli.kappa};
-  }
-  const auto& ogden = std::get<cases::Ogden>(material);
-  std::vector<double> values{
-      ogden.bulk_modulus.value_or(mechanics::nearly_incompressible_ratio * mechanics::shear_modulus(ogden))};
-  for (std::size_t t = 0; t < ogden.mu.size(); ++t) {
-    values.push_back(ogden.mu[t]);
-    values.push_back(ogden.alpha[t]);
-  }
-  return values;
+  if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
+    return mechanics::parameters_of(*elastic).value;
+  return mechanics::parameters_of(std::get<cases::Ogden>(material)).value;
 }
 
 mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
   if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
     return mechanics::elastic_moduli(*elastic);
-  const double mu = mechanics::shear_modulus(std::get<cases::Ogden>(material)),
-               kappa = parameters_of(material)[0];
+  const auto& ogden = std::get<cases::Ogden>(material);
+  const double mu = mechanics::shear_modulus(ogden), kappa = mechanics::bulk_modulus(ogden);
   return {kappa - 2 * mu / 3, mu, kappa};
 }
 
@@ -71,9 +63,8 @@ bool is_on_grid(const cases::Scene& scene) {
 double bulk_over_shear(const cases::Scene& scene) {
   double largest = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
-    const std::vector<double> values = parameters_of(material);
-    const auto* ogden = std::get_if<cases::Ogden>(&material);
-    largest = std::max(largest, ogden ? values[0] / mechanics::shear_modulus(*ogden) : values[1] / values[0]);
+    const mechanics::ElasticModuli moduli = moduli_at_rest(material);
+    largest = std::max(largest, moduli.kappa / moduli.mu);
   }
   return largest;
 }

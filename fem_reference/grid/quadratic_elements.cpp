@@ -56,7 +56,7 @@ bool QuadraticElements::add_force(const double* displacement, double* force, dou
 }
 
 void QuadraticElements::linearise(const double* displacement) {
-  const int n_entries = cells_.law == Law::log_strain ? 81 : 45;
+  const int n_entries = with_law(cells_.law, [](auto law) { return decltype(law)::Moduli::n; });
   moduli_.resize(index(27 * n_entries * cells_.layout.n_cell_entries()));
   const Quadratic elements = view();
   for_each_plane({0, cells_.cells[2]}, n_threads_,

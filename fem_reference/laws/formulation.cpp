@@ -1,55 +1,56 @@
 #include "fem_reference/laws/formulation.hpp"
 
 #include "fem_reference/law_kernel.hpp"
-#include "fem_reference/laws/in_principal_stretches.hpp"
-#include "fem_reference/laws/saint_venant_kirchhoff.hpp"
-#include "fem_reference/laws/small_strain.hpp"
+#include "fem_reference/laws/isotropic.hpp"
 #include "fem_reference/laws/transverse_log_strain.hpp"
 #include "fem_reference/laws/transverse_small_strain.hpp"
-#include "mechanics/laws/log_strain.hpp"
-#include "mechanics/laws/ogden.hpp"
-
-#include <array>
 
 namespace springproof::fem_reference {
 
 namespace {
 
-template<class Law>
-std::optional<Formulation> with_law(const cases::Material& material) {
-  const auto* own = std::get_if<typename Law::Material>(&material);
-  if (own == nullptr) return std::nullopt;
-  return Formulation{{Law::traits}, [law = Law(*own)](const ElementType& element) {
-                       return std::make_unique<LawKernel<Law>>(element, law);
-                     }};
+const char* model_of(const cases::LinearElastic*) {
+  return "linear_elastic";
+}
+const char* model_of(const cases::Ogden*) {
+  return "ogden";
+}
+const char* model_of(const cases::TransverselyIsotropic*) {
+  return "transversely_isotropic";
 }
 
-struct Row {
-  cases::Formulation name;
-  const char* model; ///< of the material, as in case files
-  std::optional<Formulation> (*make)(const cases::Material& material);
-};
-
-/// Every law: its file is in this folder, or in mechanics/laws when springs are designed with it too.
-constexpr std::array<Row, 6> registry{
-    {{cases::Formulation::small_strain, "linear_elastic", with_law<SmallStrain>},
-     {cases::Formulation::small_strain, "transversely_isotropic", with_law<TransverseSmallStrain>},
-     {cases::Formulation::saint_venant_kirchhoff, "linear_elastic", with_law<SaintVenantKirchhoff>},
-     {cases::Formulation::log_strain, "linear_elastic", with_law<InPrincipalStretches<mechanics::LogStrain>>},
-     {cases::Formulation::log_strain, "transversely_isotropic", with_law<TransverseLogStrain>},
-     {cases::Formulation::hyperelastic, "ogden", with_law<InPrincipalStretches<mechanics::Ogden>>}}};
+/// The one of these laws whose material it is.
+template<class Law, class... Others>
+Formulation with_material(const cases::Fem& fem, const cases::Material& material,
+                          std::vector<std::string> models = {}) {
+  using Material = typename Law::Material;
+  if (const auto* own = std::get_if<Material>(&material))
+    return {{Law::traits}, [law = Law(*own)](const ElementType& element) {
+              return std::make_unique<LawKernel<Law>>(element, law);
+            }};
+  models.emplace_back(model_of(static_cast<const Material*>(nullptr)));
+  if constexpr (sizeof...(Others) > 0)
+    return with_material<Others...>(fem, material, std::move(models));
+  else
+    throw cases::InputError(fem.where,
+                            "this formulation needs material.model = " + cases::alternatives(models));
+}
 
 } // namespace
 
+#pragma GCC diagnostic error "-Wswitch" // a formulation without its laws must not compile
 Formulation make_formulation(const cases::Fem& fem, const cases::Material& material) {
-  std::vector<std::string> models;
-  for (const Row& row : registry) {
-    if (row.name != fem.formulation) continue;
-    if (auto formulation = row.make(material)) return std::move(*formulation);
-    models.emplace_back(row.model);
+  switch (fem.formulation) {
+  case cases::Formulation::small_strain:
+    return with_material<SmallStrain, TransverseSmallStrain>(fem, material);
+  case cases::Formulation::saint_venant_kirchhoff:
+    return with_material<SaintVenantKirchhoff>(fem, material);
+  case cases::Formulation::log_strain:
+    return with_material<LogStrain, TransverseLogStrain>(fem, material);
+  case cases::Formulation::hyperelastic:
+    break;
   }
-  throw cases::InputError(fem.where,
-                          "this formulation needs material.model = " + cases::alternatives(models));
+  return with_material<Ogden>(fem, material);
 }
 
 } // namespace springproof::fem_reference

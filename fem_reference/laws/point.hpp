@@ -2,8 +2,7 @@
 
 #include "mechanics/laws/principal_stress.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 /// A law as the element's kernel sees it, at one point. A law is a type with
 ///   void stress(H, wanted, PointStress&)       without the pressure, where it has one of its own
@@ -13,11 +12,11 @@
 ///   ValueAndSlope dilatation(pressure)         has_pressure alone: its inverse
 /// and the constants below; P = stress + p(J - 1) cof F with a pressure, P = stress without. H = grad u is
 /// the displacement gradient and F = I + H: a strain made of F - I would lose the digits of small
-/// displacements.
+/// displacements. The isotropic laws are those of mechanics/laws.
 namespace springproof::fem_reference {
 
-using mechanics::ValueAndSlope;
-using mechanics::Wanted;
+enum class Wanted { stress, stress_and_tangent };
+using ValueAndSlope = mechanics::ValueAndSlope<double>;
 using Matrix3 = Eigen::Matrix3d;
 /// Row-major flattening of a 3x3: entry 3*i + J.
 using Vector9 = Eigen::Matrix<double, 9, 1>;
@@ -47,48 +46,69 @@ inline Vector9 flatten(const Matrix3& m) {
   return m.reshaped<Eigen::RowMajor>();
 }
 
-/// Cofactors of a matrix, the derivative of its determinant.
-inline Matrix3 cofactor(const Matrix3& m) {
-  Matrix3 result;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d row = m.row((i + 1) % 3).cross(m.row((i + 2) % 3));
-    result.row(i) = row.transpose();
-  }
-  return result;
+/// A matrix's or vector's numbers as the laws of mechanics have them.
+template<int n, class Numbers>
+auto& array_of(Numbers& numbers) {
+  static_assert(Numbers::SizeAtCompileTime == n);
+  using Array = std::conditional_t<std::is_const_v<Numbers>, const double, double>[n];
+  return *reinterpret_cast<Array*>(numbers.data());
 }
 
-/// The dilatation J - 1 of a displacement gradient; for finite kinematics the invariants of H, whose sum it
-/// is.
-inline double dilatation(Kinematics kinematics, const Matrix3& h) {
-  if (kinematics == Kinematics::linear) return h.trace();
-  return h.trace() + cofactor(h).trace() + h.determinant();
-}
-
-/// The right Cauchy-Green tensor less I, twice Green's strain: H + H^T + H^T H.
-inline Matrix3 twice_green_strain(const Matrix3& h) {
-  return h + h.transpose() + h.transpose() * h;
-}
-
-/// cof F = dJ/dF, and (finite kinematics) d cof F/dF.
-
+/// cof F = dJ/dF
 inline Matrix3 cofactor(Kinematics kinematics, const Matrix3& f) {
-  return kinematics == Kinematics::linear ? Matrix3(Matrix3::Identity()) : cofactor(f);
+  if (kinematics == Kinematics::linear) return Matrix3::Identity();
+  const Vector9 flat = flatten(f);
+  Vector9 result;
+  mechanics::cofactor(array_of<9>(flat), array_of<9>(result));
+  return result.reshaped<Eigen::RowMajor>(3, 3);
 }
 
-/// tangent += factor * d(cof F)_iJ/dF_kL = factor * eps_ikm eps_JLN F_mN
+/// The dilatation J - 1 of a displacement gradient.
+inline double dilatation(Kinematics kinematics, const Matrix3& h) {
+  const Vector9 flat = flatten(h);
+  return kinematics == Kinematics::linear ? h.trace() : mechanics::growth_of(array_of<9>(flat));
+}
+
+/// tangent += factor * d(cof F)/dF
 inline void add_cofactor_derivative(Kinematics kinematics, const Matrix3& f, double factor,
                                     Matrix9& tangent) {
   if (kinematics == Kinematics::linear) return;
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3, m = (i + 2) % 3; // eps_ikm = 1, eps_imk = -1
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      tangent(3 * i + a, 3 * k + b) += factor * f(m, c);
-      tangent(3 * i + a, 3 * k + c) -= factor * f(m, b);
-      tangent(3 * i + a, 3 * m + b) -= factor * f(k, c);
-      tangent(3 * i + a, 3 * m + c) += factor * f(k, b);
-    }
-  }
+  const Vector9 flat = flatten(f);
+  mechanics::add_cofactor_derivative<mechanics::Full>(array_of<9>(flat), factor, array_of<81>(tangent));
 }
+
+/// A law of mechanics/laws with its material.
+template<class Law>
+class AtPoint {
+ public:
+  using Material = typename Law::Material;
+  using Moduli = typename Law::Moduli;
+  static constexpr LawTraits traits{Law::is_finite ? Kinematics::finite : Kinematics::linear,
+                                    Moduli::is_symmetric ? TangentSymmetry::symmetric
+                                                         : TangentSymmetry::unsymmetric,
+                                    Law::has_pressure ? Split::pressure : Split::none};
+
+  explicit AtPoint(const Material& material) : parameters_(mechanics::parameters_of(material)) {}
+
+  double energy(const Matrix3& h) const {
+    const Vector9 flat = flatten(h);
+    return Law::energy(array_of<9>(flat), parameters_);
+  }
+  double volume_energy(double dilatation) const { return Law::volume_energy(dilatation, parameters_); }
+  void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
+    const Vector9 flat = flatten(h);
+    Law::stress(array_of<9>(flat), parameters_, array_of<9>(result.stress));
+    if (wanted == Wanted::stress) return;
+    double moduli[Moduli::n];
+    Law::moduli(array_of<9>(flat), parameters_, moduli);
+    for (int r = 0; r < 9; ++r)
+      for (int s = 0; s < 9; ++s) result.tangent(r, s) = moduli[Moduli::at(r, s)];
+  }
+  ValueAndSlope pressure(double dilatation) const { return Law::pressure(dilatation, parameters_); }
+  ValueAndSlope dilatation(double p) const { return Law::dilatation(p, parameters_); }
+
+ private:
+  mechanics::Parameters<double> parameters_;
+};
 
 } // namespace springproof::fem_reference

@@ -1,57 +1,59 @@
 #pragma once
 
-#include "mechanics/elastic_moduli.hpp"
-#include "mechanics/laws/principal_stress.hpp"
-#include "mechanics/ramp_integral.hpp"
+#include "mechanics/laws/point.hpp"
 
 namespace springproof::mechanics {
 
+/// The divided difference of ln(x)/2, exact also where its arguments, which are > 0, coincide or nearly do.
+template<class P>
+SPRINGPROOF_INLINE P divided_difference(const P& x, const P& y) {
+  constexpr double tiny = sizeof(RealOf<P>) == 8 ? 1e-300 : 1e-36;
+  const P t = (x - y) / y, far = absolute(t) > constant<P>(tiny) ? t : constant<P>(1);
+  return (absolute(t) > constant<P>(tiny) ? log1p_of(far) / far : constant<P>(1)) / (2 * y);
+}
+
 /// Cauchy stress sigma = lambda tr(e) I + 2 mu e, e = ln V: deviator 2 mu dev(e), pressure kappa ln J. Path
 /// independent, but no energy belongs to it: its tangent is slightly unsymmetric.
-class LogStrain {
- public:
+struct LogStrain {
+  using Moduli = Full;
   using Material = cases::LinearElastic;
-  static constexpr bool has_energy = false;
-
-  explicit LogStrain(const Material& material) : moduli_(elastic_moduli(material)) {}
-
-  /// J dev(sigma) = 2 mu J dev(ln V).
-  PrincipalStress stress(const Eigen::Vector3d& x, Wanted wanted) const {
-    const double two_mu_j = 2 * moduli_.mu * std::exp(x.sum());
-    const Eigen::Vector3d deviator = x.array() - x.mean();
-    PrincipalStress s;
-    s.kirchhoff = two_mu_j * deviator;
-    if (wanted == Wanted::stress) return s;
+  template<class P>
+  SPRINGPROOF_INLINE static void kirchhoff(const P (&x)[3], const Parameters<P>& m, P (&tau)[3]) {
+    const P sum = x[0] + x[1] + x[2], two_mu_j = 2 * m.value[0] * exp_of(sum);
+    for (int i = 0; i < 3; ++i) tau[i] = two_mu_j * (x[i] - sum / 3);
+  }
+  template<class P>
+  SPRINGPROOF_INLINE static void slopes(const P (&x)[3], const P (&squared)[3], const Parameters<P>& m,
+                                        P (&slope)[9], P (&difference)[3]) {
+    const P sum = x[0] + x[1] + x[2], two_mu_j = 2 * m.value[0] * exp_of(sum);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) s.slope(i, j) = two_mu_j * ((i == j ? 1. : 0.) - 1. / 3 + deviator(i));
-    for (int p = 0; p < 3; ++p) {
-      const double a = x((p + 1) % 3), b = x((p + 2) % 3), d = a - b;
-      // (a - b)/(e^2a - e^2b) = e^-(a+b) d/(2 sinh d), and d/sinh d = 1 - d²/6 to 1e-14 for d < 1e-3
-      const double ratio = std::abs(d) > 1e-3 ? d / std::sinh(d) : 1 - d * d / 6 * (1 - 7 * d * d / 60);
-      s.difference(p) = two_mu_j * std::exp(-(a + b)) * ratio / 2;
-    }
-    return s;
+      for (int j = 0; j < 3; ++j)
+        slope[3 * i + j] = two_mu_j * (x[i] - sum / 3 + constant<P>((i == j ? 1. : 0.) - 1. / 3));
+    for (int p = 0; p < 3; ++p)
+      difference[p] = two_mu_j * divided_difference(squared[(p + 1) % 3], squared[(p + 2) % 3]);
+  }
+  template<class P>
+  SPRINGPROOF_INLINE static ValueAndSlope<P> pressure(const P& dilatation, const Parameters<P>& m) {
+    return {m.value[1] * log1p_of(dilatation), m.value[1] / (1 + dilatation)};
+  }
+  template<class P>
+  SPRINGPROOF_INLINE static ValueAndSlope<P> dilatation(const P& p, const Parameters<P>& m) {
+    const P change = expm1_of(p / m.value[1]);
+    return {change, (1 + change) / m.value[1]};
   }
   /// There is no energy, so this is the work on the straight path of logarithmic strain x s, s from 0 to 1:
   /// the integral of J^s 2 mu s dev(x) : dev(x), N mm/mm³.
-  double energy(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d deviator = x.array() - x.mean();
-    return 2 * moduli_.mu * deviator.squaredNorm() * ramp_integral(x.sum());
+  template<class P>
+  SPRINGPROOF_INLINE static P energy(const P (&x)[3], const Parameters<P>& m) {
+    const P sum = x[0] + x[1] + x[2], a = x[0] - sum / 3, b = x[1] - sum / 3, c = x[2] - sum / 3;
+    return 2 * m.value[0] * (a * a + b * b + c * c) * ramp_integral(sum);
   }
   /// The integral of the pressure kappa ln J over J: kappa (J ln J - J + 1).
-  double volume_energy(double dilatation) const {
-    const double log = std::log1p(dilatation);
-    return moduli_.kappa * log * log * ramp_integral(log);
+  template<class P>
+  SPRINGPROOF_INLINE static P volume_energy(const P& dilatation, const Parameters<P>& m) {
+    const P log = log1p_of(dilatation);
+    return m.value[1] * log * log * ramp_integral(log);
   }
-  ValueAndSlope pressure(double dilatation) const {
-    return {moduli_.kappa * std::log1p(dilatation), moduli_.kappa / (1 + dilatation)};
-  }
-  ValueAndSlope dilatation(double p) const {
-    return {std::expm1(p / moduli_.kappa), std::exp(p / moduli_.kappa) / moduli_.kappa};
-  }
-
- private:
-  ElasticModuli moduli_;
 };
 
 } // namespace springproof::mechanics

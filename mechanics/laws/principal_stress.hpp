@@ -1,50 +1,53 @@
 #pragma once
 
+#include "mechanics/elastic_moduli.hpp"
+#include "mechanics/laws/point.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
-/// Isotropic laws in principal axes, for finite elements and for the designs of springs. A law has
-///   PrincipalStress stress(log_stretches, wanted)  the part of the Kirchhoff stress that is no pressure,
-///   ValueAndSlope pressure(dilatation)             tension-positive mean Cauchy stress, MPa, of J - 1,
-///   ValueAndSlope dilatation(pressure)             its inverse,
-///   double energy(log_stretches)                   without that of the pressure, and
-///   double volume_energy(dilatation)               the pressure's integral, N mm per mm³ at rest,
-///   has_energy                                     whether its tangent is symmetric,
-///   Material                                       what it is made from: of the case's materials.
+/// Laws of one number, with the parameters of a case's material.
 namespace springproof::mechanics {
 
-enum class Wanted { stress, stress_and_tangent };
-
-/// A function's value and its derivative.
-struct ValueAndSlope {
-  double value;
-  double slope;
+template<>
+struct Parameters<double> {
+  std::vector<double> value;
+  int n;
 };
 
-/// An isotropic stress in principal axes, as a function of the logarithmic stretches x_i = ln lambda_i.
-struct PrincipalStress {
-  Eigen::Vector3d kirchhoff;  ///< tau_i, MPa
-  Eigen::Matrix3d slope;      ///< d tau_i/d x_j, MPa
-  Eigen::Vector3d difference; ///< (tau_i - tau_j)/(lambda_i² - lambda_j²) for the pairs (1,2), (2,0), (0,1),
-                              ///< at their limit when the stretches coincide
-};
+inline Parameters<double> parameters_of(const cases::LinearElastic& material) {
+  const ElasticModuli moduli = elastic_moduli(material);
+  return {{moduli.mu, moduli.kappa}, 2};
+}
+inline Parameters<double> parameters_of(const cases::Ogden& material) {
+  std::vector<double> values{bulk_modulus(material)};
+  for (std::size_t term = 0; term < material.mu.size(); ++term)
+    values.insert(values.end(), {material.mu[term], material.alpha[term]});
+  const auto n = static_cast<int>(values.size());
+  return {std::move(values), n};
+}
 
-/// sinh(a d)/sinh(d), to rounding error for every d; a at d = 0.
-inline double sinh_ratio(double a, double d) {
-  if (std::abs(d) > 1e-3) return std::sinh(a * d) / std::sinh(d);
-  // a (1 + (a²-1) d²/6 + (a²-1)(3a²-7) d⁴/360): the next term is below 1e-17 a⁶ here
-  const double square = d * d, excess = a * a - 1;
-  return a * (1 + excess * square / 6 * (1 + (3 * a * a - 7) * square / 60));
+/// The part of the Kirchhoff stress that is no pressure, in principal axes, MPa.
+/// @tparam Law  in principal stretches (laws/in_principal_stretches.hpp)
+/// @param x     logarithmic stretches
+template<class Law>
+Eigen::Vector3d kirchhoff_stress(const Parameters<double>& parameters, const Eigen::Vector3d& x) {
+  const double logarithms[3] = {x[0], x[1], x[2]};
+  double tau[3];
+  Law::kirchhoff(logarithms, parameters, tau);
+  return {tau[0], tau[1], tau[2]};
 }
 
 /// A law's Cauchy stress without its pressure, MPa.
 template<class Law>
-Eigen::Matrix3d cauchy_stress_without_pressure(const Law& law, const Eigen::Matrix3d& deformation_gradient) {
+Eigen::Matrix3d cauchy_stress_without_pressure(const Parameters<double>& parameters,
+                                               const Eigen::Matrix3d& deformation_gradient) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> left(deformation_gradient *
                                                             deformation_gradient.transpose());
   const Eigen::Vector3d x = left.eigenvalues().array().log() / 2;
-  const Eigen::Vector3d principal = law.stress(x, Wanted::stress).kirchhoff / std::exp(x.sum());
+  const Eigen::Vector3d principal = kirchhoff_stress<Law>(parameters, x) / std::exp(x.sum());
   return left.eigenvectors() * principal.asDiagonal() * left.eigenvectors().transpose();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/transverse_moduli.hpp"
+#include "mechanics/elastic_moduli.hpp"
 #include "msm/design/cell_at_rest.hpp"
 
 /// Springs that differ from axis to axis: for a transversely isotropic material whose fibre lies along an

@@ -87,6 +87,30 @@ bool finds_exponents(const cases::Msm& options) {
          (law == cases::DesignLaw::fitted && options.law == cases::SpringLaw::power_log && !options.exponent);
 }
 
+#pragma GCC diagnostic error "-Wswitch" // a law that is forgotten in the next two must not compile
+/// The law that a case gives its springs; nothing: Hooke's, or the design finds the exponents.
+std::optional<Exponents> law_of(const cases::Msm& options) {
+  switch (options.law) {
+  case cases::SpringLaw::hooke:
+    return std::nullopt;
+  case cases::SpringLaw::power_log:
+    break;
+  }
+  if (!options.exponent) return std::nullopt;
+  const auto& [edge, face_diagonal, internal_diagonal] = *options.exponent;
+  return Exponents{edge, face_diagonal, internal_diagonal, LawKind::power_log};
+}
+
+cases::SpringLaw word_of(LawKind law) {
+  switch (law) {
+  case LawKind::hooke:
+    return cases::SpringLaw::hooke;
+  case LawKind::power_log:
+    break;
+  }
+  return cases::SpringLaw::power_log;
+}
+
 double split(const DesignRequest& request) {
   const bool keeps_its_curve = finds_exponents(request.options);
   const double t = request.options.split.value_or(
@@ -190,7 +214,7 @@ DesignResult from_multi_load(const DesignRequest& request) {
   settings.incompressible_lambda = elastic_moduli(request).lambda;
   settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
                                    // states hardly tell them apart
-  if (const auto& p = options.exponent) settings.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
+  settings.exponents = law_of(options);
   if (!finds_exponents(options)) {
     const MultiLoadFit fit = multi_load_method(material, edge, settings);
     return {fit.stiffness, fit.objective};
@@ -337,6 +361,11 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
   return sample([=](double stretch) { return youngs_modulus * std::log(stretch); }, nu, range);
 }
 
+void set_law(cases::Msm& options, const std::optional<Exponents>& exponents) {
+  options.law = word_of(kind_of(exponents));
+  if (exponents) options.exponent = {exponents->edge, exponents->face_diagonal, exponents->internal_diagonal};
+}
+
 DesignResult design(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   if (options.exponent && cases::facts_of(options.design).law == cases::DesignLaw::hooke)
@@ -348,11 +377,12 @@ DesignResult design(const DesignRequest& request) {
                                 cases::designs_for(is_isotropic),
                                 is_isotropic ? "isotropic" : "transversely isotropic"));
   DesignResult result = known_methods.at(options.design)(request);
-  if (const auto& p = options.exponent) result.stiffness.exponents = Exponents{(*p)[0], (*p)[1], (*p)[2]};
+  const auto law = law_of(options);
+  if (law) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
   if (BodyTerms* terms = terms_in(result)) {
-    if (options.exponent)
-      for (CellTerms& kind : terms->kinds) set_exponents(kind, *result.stiffness.exponents);
+    if (law)
+      for (CellTerms& kind : terms->kinds) set_exponents(kind, *law);
     kinds = terms->kinds;
   } else {
     result.springs = {result.stiffness};

@@ -43,6 +43,9 @@ struct DesignResult {
 /// @throws InputError when the material or a setting has no meaning for the method
 DesignResult design(const DesignRequest& request);
 
+/// Has a case's springs follow the law of designed ones.
+void set_law(cases::Msm& options, const std::optional<Exponents>& exponents);
+
 /// The designs that are made from such a material, isotropic or not, in the order of cases::all_designs().
 std::vector<cases::Design> methods(const cases::Material& material);
 

@@ -26,15 +26,13 @@ struct NodeSpring {
 
 std::vector<NodeSpring> node_springs(const CellStiffness& k, double edge) {
   std::vector<NodeSpring> springs;
-  const auto add = [&](double stiffness, double Exponents::*kind,
-                       std::initializer_list<Eigen::Vector3d> directions) {
-    const auto p = k.exponents ? std::optional((*k.exponents).*kind) : std::nullopt;
-    for (const Eigen::Vector3d& d : directions) springs.push_back({d, {stiffness, edge * d.norm(), p}});
+  const auto add = [&](double stiffness, int n_axes, std::initializer_list<Eigen::Vector3d> directions) {
+    for (const Eigen::Vector3d& d : directions)
+      springs.push_back({d, {stiffness, edge * d.norm(), law_of(k.exponents, n_axes)}});
   };
-  add(4 * k.edge, &Exponents::edge, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  add(2 * k.face_diagonal, &Exponents::face_diagonal,
-      {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
-  add(k.internal_diagonal, &Exponents::internal_diagonal, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
+  add(4 * k.edge, 1, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  add(2 * k.face_diagonal, 2, {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
+  add(k.internal_diagonal, 3, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
   return springs;
 }
 
@@ -44,6 +42,11 @@ Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
   c.col(1) = f.col(2).cross(f.col(0));
   c.col(2) = f.col(0).cross(f.col(1));
   return c;
+}
+
+/// The law of the volume term at a volume ratio J.
+VolumeLaw volume_law_of(const CellStiffness& k, double volume_ratio) {
+  return volume_law(volume_ratio, has_logarithmic_volume(kind_of(k.exponents)));
 }
 
 /// D(q) as a sum over the 27 neighbours of a node, itself included: D(q) = sum_n B_n exp(i q d_n).
@@ -84,7 +87,7 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
   const double rest_volume = edge * edge * edge;
   const auto gradient = trilinear_volume_gradient(x);
   const auto second = trilinear_volume_second_derivative(x);
-  const VolumeLaw law = volume_law(trilinear_volume(x) / rest_volume, stiffness.exponents.has_value());
+  const VolumeLaw law = volume_law_of(stiffness, trilinear_volume(x) / rest_volume);
   const double pressure = stiffness.volume * law.pressure, slope = stiffness.volume / rest_volume * law.slope;
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t b = 0; b < 8; ++b)
@@ -148,12 +151,11 @@ double lattice_energy_density(const CellStiffness& stiffness, double edge, const
   double energy = 0;
   for (const auto& [d, spring] : node_springs(stiffness, edge)) energy += spring_energy(edge * f * d, spring);
   return energy / (edge * edge * edge) +
-         stiffness.volume * volume_law(f.determinant(), stiffness.exponents.has_value()).integral;
+         stiffness.volume * volume_law_of(stiffness, f.determinant()).integral;
 }
 
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
-  const double pressure =
-      stiffness.volume * volume_law(f.determinant(), stiffness.exponents.has_value()).pressure;
+  const double pressure = stiffness.volume * volume_law_of(stiffness, f.determinant()).pressure;
   Eigen::Matrix3d stress = pressure * cofactor(f);
   for (const auto& [d, spring] : node_springs(stiffness, edge))
     stress += spring_force(edge * f * d, spring) * d.transpose() / (edge * edge);

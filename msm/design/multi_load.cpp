@@ -4,6 +4,8 @@
 #include "cases/case/names.hpp"
 #include "mechanics/laws/log_strain.hpp"
 #include "mechanics/laws/ogden.hpp"
+#include "mechanics/laws/principal_stress.hpp"
+#include "msm/design/design.hpp"
 #include "msm/design/homogeneous.hpp"
 #include "msm/design/minimise.hpp"
 #include "msm/design/small_strain.hpp"
@@ -43,14 +45,15 @@ int free_axis(LoadPath path) {
 }
 
 Eigen::Matrix3d ogden_stress(const cases::Ogden& ogden, const Eigen::Matrix3d& f, int free) {
-  const Eigen::Matrix3d stress = mechanics::cauchy_stress_without_pressure(mechanics::Ogden(ogden), f);
+  const Eigen::Matrix3d stress =
+      mechanics::cauchy_stress_without_pressure<mechanics::Ogden>(mechanics::parameters_of(ogden), f);
   return stress - stress(free, free) * Eigen::Matrix3d::Identity();
 }
 
 Eigen::Matrix3d log_strain_stress(const cases::LinearElastic& material, const Eigen::Matrix3d& f) {
-  const mechanics::LogStrain law(material);
-  return mechanics::cauchy_stress_without_pressure(law, f) +
-         law.pressure(f.determinant() - 1).value * Eigen::Matrix3d::Identity();
+  const auto parameters = mechanics::parameters_of(material);
+  return mechanics::cauchy_stress_without_pressure<mechanics::LogStrain>(parameters, f) +
+         mechanics::LogStrain::pressure(f.determinant() - 1, parameters).value * Eigen::Matrix3d::Identity();
 }
 
 enum class Part { all, deviator };

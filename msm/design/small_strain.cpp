@@ -2,7 +2,6 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
-#include "mechanics/transverse_moduli.hpp"
 #include "msm/design/minimise.hpp"
 
 #include <algorithm>

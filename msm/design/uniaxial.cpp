@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/rows.hpp"
 #include "mechanics/laws/ogden.hpp"
+#include "mechanics/laws/principal_stress.hpp"
 
 #include <algorithm>
 #include <array>
@@ -55,9 +56,10 @@ bool all_zero(const std::vector<double>& values) {
 } // namespace
 
 StressLaw ogden_law(const cases::Ogden& ogden) {
-  return [law = mechanics::Ogden(ogden)](double stretch) {
+  return [parameters = mechanics::parameters_of(ogden)](double stretch) {
     const double strain = std::log(stretch);
-    const auto stress = law.stress({strain, -strain / 2, -strain / 2}, mechanics::Wanted::stress).kirchhoff;
+    const auto stress =
+        mechanics::kirchhoff_stress<mechanics::Ogden>(parameters, {strain, -strain / 2, -strain / 2});
     return stress[0] - stress[1]; // the pressure that frees the sides
   };
 }

@@ -3,18 +3,12 @@
 #include "cases/mesh/hex_mesh.hpp"
 #include "msm/spring.hpp"
 
-#include <algorithm>
-
 namespace springproof::msm::grid {
-
-namespace {
 
 using cases::index;
 
-/// The springs between vertices v and w of a cell.
-double stiffness_between(const CellSprings& cell, int v, int w) {
-  const int step = v ^ w;
-  switch (step) {
+double stiffness_across(const CellSprings& cell, int axes) {
+  switch (axes) {
   case 1:
     return cell.edge[0];
   case 2:
@@ -31,16 +25,6 @@ double stiffness_between(const CellSprings& cell, int v, int w) {
     return cell.internal_diagonal;
   }
 }
-
-std::optional<double> exponent_between(const std::optional<Exponents>& exponents, int v, int w) {
-  if (!exponents) return std::nullopt;
-  const int step = v ^ w, n_axes = (step & 1) + ((step >> 1) & 1) + (step >> 2);
-  return n_axes == 1   ? exponents->edge
-         : n_axes == 2 ? exponents->face_diagonal
-                       : exponents->internal_diagonal;
-}
-
-} // namespace
 
 CellTangent::CellTangent(const Body& body) : body_(body) {
   for (int step = 0; step < 8; ++step)
@@ -60,13 +44,15 @@ CellMatrix CellTangent::at(const CellSprings& cell, const CellPositions& displac
   };
   for (int v = 0; v < 8; ++v)
     for (int w = v + 1; w < 8; ++w) {
-      const double stiffness = stiffness_between(cell, v, w);
+      const int axes = v ^ w;
+      const double stiffness = stiffness_across(cell, axes);
       if (stiffness == 0) continue;
       const Eigen::Vector3d d = x[index(w)] - x[index(v)];
-      const double rest = rest_length_[index(v ^ w)];
+      const double rest = rest_length_[index(axes)];
       if (!(d.squaredNorm() > 1e-12 * rest * rest)) continue;
-      const Eigen::Matrix3d block = spring_stiffness(
-          d, {stiffness, rest, exponent_between(body_.exponents, v, w)}, TransverseTerm::clamped);
+      const int n_axes = (axes & 1) + (axes >> 1 & 1) + (axes >> 2);
+      const Eigen::Matrix3d block =
+          spring_stiffness(d, {stiffness, rest, law_of(body_.exponents, n_axes)}, TransverseTerm::clamped);
       add(v, v, block);
       add(w, w, block);
       add(v, w, -block);
@@ -75,9 +61,10 @@ CellMatrix CellTangent::at(const CellSprings& cell, const CellPositions& displac
   if (cell.volume == 0) return sum;
   const double rest_volume = body_.spacing.prod();
   const auto gradient = trilinear_volume_gradient(x);
-  // As the kernels have it: of a ratio of 0.1 at least, of logarithmic terms.
-  const double slope = cell.volume / rest_volume *
-                       (body_.exponents ? 1 / std::max(0.1, trilinear_volume(x) / rest_volume) : 1.0);
+  const double slope = with_law<double, Exact>(kind_of(body_.exponents), [&](auto law) {
+    return typename decltype(law)::type::Volume{rest_volume}.template slope<Clamp::yes>(
+        trilinear_volume(x), cell.volume / rest_volume);
+  });
   for (int v = 0; v < 8; ++v)
     for (int w = 0; w < 8; ++w) add(v, w, slope * gradient[index(v)] * gradient[index(w)].transpose());
   return sum;

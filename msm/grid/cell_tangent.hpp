@@ -12,6 +12,9 @@ using CellMatrix = std::array<Corners, 6>;
 constexpr int n_pairs = 6;
 constexpr int first_of_pair[n_pairs] = {0, 1, 2, 1, 0, 0}, second_of_pair[n_pairs] = {0, 1, 2, 2, 2, 1};
 
+/// Stiffness of a cell's spring by the axes that it crosses: bit a, axis a.
+double stiffness_across(const CellSprings& cell, int axes);
+
 /// The clamped tangent of a body's cells one by one, for a preconditioner.
 class CellTangent {
  public:

@@ -123,7 +123,7 @@ void HeldFactor::apply(const Field<double>& right_side, Field<double>& solution)
   for (std::size_t u = 0; u < ordered_entries_.size(); ++u)
     solution_[u] = static_cast<float>(to_one * right_side[ordered_entries_[u]]);
   kernel_set().substitute({blocks_.data(), static_cast<int>(blocks_.size())}, solution_.data(),
-                               scratch_.data());
+                          scratch_.data());
   for (std::size_t u = 0; u < ordered_entries_.size(); ++u)
     solution[ordered_entries_[u]] = size * static_cast<double>(solution_[u]);
 }

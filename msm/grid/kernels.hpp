@@ -2,6 +2,7 @@
 
 #include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
+#include "msm/spring_laws.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +28,8 @@ struct Springs {
   Real rest[n_springs][3];     ///< from a node to its neighbour at rest
   Real rest_length[n_springs]; ///< length of that
   Real stiffness[n_springs];   ///< of one cell's spring; of 1 where `by_node` gives the stiffness
-  bool is_power_log;        ///< power-log springs and logarithmic volume terms; else Hooke's and linear ones
-  Real exponent[n_springs]; ///< of power-log springs
+  LawKind law;
+  Real parameter[n_springs]; ///< of the law
   /// Without holes: number of cells that share a spring is share[dy + 1][dx + 1] of its node's place in the
   /// plane times share_z[k][dz + 1]. Arrays of layout.plane from the first node of a plane on, 0 for ghosts.
   const Real* share;
@@ -55,7 +56,7 @@ enum PackUse : unsigned char {
   meets_springs = 2  ///< it, or a node next to it in its row, is an end of such a spring
 };
 
-enum class Clamp { no, yes };
+using msm::Clamp;
 
 /// Part of an array that one call works on: planes first to last - 1. Contributions to plane `last` go to
 /// `spill` (as many planes as the result has arrays), because that plane belongs to another part; spill and

@@ -122,8 +122,8 @@ SPRINGPROOF_INLINE void store_vertices(Real* b, std::ptrdiff_t i, const Vec<Real
   }
 }
 
-template<class Real, class Law>
-void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
+template<class Real, class Volume>
+void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Volume& law, const Real* displacement,
                   Real* force) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k);
@@ -142,9 +142,9 @@ void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Law& law
 }
 
 /// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped.
-template<Clamp clamp, class Real, class Law>
-void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
-                    const Real* direction, Real* product) {
+template<Clamp clamp, class Real, class Volume>
+void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Volume& law,
+                    const Real* displacement, const Real* direction, Real* product) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
 #pragma GCC ivdep
@@ -157,7 +157,7 @@ void volume_product(const Springs<Real>& s, const Slab<Real>& slab, const Law& l
 #pragma GCC unroll 8
       for (int v = 1; v < 8; ++v) change += dot(g[v], y[v]);
       const Real size = volume(x, g), stiffness = cells.stiffness[i];
-      change *= -law.template volume_slope<clamp>(size, stiffness); // sweep_cells subtracts
+      change *= -law.template slope<clamp>(size, stiffness); // sweep_cells subtracts
       const Real pressure = clamp == Clamp::no ? -law.pressure(size, stiffness) : Real(0);
 #pragma GCC unroll 8
       for (int a = 0; a < 8; ++a) {

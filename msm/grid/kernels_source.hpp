@@ -24,27 +24,21 @@ namespace {
 
 template<class Real>
 void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement, Real* result) {
-  const auto sweep = [&](const auto& law, const auto& action) {
-    sweep_springs(s, slab, action, displacement, displacement, result);
-    if (s.volume_stiffness) volume_force(s, slab, law, displacement, result);
-  };
-  if (s.is_power_log)
-    sweep(PowerLog<Real>(s), PowerLogForce<Real>{PowerLog<Real>(s)});
-  else
-    sweep(Hooke<Real>{s}, Force<Real>{});
+  with_laws(s, [&](const auto& laws) {
+    sweep_springs(s, slab, Force<std::decay_t<decltype(laws)>, Real>{laws}, displacement, displacement,
+                  result);
+    if (s.volume_stiffness) volume_force(s, slab, laws.volume, displacement, result);
+  });
 }
 
 template<class Real, Clamp clamp>
 void product_with(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement,
                   const Real* direction, Real* result) {
-  const auto sweep = [&](const auto& law, const auto& action) {
-    sweep_springs(s, slab, action, displacement, direction, result);
-    if (s.volume_stiffness) volume_product<clamp>(s, slab, law, displacement, direction, result);
-  };
-  if (s.is_power_log)
-    sweep(PowerLog<Real>(s), PowerLogProduct<Real, clamp>{PowerLog<Real>(s)});
-  else
-    sweep(Hooke<Real>{s}, Product<Real, clamp>{});
+  with_laws(s, [&](const auto& laws) {
+    sweep_springs(s, slab, Product<std::decay_t<decltype(laws)>, Real, clamp>{laws}, displacement, direction,
+                  result);
+    if (s.volume_stiffness) volume_product<clamp>(s, slab, laws.volume, displacement, direction, result);
+  });
 }
 template<class Real>
 void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
@@ -76,8 +70,8 @@ SPRINGPROOF_INLINE PlaneOfSprings<Real> plane_of_springs(const Springs<Real>& s,
           in_plane};
 }
 
-template<class Real, class Law>
-double energy_with(const Springs<Real>& s, const Law& law, int first, int last, const Real* displacement) {
+template<class Real, class Laws>
+double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last, const Real* displacement) {
   const Layout& layout = s.layout;
   const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
   double total = 0;
@@ -88,7 +82,7 @@ double energy_with(const Springs<Real>& s, const Law& law, int first, int last, 
       Real sum = 0;
       for (std::ptrdiff_t i = 0; i < n; ++i) {
         const Vec<Real> d = springs.at(i);
-        sum += law.twice_energy(dot(d, d), s.counted[i] * springs.share.share[i], spring);
+        sum += laws.spring[spring].twice_energy(squared_length(d), s.counted[i] * springs.share.share[i]);
       }
       total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum);
     }
@@ -99,7 +93,7 @@ double energy_with(const Springs<Real>& s, const Law& law, int first, int last, 
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
-      sum += law.twice_volume_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
+      sum += laws.volume.twice_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
     }
     total += 0.5 * static_cast<double>(sum);
   }
@@ -108,13 +102,12 @@ double energy_with(const Springs<Real>& s, const Law& law, int first, int last, 
 
 template<class Real>
 double energy(const Springs<Real>& s, int first, int last, const Real* displacement) {
-  return s.is_power_log ? energy_with(s, PowerLog<Real>(s), first, last, displacement)
-                        : energy_with(s, Hooke<Real>{s}, first, last, displacement);
+  return with_laws(s, [&](const auto& laws) { return energy_with(s, laws, first, last, displacement); });
 }
 
 /// Blocks of the springs to both ends. Not the time-critical one: the ends get theirs one spring at a time.
-template<Clamp clamp, class Real, class Law>
-void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Law& law, const Real* displacement,
+template<Clamp clamp, class Real, class Laws>
+void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws, const Real* displacement,
                    Real* result) {
   const Layout& layout = s.layout;
   const auto clear = [](Real* begin, std::ptrdiff_t n) {
@@ -138,7 +131,7 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Law& la
         for (std::ptrdiff_t i = 0; i < length; ++i) {
           const Vec<Real> d = springs.at(first + i);
           const Real stiffness = springs.share.scale * springs.share.share[first + i];
-          const auto [t, along] = law.template slopes<clamp>(dot(d, d), stiffness, spring);
+          const auto [t, along] = laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
           b[i] = t + along * d.x * d.x;
           b[i + block] = t + along * d.y * d.y;
           b[i + 2 * block] = t + along * d.z * d.z;
@@ -161,7 +154,7 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Law& la
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
-      const Real slope = law.template volume_slope<clamp>(volume(x, g), cells.stiffness[i]);
+      const Real slope = laws.volume.template slope<clamp>(volume(x, g), cells.stiffness[i]);
       for (int v = 0; v < 8; ++v) {
         const Real products[6] = {g[v].x * g[v].x, g[v].y * g[v].y, g[v].z * g[v].z,
                                   g[v].y * g[v].z, g[v].x * g[v].z, g[v].x * g[v].y};
@@ -176,16 +169,12 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Law& la
 template<class Real>
 void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
               Real* result) {
-  const auto with = [&](const auto& law) {
+  with_laws(s, [&](const auto& laws) {
     if (clamp == Clamp::yes)
-      diagonal_with<Clamp::yes>(s, slab, law, displacement, result);
+      diagonal_with<Clamp::yes>(s, slab, laws, displacement, result);
     else
-      diagonal_with<Clamp::no>(s, slab, law, displacement, result);
-  };
-  if (s.is_power_log)
-    with(PowerLog<Real>(s));
-  else
-    with(Hooke<Real>{s});
+      diagonal_with<Clamp::no>(s, slab, laws, displacement, result);
+  });
 }
 
 template<class Real>

@@ -8,63 +8,29 @@ SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
-// direction, k, k l0 and the spring's place among the 13: the first end receives the result and the second
-// one its opposite.
+// direction, k and the spring's place among the 13: the first end receives the result and the second one its
+// opposite.
 
-/// 1/|d|. A ghost may lie where a node is: hence the 1e-30.
-template<class P>
-SPRINGPROOF_INLINE P inverse_length(const Vec<P>& d) {
-  const P least = P{} + 1e-30f;
-  return inverse_root(((least + d.x * d.x) + d.y * d.y) + d.z * d.z);
-}
-
-/// (k - k l0/|d|) d
-template<class Real>
+/// T/|d| d
+template<class Laws, class Real>
 struct Force {
   using P = Pack<Real>;
   static constexpr bool needs_direction = false;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P& k_rest,
-                                       int) const {
-    return (k - k_rest * inverse_length(d)) * d;
+  Laws laws;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, int spring) const {
+    return laws.spring[spring].transverse(squared_length(d), k) * d;
   }
 };
 
-/// Tangent times the change c of d, for the first end: -(t c + (k - t) (d.c)/|d|² d) with t = k - k l0/|d|,
-/// at least 0 when clamped.
-template<class Real, Clamp clamp>
+/// Tangent times the change of d, for the first end.
+template<class Laws, class Real, Clamp clamp>
 struct Product {
   using P = Pack<Real>;
   static constexpr bool needs_direction = true;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, const P& k_rest,
-                                       int) const {
-    const P inverse = inverse_length(d);
-    P t = k - k_rest * inverse;
-    if constexpr (clamp == Clamp::yes) t = t > Real(0) ? t : P{};
-    const P along = (t - k) * (dot(d, change) * (inverse * inverse));
-    return along * d - t * change;
-  }
-};
-
-template<class Real>
-struct PowerLogForce {
-  using P = Pack<Real>;
-  static constexpr bool needs_direction = false;
-  PowerLog<Real> law;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, const P&,
-                                       int spring) const {
-    return law.transverse(dot(d, d), k, spring) * d;
-  }
-};
-
-template<class Real, Clamp clamp>
-struct PowerLogProduct {
-  using P = Pack<Real>;
-  static constexpr bool needs_direction = true;
-  PowerLog<Real> law;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, const P&,
-                                       int spring) const {
-    const Slopes<P> slopes = law.template slopes<clamp>(dot(d, d), k, spring);
-    return (-slopes.along * dot(d, change)) * d - slopes.transverse * change;
+  Laws laws;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, int spring) const {
+    const SpringTangent<P> tangent = laws.spring[spring].template tangent<clamp>(squared_length(d), k);
+    return (-tangent.along * dot(d, change)) * d - tangent.transverse * change;
   }
 };
 
@@ -129,16 +95,16 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
 /// displacement
 /// @param to    the pack at the senders' place in the other row
 template<int spring, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_spring(const Springs<Real>& s, const Action& action,
-                                     const Vec<Pack<Real>>& from, const Vec<Pack<Real>>& v,
-                                     const Real* stiffness, Real* to, Vec<Pack<Real>>& own) {
+SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from,
+                                     const Vec<Pack<Real>>& v, const Real* stiffness, Real* to,
+                                     Vec<Pack<Real>>& own) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (spring_steps[spring][0] + 1) * lanes;
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
   const P k = load(stiffness + spring * lanes);
-  const Vec<P> f = action(d, change, k, s.rest_length[spring] * k, spring);
+  const Vec<P> f = action(d, change, k, spring);
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
   // Rows are swept upwards: nothing has come before to the row and plane after the senders'.
@@ -151,7 +117,7 @@ SPRINGPROOF_INLINE void sweep_spring(const Springs<Real>& s, const Action& actio
 /// The three springs of a group.
 /// @param edge  from a node to its neighbours along x, y, z at rest
 template<int group, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, const Action& action, const Vec<Pack<Real>>& edge,
+SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
                                     const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
                                     Real* plane, Vec<Pack<Real>>& own) {
   constexpr int dy = spring_steps[3 * group][1], dz = spring_steps[3 * group][2];
@@ -159,9 +125,9 @@ SPRINGPROOF_INLINE void sweep_group(const Springs<Real>& s, const Action& action
   if constexpr (dy != 0) from.y = (dy == 1 ? edge.y : -edge.y) - u.y;
   if constexpr (dz == 1) from.z = edge.z - u.z;
   Real* const to = plane + dy * tile * node_packs<Action> * pack_size<Real>;
-  sweep_spring<3 * group>(s, action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 1>(s, action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 2>(s, action, from, v, stiffness, to, own);
+  sweep_spring<3 * group>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 1>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group + 2>(action, from, v, stiffness, to, own);
 }
 
 /// All springs of a tile's packs in one row.
@@ -185,13 +151,13 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
       if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
       Real* const sum = here + (sums_at<Action> + 3) * lanes;
       Vec<P> own = load_three(sum);
-      sweep_spring<n_springs - 1>(s, action, Vec<P>{} - u, v, stiffness, here, own);
+      sweep_spring<n_springs - 1>(action, Vec<P>{} - u, v, stiffness, here, own);
       if constexpr (upwards) {
-        sweep_group<0>(s, action, edge, u, v, stiffness, above, own);
-        sweep_group<1>(s, action, edge, u, v, stiffness, above, own);
-        sweep_group<2>(s, action, edge, u, v, stiffness, above, own);
+        sweep_group<0>(action, edge, u, v, stiffness, above, own);
+        sweep_group<1>(action, edge, u, v, stiffness, above, own);
+        sweep_group<2>(action, edge, u, v, stiffness, above, own);
       }
-      sweep_group<3>(s, action, edge, u, v, stiffness, here, own);
+      sweep_group<3>(action, edge, u, v, stiffness, here, own);
       store_three(sum, own);
     } else if constexpr (upwards) { // what group 2 sets
       clear_packs(above + (tile * node_packs<Action> + sums_at<Action>)*lanes, 9);

@@ -14,17 +14,7 @@ using cases::index;
 
 /// Stiffness of the spring of one cell that leads along a step.
 double stiffness_along(const CellSprings& cell, const int (&step)[3]) {
-  const bool x = step[0] != 0, y = step[1] != 0, z = step[2] != 0;
-  if (x && y && z) return cell.internal_diagonal;
-  if (y && z) return cell.face_diagonal[0];
-  if (x && z) return cell.face_diagonal[1];
-  if (x && y) return cell.face_diagonal[2];
-  return cell.edge[x ? 0 : y ? 1 : 2];
-}
-
-double exponent_along(const Exponents& exponents, const int (&step)[3]) {
-  const int n_axes = (step[0] != 0) + (step[1] != 0) + (step[2] != 0);
-  return n_axes == 1 ? exponents.edge : n_axes == 2 ? exponents.face_diagonal : exponents.internal_diagonal;
+  return stiffness_across(cell, (step[0] != 0) + 2 * (step[1] != 0) + 4 * (step[2] != 0));
 }
 
 } // namespace
@@ -34,14 +24,15 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     : body_(body), n_threads_(n_threads), springs_{} {
   springs_.layout = body.layout;
   springs_.rest_volume = static_cast<Real>(body.spacing.prod());
-  springs_.is_power_log = body.exponents.has_value();
+  springs_.law = kind_of(body.exponents);
   for (int s = 0; s < n_springs; ++s) {
     const Eigen::Vector3d rest =
         Eigen::Map<const Eigen::Vector3i>(spring_steps[s]).cast<double>().cwiseProduct(body.spacing);
     Eigen::Map<Eigen::Matrix<Real, 3, 1>>(springs_.rest[s]) = rest.cast<Real>();
     springs_.rest_length[s] = static_cast<Real>(rest.norm());
-    if (body.exponents)
-      springs_.exponent[s] = static_cast<Real>(exponent_along(*body.exponents, spring_steps[s]));
+    const auto& [x, y, z] = spring_steps[s];
+    springs_.parameter[s] =
+        static_cast<Real>(law_of(body.exponents, (x != 0) + (y != 0) + (z != 0)).parameter);
   }
   if (body.is_uniform())
     set_shares();
@@ -178,18 +169,19 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
       for (std::ptrdiff_t i = 0; i < layout.plane; ++i) plane[i] += spill[i];
     }
   };
-  if (n_threads_ == 1 || layout.size <= piece) { // a parallel region of one thread allocates
-    for (std::ptrdiff_t s = 0; s < n; ++s) run(slabs_[index(s)]);
-    for (std::ptrdiff_t s = 0; s < n - 1; ++s) add_spill(s);
+  on_threads(n, [&](std::ptrdiff_t s) { run(slabs_[index(s)]); });
+  on_threads(n - 1, add_spill);
+}
+
+template<class Real>
+template<class Action>
+void SpringField<Real>::on_threads(std::ptrdiff_t n, const Action& action) const {
+  if (n_threads_ == 1 || springs_.layout.size <= piece) { // a parallel region of one thread allocates
+    for (std::ptrdiff_t s = 0; s < n; ++s) action(s);
     return;
   }
-#pragma omp parallel num_threads(n_threads_)
-  {
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t s = 0; s < n; ++s) run(slabs_[index(s)]);
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t s = 0; s < n - 1; ++s) add_spill(s);
-  }
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+  for (std::ptrdiff_t s = 0; s < n; ++s) action(s);
 }
 
 template<class Real>
@@ -257,17 +249,11 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
   const auto n = static_cast<std::ptrdiff_t>(slabs_.size());
   const int first = body_.part ? body_.part->own_first[2] : 0;
   const int last = body_.part ? body_.part->own_last[2] : springs_.layout.nodes[2];
-  const auto sum_up = [&](std::ptrdiff_t s) {
+  on_threads(n, [&](std::ptrdiff_t s) {
     const Slab<Real>& slab = slabs_[index(s)];
     energy_of_slab_[index(s)] = kernels<Real>().energy(springs_, std::max(slab.first, first),
                                                        std::min(slab.last, last), displacement.data());
-  };
-  if (n_threads_ == 1 || springs_.layout.size <= piece) {
-    for (std::ptrdiff_t s = 0; s < n; ++s) sum_up(s);
-  } else {
-#pragma omp parallel for num_threads(n_threads_) schedule(static)
-    for (std::ptrdiff_t s = 0; s < n; ++s) sum_up(s);
-  }
+  });
   double sum = 0;
   for (double value : energy_of_slab_) sum += value;
   if (body_.part) body_.part->ranks->sum(&sum, 1);

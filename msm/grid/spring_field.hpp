@@ -47,6 +47,9 @@ class SpringField {
   void set_by_node();
   void pack_stiffness();
   void clear_held(Field<Real>& field) const;
+  /// Calls action(0), ..., action(n - 1).
+  template<class Action>
+  void on_threads(std::ptrdiff_t n, const Action& action) const;
   template<class Run>
   void for_each_slab(int components, Real* result, const Run& run) const;
 };

@@ -42,14 +42,12 @@ std::vector<LawOfFormulation> laws() {
   const cases::LinearElastic elastic = scenes::thesis_elastic();
   const cases::Ogden ogden{{0.1, 0.2, -0.05}, {5.7255, 0.5, -3.}, 2.};
   const cases::TransverselyIsotropic fibrous = scenes::fibrous({1, 2, -0.5});
-  return {
-      {cases::Formulation::small_strain, elastic, point_law<SmallStrain>(elastic)},
-      {cases::Formulation::saint_venant_kirchhoff, elastic, point_law<SaintVenantKirchhoff>(elastic)},
-      {cases::Formulation::log_strain, elastic,
-       point_law<InPrincipalStretches<mechanics::LogStrain>>(elastic)},
-      {cases::Formulation::small_strain, fibrous, point_law<TransverseSmallStrain>(fibrous)},
-      {cases::Formulation::log_strain, fibrous, point_law<TransverseLogStrain>(fibrous)},
-      {cases::Formulation::hyperelastic, ogden, point_law<InPrincipalStretches<mechanics::Ogden>>(ogden)}};
+  return {{cases::Formulation::small_strain, elastic, point_law<SmallStrain>(elastic)},
+          {cases::Formulation::saint_venant_kirchhoff, elastic, point_law<SaintVenantKirchhoff>(elastic)},
+          {cases::Formulation::log_strain, elastic, point_law<LogStrain>(elastic)},
+          {cases::Formulation::small_strain, fibrous, point_law<TransverseSmallStrain>(fibrous)},
+          {cases::Formulation::log_strain, fibrous, point_law<TransverseLogStrain>(fibrous)},
+          {cases::Formulation::hyperelastic, ogden, point_law<Ogden>(ogden)}};
 }
 
 cases::Fields fields_of(Solved& solved, const cases::Scene& scene, int n_refinements) {

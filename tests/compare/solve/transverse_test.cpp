@@ -1,5 +1,5 @@
 #include "compare/gates/comparison.hpp"
-#include "mechanics/transverse_moduli.hpp"
+#include "mechanics/elastic_moduli.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

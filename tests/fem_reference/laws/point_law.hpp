@@ -1,12 +1,8 @@
 #pragma once
 
-#include "fem_reference/laws/in_principal_stretches.hpp"
-#include "fem_reference/laws/saint_venant_kirchhoff.hpp"
-#include "fem_reference/laws/small_strain.hpp"
+#include "fem_reference/laws/isotropic.hpp"
 #include "fem_reference/laws/transverse_log_strain.hpp"
 #include "fem_reference/laws/transverse_small_strain.hpp"
-#include "mechanics/laws/log_strain.hpp"
-#include "mechanics/laws/ogden.hpp"
 
 #include <functional>
 
