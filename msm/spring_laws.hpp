@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/enumeration.hpp"
 #include "mechanics/numbers.hpp"
 
 /// Laws of springs and of volume terms, written once for one number and for packs of them: Real is the number
@@ -13,7 +14,7 @@
 namespace springproof::msm {
 
 /// The laws of springs that there are. One may have a parameter of every spring: the exponent of power_log.
-enum class LawKind { hooke, power_log };
+SPRINGPROOF_ENUMERATION(LawKind, hooke, power_log)
 
 /// Whether what is negative in a tangent is left out: the transverse stiffness of a compressed spring, and
 /// the other one where a power-log spring has passed its largest tension.

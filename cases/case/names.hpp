@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cases/case/enumeration.hpp"
+
 #include <optional>
 #include <string>
 #include <variant>
@@ -7,14 +9,6 @@
 
 /// How the enumerators of the shared vocabulary are written, in case files, reports and messages alike.
 namespace springproof::cases {
-
-/// Defines an enumeration with the enumerators 0, 1, ..., whose names are the enumerators themselves: one
-/// line registers both.
-#define SPRINGPROOF_ENUMERATION(Enum, ...)                                                                   \
-  enum class Enum { __VA_ARGS__ };                                                                           \
-  inline const char* enumerators(Enum) {                                                                     \
-    return #__VA_ARGS__;                                                                                     \
-  }
 
 /// Lists every field of a type in its order, beneath the type and in its namespace, so that cereal can keep
 /// and send its values. A field that is added to the type and not here does not compile.
