@@ -308,7 +308,7 @@ TEST_CASE("springs of a soft Ogden material keep the tension that it keeps at la
   const msm::Exponents kept = *msm::design(matched(softening)).stiffness.exponents;
   for (const double exponent : {kept.edge, kept.face_diagonal, kept.internal_diagonal})
     CHECK(exponent >= msm::lowest_ogden_exponent - 1e-12); // Ceres projects
-  CHECK(kept.edge == Approx(msm::lowest_ogden_exponent));       // unbounded: about -1.1
+  CHECK(kept.edge == Approx(msm::lowest_ogden_exponent));  // unbounded: about -1.1
 }
 
 TEST_CASE("a matched lattice that is unstable within its range of strains is warned of") {
