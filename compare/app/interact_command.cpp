@@ -7,7 +7,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/report/page.hpp"
+#include "compare/report/pages.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/table/json.hpp"
 #include "compare/write/quote.hpp"

@@ -1,7 +1,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/rows.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/interact/replay.hpp"
+#include "compare/interact/recording.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 

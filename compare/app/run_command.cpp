@@ -1,24 +1,29 @@
 #include "compare/app/commands.hpp"
 
+#include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/design_options.hpp"
-#include "compare/app/next_commands.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/study/write_ranking.hpp"
-#include "compare/report/case_page.hpp"
+#include "compare/report/pages.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/study/verdict.hpp"
+#include "compare/study/write_ranking.hpp"
 #include "compare/table/table.hpp"
+#include "compare/write/quote.hpp"
 #include "compare/write/write.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 namespace springproof::compare {
 
@@ -40,10 +45,104 @@ struct RunOptions {
   bool json = false;
 };
 
-/// What the commands that a text ends with are made of.
-RunOfCase as_asked(const RunOptions& options, const cases::Case& definition) {
-  return {options.program->get_name(), definition.file, options.settings, options.meshes > 0,
-          !options.out.empty()};
+/// The words of `run` for the same case, without the settings that begin with one of these texts.
+std::vector<std::string> words_of(const RunOptions& run, const cases::Case& definition,
+                                  const std::vector<std::string>& left_out = {}) {
+  std::vector<std::string> words{run.program->get_name(), "run", definition.file};
+  for (const std::string& setting : run.settings)
+    if (std::none_of(left_out.begin(), left_out.end(),
+                     [&](const std::string& beginning) { return setting.rfind(beginning, 0) == 0; }))
+      words.insert(words.end(), {"--set", setting});
+  return words;
+}
+
+std::string line_of(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return shell_line(words);
+}
+
+/// Cells of half the edge, where both models can be solved on them soon and mean the same: forces on nodes
+/// would be other loads, and given springs are of the cells that they were given for.
+std::optional<std::array<int, 3>> finer_cells(const Comparison& comparison) {
+  constexpr std::size_t most_cells = 40000;
+  const cases::Case& definition = comparison.scene.definition;
+  const auto* box = std::get_if<cases::Box>(&definition.body);
+  const bool has_nodal_forces = std::any_of(definition.loads.begin(), definition.loads.end(),
+                                            cases::is<cases::loads::NodalForce, cases::Load>);
+  const bool is_given = cases::facts_of(definition.msm.design).source == cases::DesignSource::file;
+  if (!box || has_nodal_forces || is_given || 8 * comparison.scene.mesh.cells.size() > most_cells)
+    return std::nullopt;
+  std::array<int, 3> cells = box->cells;
+  for (int& n : cells) n *= 2;
+  return cells;
+}
+
+/// What tells whether the mesh is fine enough.
+std::optional<NextCommand> about_mesh(const RunOptions& run, const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  if (!comparison.mesh_study && run.meshes == 0)
+    return NextCommand{line_of(words_of(run, definition), {"--converge"}), "this mesh's own error"};
+  if (const auto cells = finer_cells(comparison))
+    return NextCommand{line_of(words_of(run, definition, {"body.cells="}),
+                               {"--set", fmt::format("body.cells=[{}]", fmt::join(*cells, ","))}),
+                       "a finer mesh"};
+  return std::nullopt;
+}
+
+/// The [msm] table of a design as with_design() makes it.
+std::string msm_setting(const std::string& design, const cases::Msm& own) {
+  std::string table = fmt::format("msm={{design=\"{}\"", design);
+  if (own.mass != cases::Msm{}.mass) table += fmt::format(", mass=\"{}\"", cases::name_of(own.mass));
+  std::vector<std::string> accepted;
+  for (const cases::Doubt doubt : own.accepted) accepted.push_back('"' + cases::name_of(doubt) + '"');
+  if (!accepted.empty()) table += fmt::format(", accept=[{}]", fmt::join(accepted, ", "));
+  return table + "}";
+}
+
+/// This process's command as it was typed, quoted for a shell; empty where the system does not tell.
+std::string typed_command() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(in), {}}; // words that each end with a zero
+  std::vector<std::string> words;
+  for (std::size_t begin = 0, end = 0; (end = all.find('\0', begin)) != std::string::npos; begin = end + 1)
+    words.push_back(all.substr(begin, end - begin));
+  return shell_line(words);
+}
+
+/// What a run leaves open: other designs, the mesh, the files.
+std::vector<NextCommand> next_commands(const RunOptions& run, const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  const Answers& answers = comparison.answers;
+  const auto is_skipped = [](const Answer& side) { return side.solution.status == cases::Status::skipped; };
+  if (is_skipped(answers.fem) || is_skipped(answers.msm))
+    return {{shell_line(words_of(run, definition)), "both models"}};
+  std::vector<NextCommand> next;
+  if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty())
+    next.push_back({line_of(words_of(run, definition), {"--designs", "all"}),
+                    answers.msm.converged() ? "other designs" : "designs that may hold here"});
+  if (answers.fem.converged() && answers.msm.converged())
+    if (auto mesh = about_mesh(run, comparison)) next.push_back(std::move(*mesh));
+  if (!answers.fem.converged())
+    next.push_back({line_of(words_of(run, definition), {"--only", "msm"}), "the springs by themselves"});
+  if (run.out.empty() && !answers.failed())
+    next.push_back({line_of(words_of(run, definition), {"--out", "out", "--report"}), "files and a page"});
+  return next;
+}
+
+/// The recommended design by itself, and the files.
+std::vector<NextCommand> next_commands(const RunOptions& run, const cases::Case& definition,
+                                       const Ranking& ranking) {
+  const cases::Msm& own = definition.msm;
+  std::vector<NextCommand> next;
+  const Trial* best = ranking.recommended();
+  if (best && best->name != cases::name_of(own.design))
+    next.push_back(
+        {line_of(words_of(run, definition, {"msm=", "msm."}), {"--set", msm_setting(best->name, own)}),
+         "this design by itself"});
+  if (run.out.empty())
+    next.push_back({line_of(words_of(run, definition), {"--designs", "all", "--out", "out"}),
+                    "the springs of each design, in files"});
+  return next;
 }
 
 void print_ranking(const RunOptions& options, const cases::Case& definition, const Ranking& ranking) {
@@ -53,7 +152,7 @@ void print_ranking(const RunOptions& options, const cases::Case& definition, con
                   "Springs of each design and all errors: " + options.out +
                       "/ranking.json; this table: ranking.txt and ranking.csv there",
                   2);
-  write_next_commands(std::cout, next_commands(as_asked(options, definition), definition.msm, ranking));
+  write_next_commands(std::cout, next_commands(options, definition, ranking));
 }
 
 /// A question's finite elements, and as many springs as there are designs.
@@ -148,7 +247,7 @@ void print_last(const RunOptions& options, const Results& results) {
                   11);
   const cases::Case& definition = comparison.scene.definition;
   if (results.rankings.empty())
-    write_verdict_text(std::cout, comparison, next_commands(as_asked(options, definition), comparison));
+    write_verdict_text(std::cout, comparison, next_commands(options, comparison));
   else {
     write_verdict_text(std::cout, comparison, {});
     print_ranking(options, definition, results.rankings.back());

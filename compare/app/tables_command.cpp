@@ -4,7 +4,7 @@
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/report/write_report.hpp"
+#include "compare/report/pages.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/table/json.hpp"
 #include "compare/thesis/write.hpp"

@@ -1,13 +1,23 @@
 #pragma once
 
 #include "cases/case/names.hpp"
-#include "compare/export/sofa_scene.hpp"
+#include "msm/moving_springs.hpp"
 
 /// A case's designed springs for other programs, as an explicit list. No force is left out in silence: what a
 /// target has no words for is refused by check_expressible(), or named in what export_springs() returns.
 namespace springproof::compare {
 
 SPRINGPROOF_ENUMERATION(ExportTarget, sofa, csv, vtu)
+
+/// What an exported lattice moves by: [dynamics] of its case.
+struct ExportedMotion {
+  cases::Dynamics dynamics;
+  msm::Inertia inertia;
+  double stiffness_damping;                    ///< s, of the body's material
+  bool has_one_stiffness_damping;              ///< whether all materials have this one
+  std::vector<cases::Scene::MovedNodes> moved; ///< by their histories
+  msm::Points start;                           ///< mm, one per point; empty: it starts undeformed
+};
 
 /// The lattice, supports and loads of a scene.
 /// @throws InputError when no springs can be designed
@@ -36,5 +46,15 @@ std::vector<std::string> export_springs(const std::string& folder, ExportTarget 
 /// Of every link the kind of spring that it is in the mesh's cells: 1 an edge, 2 a face diagonal, 3 an
 /// internal diagonal; 0 for a link of a network that is none of these.
 std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links);
+
+/// What there is of a motion that SOFA's components do not do as our steps do.
+std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion);
+
+/// Writes springs as a SOFA scene in mm, mN, kg and s: FOLDER/scene.py, a program that is the same for every
+/// case, and its data FOLDER/scene.json, each whole or not at all.
+/// @param name    of the case   @param motion  null: the equilibrium under the full load
+/// @return what was written, and what differs in SOFA, a line each
+std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
+                                          const msm::Problem& problem, const ExportedMotion* motion);
 
 } // namespace springproof::compare

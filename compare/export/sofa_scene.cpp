@@ -1,4 +1,4 @@
-#include "compare/export/sofa_scene.hpp"
+#include "compare/export/export_springs.hpp"
 
 #include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -1,4 +1,4 @@
-#include "compare/interact/read_recording.hpp"
+#include "compare/interact/recording.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/rows.hpp"

@@ -1,7 +1,6 @@
-#include "compare/interact/replay.hpp"
+#include "compare/interact/recording.hpp"
 
 #include "cases/scene/loads.hpp"
-#include "compare/interact/read_recording.hpp"
 #include "compare/measure/surfaces.hpp"
 #include "mechanics/surface/patch.hpp"
 

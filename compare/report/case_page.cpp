@@ -1,10 +1,9 @@
-#include "compare/report/case_page.hpp"
+#include "compare/report/pages.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/bodies.hpp"
-#include "compare/report/page.hpp"
 #include "compare/study/verdict.hpp"
 #include "compare/study/write_ranking.hpp"
 #include "compare/table/json.hpp"

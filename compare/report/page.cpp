@@ -1,4 +1,4 @@
-#include "compare/report/page.hpp"
+#include "compare/report/pages.hpp"
 
 #include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -1,8 +1,7 @@
-#include "compare/report/write_report.hpp"
+#include "compare/report/pages.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/report/bodies.hpp"
-#include "compare/report/page.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "compare/thesis/layout.hpp"

@@ -2,7 +2,7 @@
 // networks and recordings of pulls.
 
 #include "cases/scene/network.hpp"
-#include "compare/interact/read_recording.hpp"
+#include "compare/interact/recording.hpp"
 #include "msm/design/uniaxial.hpp"
 #include "tests/fuzz/displacements.hpp"
 

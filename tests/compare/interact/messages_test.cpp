@@ -1,4 +1,4 @@
-#include "compare/interact/messages.hpp"
+#include "compare/interact/simulation.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,8 +3,7 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/interact/read_recording.hpp"
-#include "compare/interact/replay.hpp"
+#include "compare/interact/recording.hpp"
 #include "compare/solve/solve.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "compare/report/case_page.hpp"
+#include "compare/report/pages.hpp"
 
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -1,4 +1,4 @@
-#include "compare/report/page.hpp"
+#include "compare/report/pages.hpp"
 
 #include "compare/provenance/whole_file.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "cases/scene/scene.hpp"
+
 #include <string>
 #include <vector>
 
@@ -24,5 +25,11 @@ struct Hold {
 /// @return at least one, in the order of their steps
 /// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
 std::vector<Hold> read_recording(const std::string& text, const std::string& path, double step, double end);
+
+/// A dynamic case with a recording of `interact` as loads of both models: the force of a step acts from just
+/// after its beginning (a millionth of the step) to its end, on the part of the surface that was pulled.
+/// @param text  CSV as read_recording() reads it     @param path  for messages
+/// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
+cases::Scene with_recording(cases::Scene scene, const std::string& text, const std::string& path);
 
 } // namespace springproof::compare
