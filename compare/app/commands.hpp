@@ -78,8 +78,7 @@ CLI::Option* add_replay_option(CLI::App& command, std::string& recording);
 /// @throws cases::InputError where there are several questions, or the file is no recording of the case
 std::vector<Question> with_recording(std::vector<Question> questions, const std::string& recording);
 
-/// Checks that an option's value is a number between two others. CLI::Range and CLI::PositiveNumber let nan
-/// pass.
+/// Checks that an option's value is a number between two others; CLI::Range lets nan pass.
 CLI::Validator number_between(double lowest, double highest);
 
 } // namespace springproof::compare

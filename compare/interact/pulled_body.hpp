@@ -35,8 +35,7 @@ class PulledBody {
   /// Back to the start of the motion, with nothing held.
   void restart();
 
-  /// Takes one step of the case. If it cannot be solved, failure() says why and the body is back at its
-  /// start.
+  /// Takes one step of the case. If it cannot be solved, failure() says why and the body is at its start.
   void step();
 
   const mechanics::EmbeddedSurface& surface() const { return surface_; }

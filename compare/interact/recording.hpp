@@ -7,9 +7,8 @@
 
 namespace springproof::compare {
 
-/// Columns of a recording of pulls, a row per step in which something was pulled: the step, counted from 1,
-/// the time of its end (s), centre and radius (mm) of the sphere whose surface is pulled, at rest, and the
-/// force (N).
+/// Columns of a recording, a row per step with a pull: the step (from 1), the time of its end (s), centre and
+/// radius of the sphere whose part of the surface is pulled, at rest (mm), the force (N).
 inline const std::string recording_header = "step,time,x,y,z,radius,fx,fy,fz";
 constexpr std::size_t most_recorded = 200'000; ///< steps with a pull
 

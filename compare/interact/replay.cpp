@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::size_t most_loaded = 1'000'000; ///< vertices of the surface and nodes, of all places
 
-/// A component of a hold's force (N), constant in each step. Jumps come just after the ends of steps, at
-/// which some schemes evaluate forces.
+/// A hold's force along an axis (N): constant in a step; jumps follow the ends, at which schemes look.
 cases::History history_of(const Hold& hold, int axis, double step) {
   const auto just_after = [&](long n) { return (static_cast<double>(n) + 1e-6) * step; };
   cases::History history;

@@ -90,8 +90,10 @@ struct ServerState {
 /// The page in control.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
-  PageSocket(ServerState& server, beast::tcp_stream&& stream);
-  ~PageSocket();
+  PageSocket(ServerState& server, beast::tcp_stream&& stream) : server_(server), ws_(std::move(stream)) {
+    ++server_.n_connections;
+  }
+  ~PageSocket() { --server_.n_connections; }
 
   void accept(const http::request<http::empty_body>& request) {
     ws_.read_message_max(server_.page.longest_text);
@@ -307,15 +309,6 @@ class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
 };
 
 } // namespace
-
-PageSocket::PageSocket(ServerState& server, beast::tcp_stream&& stream)
-    : server_(server), ws_(std::move(stream)) {
-  ++server_.n_connections;
-}
-
-PageSocket::~PageSocket() {
-  --server_.n_connections;
-}
 
 void ServerState::accept() {
   acceptor.async_accept([this](error_code error, tcp::socket socket) {

@@ -68,8 +68,7 @@ std::string title_of(const cases::Case& definition) {
   return title;
 }
 
-/// A view for each case, and those of figure 4.15. All bars' springs stand against the finest finite
-/// elements.
+/// Views of the cases and of figure 4.15. All bars' springs stand against the finest finite elements.
 std::vector<BodyView> body_views(const ThesisResults& results, const std::vector<Figure>& figures) {
   std::vector<BodyView> views;
   const auto add = [&](const Comparison& comparison, const std::string& id, const std::string& group,

@@ -93,8 +93,7 @@ Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   return equilibrium;
 }
 
-/// What is kept of a motion: whole bodies now and then, and what measures watch at every step. Twice, as it
-/// goes from the model to the answer.
+/// What is kept of a motion: some bodies, and what measures watch; twice while it goes to the answer.
 double bytes_of_motion(const BodySize& body) {
   const auto& dynamics = body.outline.definition.dynamics;
   if (!dynamics) return 0;
@@ -272,8 +271,7 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
 }
 
 cases::Scene make_scene_within_memory(const cases::Case& definition) {
-  // Nodes, cells, and what selecting regions takes for a while: all that a box takes, whose nodes are not
-  // stored.
+  // Nodes, cells, and what selecting regions takes for a while, which is all that a box takes.
   const double bytes_a_node = std::holds_alternative<cases::Box>(definition.body) ? 10 : 150;
   if (const auto body = size_of(definition))
     check_memory(
