@@ -14,7 +14,6 @@
 namespace {
 
 const std::string source = SPRINGPROOF_SOURCE_DIR;
-const std::string in_source = "cd '" + source + "' && "; // for paths as a user types them
 
 /// The words in capitals of five letters and more.
 std::vector<std::string> shouts_in(const std::string& text) {

@@ -16,15 +16,12 @@ const std::string source_folder = SPRINGPROOF_SOURCE_DIR;
 const std::string tiny = source_folder + "/tests/compare/sweep/tiny.toml";
 constexpr std::size_t screen = 100; ///< characters
 
-/// For paths in the project's folder.
-const std::string in_the_source = "cd " + source_folder + " && ";
-
 } // namespace
 
 TEST_CASE("the tables' audit leaves the text for files of --out, which the text names", "[long]") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
-  const std::string text = printed_by("tables 4.1 --out " + out, in_the_source);
+  const std::string text = printed_by("tables 4.1 --out " + out, in_source);
   CHECK(width_of_text(text.substr(0, text.find("Audit"))) <= screen);
   for (const char* file : {"audit.txt", "tables.csv", "tables.json", "report.html"}) {
     CHECK_THAT(text, Contains(file));
@@ -32,7 +29,7 @@ TEST_CASE("the tables' audit leaves the text for files of --out, which the text 
   }
   const std::string audit = content(out + "/audit.txt");
   CHECK_THAT(audit, Contains("build/springproof design --young") && Contains("by the declared reference"));
-  CHECK(audit == printed_by("tables 4.1 --trace", in_the_source));
+  CHECK(audit == printed_by("tables 4.1 --trace", in_source));
   CHECK(text.rfind(content(out + "/tables.txt"), 0) == 0);
 }
 
@@ -76,16 +73,16 @@ TEST_CASE("--set changes a key of the case in sweep, gate, eigen and design, and
           "tells it") {
   const std::string cube = "cases/gates/sheared_cube.toml";
   const std::string eigen = "eigen --case " + cube;
-  CHECK(printed_by(eigen, in_the_source) != printed_by(eigen + " --set material.poissons_ratio=0.2", in_the_source));
+  CHECK(printed_by(eigen, in_source) != printed_by(eigen + " --set material.poissons_ratio=0.2", in_source));
   const Json designed =
-      document_of("design --case " + cube + " --set material.poissons_ratio=0.2 --json", in_the_source);
+      document_of("design --case " + cube + " --set material.poissons_ratio=0.2 --json", in_source);
   CHECK(designed["settings"] == Json{"material.poissons_ratio=0.2"});
   const std::string wrong = " --set material.poisson=0.2";
-  const ProgramRun run = run_program("run " + cube + wrong, in_the_source);
+  const ProgramRun run = run_program("run " + cube + wrong, in_source);
   REQUIRE(run.status == 2);
   for (const std::string& command :
        {"gate " + cube, "sweep " + cube, eigen, "eigen " + cube, "design --case " + cube})
-    CHECK(run_program(command + wrong, in_the_source).error == run.error);
+    CHECK(run_program(command + wrong, in_source).error == run.error);
   CHECK(run_program("eigen --poisson 0.3 --set material.poissons_ratio=0.2").status == 2);
 }
 
@@ -126,7 +123,7 @@ TEST_CASE("what eigen, export and stress print stands in 100 characters") {
         std::string("eigen --young 1 --poisson 0 --method moduli"),
         std::string("stress mechanism disconnected_piece"),
         "export cases/gates/sheared_cube.toml --to sofa --set msm.design=moduli --out " + out}) {
-    const std::string text = printed_by(words, in_the_source);
+    const std::string text = printed_by(words, in_source);
     INFO(text);
     CHECK(width_of_text(text) <= screen);
     CHECK_FALSE(has_shouting(text, {"SOFA"}));
