@@ -20,10 +20,6 @@ struct ShardOptions {
 CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
                                const std::vector<CLI::Option*>& not_divided);
 
-/// The line that a shard prints when it has finished.
-void print_shard(const Shard& shard, std::size_t n_done, std::size_t n_all, std::size_t n_failed,
-                 const std::string& out);
-
 /// Solves the part of the questions that is a shard's, keeps what was found and the shard's record in the
 /// folder, and prints one line. Collective over MPI_COMM_WORLD.
 /// @return the exit status: 0, whatever was found: `merge` judges

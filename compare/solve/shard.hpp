@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/solve/finished.hpp"
-#include "compare/solve/shard_record.hpp"
+#include "compare/solve/kept.hpp"
 
 /// The work of one command divided among several, on machines of their own: `--shard I/N` of each keeps what
 /// it has solved in its own folder, and `merge` puts the folders together.

@@ -2,7 +2,6 @@
 // records.
 
 #include "compare/solve/kept.hpp"
-#include "compare/solve/shard_record.hpp"
 #include "tests/fuzz/promise.hpp"
 
 #include <cstdint>
