@@ -1,4 +1,4 @@
-#include "mechanics/grid/loops.hpp"
+#include "mechanics/grid/field.hpp"
 
 // Without fused multiply-add, which rounds otherwise. Clang compiles the sanitized build alone.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)

@@ -3,7 +3,6 @@
 #include "cases/mesh/sharing.hpp"
 #include "mechanics/grid/coarse_guess.hpp"
 #include "mechanics/grid/krylov.hpp"
-#include "msm/grid/rigidity.hpp"
 #include "msm/grid/transfer.hpp"
 
 #include <Eigen/Eigenvalues>

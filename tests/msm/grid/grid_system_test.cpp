@@ -1,7 +1,6 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
-#include "msm/grid/rigidity.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 
