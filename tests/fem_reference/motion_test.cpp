@@ -1,4 +1,3 @@
-#include "fem_reference/motion.hpp"
 
 #include "cases/case/error.hpp"
 #include "fem_reference/assembled_body.hpp"

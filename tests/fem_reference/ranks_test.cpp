@@ -1,5 +1,4 @@
 #include "fem_reference/model.hpp"
-#include "fem_reference/motion.hpp"
 
 #include "grid/moving_block.hpp"
 #include "tests/support/largest.hpp"

@@ -1,6 +1,6 @@
 // The two backends of the finite elements are the same equations: their answers agree to 1e-8.
 
-#include "fem_reference/grid/grid_model.hpp"
+#include "fem_reference/grid/grid_body.hpp"
 #include "fem_reference/model.hpp"
 
 #include "tests/fem_reference/scenes.hpp"
@@ -267,8 +267,8 @@ TEST_CASE("the grid's backend knows whether its multigrid serves a body") {
   for (const bool is_compressible : {true, false}) {
     auto definition = cube(cases::Formulation::log_strain, Element::q1_bbar);
     definition.material = scenes::thesis_elastic(is_compressible ? 0.35 : 0.4999999);
-    fem_reference::grid::GridModel model(cases::make_scene(definition), MPI_COMM_SELF, 1);
-    CHECK(model.can_leave_rest() == is_compressible);
+    fem_reference::grid::GridBody body(cases::make_scene(definition), MPI_COMM_SELF, 1);
+    CHECK(body.can_leave_rest() == is_compressible);
   }
 }
 

@@ -1,7 +1,6 @@
 // Motions of finite elements that are hard to follow.
 
 #include "fem_reference/model.hpp"
-#include "fem_reference/motion.hpp"
 
 #include "tests/fem_reference/grid/moving_block.hpp"
 #include "tests/support/largest.hpp"

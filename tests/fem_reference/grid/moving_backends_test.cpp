@@ -1,7 +1,7 @@
 // The two backends of the finite elements in time: the same equations, so the same trajectories.
 
 #include "cases/scene/in_time.hpp"
-#include "fem_reference/motion.hpp"
+#include "fem_reference/model.hpp"
 
 #include "tests/fem_reference/grid/moving_block.hpp"
 #include "tests/support/largest.hpp"
