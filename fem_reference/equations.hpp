@@ -4,7 +4,6 @@
 #include "fem_reference/element_equations.hpp"
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/linear_solver.hpp"
-#include "mechanics/dynamics/load_in_time.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
 namespace springproof::fem_reference {

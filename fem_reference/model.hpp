@@ -3,6 +3,7 @@
 #include "cases/case/solution.hpp"
 #include "fem_reference/backend.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
+#include "mechanics/vibrating_body.hpp"
 
 #include <memory>
 #include <mpi.h>
@@ -65,5 +66,9 @@ mechanics::IntegrationSettings default_steps();
 cases::Solution follow(const cases::Scene& scene,
                        const mechanics::IntegrationSettings& settings = default_steps(),
                        Backend backend = Backend::automatic, MPI_Comm communicator = MPI_COMM_SELF);
+
+/// The vibrations of a scene's finite elements about rest, assembled in this process alone.
+/// @throws InputError as Model
+mechanics::VibratingBody vibrating_body(const cases::Scene& scene);
 
 } // namespace springproof::fem_reference

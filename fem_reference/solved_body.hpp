@@ -2,7 +2,7 @@
 
 #include "cases/scene/in_time.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
-#include "mechanics/equilibrium/turns.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "mechanics/equilibrium/turns.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <catch2/catch.hpp>
 

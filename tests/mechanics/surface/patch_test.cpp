@@ -1,4 +1,4 @@
-#include "mechanics/surface/patch.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
