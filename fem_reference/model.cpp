@@ -5,27 +5,11 @@
 #include "fem_reference/grid/on_grid.hpp"
 #include "fem_reference/solved_body.hpp"
 
-#include <numeric>
+#include <deal.II/base/mpi.h>
 
 namespace springproof::fem_reference {
 
-using cases::index;
-
 namespace {
-
-/// Every rank's numbers, one after the other.
-std::vector<double> gather(const std::vector<double>& own, MPI_Comm communicator) {
-  int n_ranks = 1;
-  MPI_Comm_size(communicator, &n_ranks);
-  const int n = static_cast<int>(own.size());
-  std::vector<int> counts(index(n_ranks)), places(index(n_ranks) + 1);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-  std::partial_sum(counts.begin(), counts.end(), places.begin() + 1);
-  std::vector<double> all(index(places.back()));
-  MPI_Allgatherv(own.data(), n, MPI_DOUBLE, all.data(), counts.data(), places.data(), MPI_DOUBLE,
-                 communicator);
-  return all;
-}
 
 /// Rows and columns of free degrees of freedom.  @param number  of each among them, or -1
 Eigen::SparseMatrix<double> on_free_dofs(const LocalMatrix& all, const std::vector<int>& number, int n_free) {
@@ -132,10 +116,11 @@ cases::Fields Model::fields(const cases::Sharing* sharing) {
 }
 
 std::vector<NodeDisplacement> Model::node_displacements() const {
-  const std::vector<double> all = gather(implementation_->node_displacements(), communicator_);
   std::vector<NodeDisplacement> nodes;
-  for (const double* at = all.data(); at != all.data() + all.size(); at += 6)
-    nodes.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});
+  for (const std::vector<double>& part :
+       dealii::Utilities::MPI::all_gather(communicator_, implementation_->node_displacements()))
+    for (const double* at = part.data(); at != part.data() + part.size(); at += 6)
+      nodes.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});
   return nodes;
 }
 
