@@ -8,6 +8,7 @@
 
 using namespace springproof;
 
+using cases::Element;
 using Eigen::Vector3d;
 
 namespace {

@@ -2,6 +2,7 @@
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/model.hpp"
 #include "tests/fem_reference/scenes.hpp"
+#include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
