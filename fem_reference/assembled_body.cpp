@@ -47,37 +47,82 @@ mechanics::StateOnMesh AssembledBody::on_mesh() {
           {displacements, cell_volumes}};
 }
 
-std::optional<cases::FieldNorms> AssembledBody::norms(const State& state, const cases::Sharing* sharing) {
-  const int degree = discretisation.element.degree;
-  if (!has_own_norms(scene.definition, degree)) return std::nullopt;
-  DisplacementNorms norms(degree, discretisation.nodes.in_unit_cube());
-  equations.add_norms(state, norms);
+/// Of this rank's nodes.
+std::vector<double> AssembledBody::node_displacements(const State& state) const {
+  std::vector<double> numbers;
+  for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
+    const Eigen::Vector3d &rest = discretisation.nodes.point[index(node)], moved = state.segment<3>(3 * node);
+    numbers.insert(numbers.end(), rest.begin(), rest.end());
+    numbers.insert(numbers.end(), moved.begin(), moved.end());
+  }
+  return numbers;
+}
+
+void AssembledBody::set_in_motion(const mechanics::EquilibriumSettings&) {
+  equations.set_in_motion(cases::refine(scene, scene.definition.fem.refine), formulations);
+}
+
+std::optional<cases::FieldNorms> norms_of(AssembledBody& body, const State& state,
+                                          const cases::Sharing* sharing) {
+  const int degree = body.discretisation.element.degree;
+  if (!has_own_norms(body.scene.definition, degree)) return std::nullopt;
+  DisplacementNorms norms(degree, body.discretisation.nodes.in_unit_cube());
+  body.equations.add_norms(state, norms);
   return norms.norms(sharing);
 }
 
-cases::Fields AssembledBody::fields(const State& state, const cases::Sharing* sharing, double load_factor) {
-  cases::Range cells;
-  const int shift = 3 * scene.definition.fem.refine;
-  for (const int number : discretisation.nodes.mesh_cell) {
-    const std::size_t cell = index(number >> shift);
-    if (cells.size() == 0) cells = {cell, cell + 1};
-    cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
-  }
-  ElementFields sums(scene, formulations.front().kinematics, discretisation.nodes.in_unit_cube(), cells);
-  equations.add_fields(state, scene.definition.fem.refine, sums);
-  return sums.fields(sharing, load_factor);
-}
-
-std::optional<cases::FieldNorms> norms_of(const grid::GridModel& model, const cases::Sharing* sharing) {
-  const cases::Scene& scene = model.scene();
+std::optional<cases::FieldNorms> norms_of(const grid::GridBody& body, const State& state,
+                                          const cases::Sharing* sharing) {
+  const cases::Scene& scene = body.scene;
   const ElementType type = element_type(scene.definition.fem, formulations_of(scene).front());
   if (!has_own_norms(scene.definition, type.degree)) return std::nullopt;
-  const Cuboid cuboid(type, scene.mesh.grid->spacing / (1 << scene.definition.fem.refine));
+  const Cuboid cuboid(type, scene.mesh.grid->spacing / body.cell_factor);
   DisplacementNorms norms(type.degree, cuboid.nodes());
-  model.for_each_element(sharing, [&](const grid::GridModel::Element& element) {
+  body.for_each_element(state, sharing, [&](const grid::GridBody::Element& element) {
     norms.add(cuboid.geometry(), element.displacement.data());
   });
   return norms.norms(sharing);
+}
+
+cases::Fields fields_of(AssembledBody& body, const State& state, const cases::Sharing* sharing,
+                        double load_factor) {
+  cases::Range cells;
+  const int refine = body.scene.definition.fem.refine;
+  for (const int number : body.discretisation.nodes.mesh_cell) {
+    const std::size_t cell = index(number >> 3 * refine);
+    if (cells.size() == 0) cells = {cell, cell + 1};
+    cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
+  }
+  ElementFields sums(body.scene, body.formulations.front().kinematics,
+                     body.discretisation.nodes.in_unit_cube(), cells);
+  body.equations.add_fields(state, refine, sums);
+  return sums.fields(sharing, load_factor);
+}
+
+/// By the same kernels as the assembled backend's, one element at a time.
+cases::Fields fields_of(const grid::GridBody& body, const State& state, const cases::Sharing* sharing,
+                        double load_factor) {
+  const cases::Scene& scene = body.scene;
+  const std::vector<Formulation> formulations = formulations_of(scene);
+  const ElementType type = element_type(scene.definition.fem, formulations.front());
+  const Cuboid cuboid(type, scene.mesh.grid->spacing / body.cell_factor);
+  const CellGeometry geometry = cuboid.geometry();
+  std::vector<std::unique_ptr<CellKernel>> kernels;
+  for (const Formulation& formulation : formulations) kernels.push_back(formulation.make_kernel(type));
+  ElementFields sums(scene, formulations.front().kinematics, cuboid.nodes(), body.cells(sharing));
+  body.for_each_element(state, sharing, [&](const grid::GridBody::Element& element) {
+    CellKernel& kernel = *kernels[index(cases::material_of(scene, element.cell))];
+    const double* displacement = element.displacement.data();
+    const CellResult& result = kernel.evaluate(geometry, displacement, &element.pressure, Wanted::stress);
+    const double edge = 1. / element.n_parts;
+    const Eigen::Vector3d lower = edge * Eigen::Vector3d(element.part[0], element.part[1], element.part[2]);
+    sums.add({{element.cell, lower, edge},
+              geometry,
+              displacement,
+              result.plain_force.data(),
+              kernel.energy(geometry, displacement, &element.pressure)});
+  });
+  return sums.fields(sharing, load_factor);
 }
 
 } // namespace springproof::fem_reference

@@ -3,7 +3,7 @@
 #include "cases/mesh/sharing.hpp"
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/equations.hpp"
-#include "fem_reference/grid/grid_model.hpp"
+#include "fem_reference/grid/grid_body.hpp"
 #include "mechanics/state_on_mesh.hpp"
 
 namespace springproof::fem_reference {
@@ -11,26 +11,36 @@ namespace springproof::fem_reference {
 /// The case's formulation with each of the scene's materials.
 std::vector<Formulation> formulations_of(const cases::Scene& scene);
 
-/// A scene as assembled finite elements, and what their states say of the body's own mesh.
+/// A scene as assembled finite elements, and what their states say of the body's own mesh. Member functions
+/// have the names of those of grid::GridBody.
 struct AssembledBody {
-  /// @param scene  on the body's own mesh; definition.fem.refine is applied here
+  /// @param on_mesh  the scene on the body's own mesh; definition.fem.refine is applied here
   /// @throws InputError for a combination of material, formulation and element that has no meaning
-  AssembledBody(const cases::Scene& scene, MPI_Comm communicator);
+  AssembledBody(const cases::Scene& on_mesh, MPI_Comm communicator);
+  AssembledBody(const cases::Scene& another, const AssembledBody& like)
+      : AssembledBody(another, like.discretisation.communicator) {}
 
   cases::Scene scene;                    ///< on the body's own mesh
   std::vector<Formulation> formulations; ///< one for each of the scene's materials
   Discretisation discretisation;         ///< of the refined mesh
   EquilibriumEquations equations;
 
-  /// Refers to this.
   mechanics::StateOnMesh on_mesh();
-  /// When the case measures norms that the body's nodes do not tell. Collective.
-  std::optional<cases::FieldNorms> norms(const State& state, const cases::Sharing* sharing);
-  /// Of an equilibrium. Collective.  @param sharing  of its solution
-  cases::Fields fields(const State& state, const cases::Sharing* sharing, double load_factor);
+  std::vector<double> node_displacements(const State& state) const;
+  void add_guess(mechanics::EquilibriumSettings&) const {}
+  void set_in_motion(const mechanics::EquilibriumSettings&);
 };
 
-/// The same of the elements on a grid, in the state last found.
-std::optional<cases::FieldNorms> norms_of(const grid::GridModel& model, const cases::Sharing* sharing);
+/// Norms of a state, when the case measures some that the body's nodes do not tell. Collective.
+std::optional<cases::FieldNorms> norms_of(AssembledBody& body, const State& state,
+                                          const cases::Sharing* sharing);
+std::optional<cases::FieldNorms> norms_of(const grid::GridBody& body, const State& state,
+                                          const cases::Sharing* sharing);
+
+/// Fields of an equilibrium at a load factor. Collective.  @param sharing  of its solution
+cases::Fields fields_of(AssembledBody& body, const State& state, const cases::Sharing* sharing,
+                        double load_factor);
+cases::Fields fields_of(const grid::GridBody& body, const State& state, const cases::Sharing* sharing,
+                        double load_factor);
 
 } // namespace springproof::fem_reference

@@ -1,10 +1,9 @@
 #pragma once
 
 #include "fem_reference/assembly.hpp"
+#include "fem_reference/element_equations.hpp"
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/linear_solver.hpp"
-#include "mechanics/dynamics/dynamic_problem.hpp"
-#include "mechanics/dynamics/load_in_time.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
 namespace springproof::fem_reference {
@@ -14,12 +13,14 @@ constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's cond
 /// The discrete equations of a scene: internal force = load factor * load, or those of its motion. Supports
 /// are part of the equations: a step takes constrained degrees of freedom to where they have to be. Pressures
 /// have no inertia.
-class EquilibriumEquations : public mechanics::petsc::DistributedProblem<mechanics::DynamicProblem> {
+class EquilibriumEquations : public mechanics::petsc::DistributedProblem<ElementEquations> {
  public:
   /// @param formulations  of each of the discretisation's materials: one formulation, several materials
   EquilibriumEquations(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
-  State rest() const { return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures())); }
+  State rest() const override {
+    return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures()));
+  }
 
   void residual(const State& at, double load_factor, mechanics::Expect expect, State& residual) override;
   /// Constraints hold where volumes agree with pressures and supports are where they have to be.
@@ -37,8 +38,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<mechani
     return static_cast<std::size_t>(discretisation_.constraints.n_unknowns);
   }
 
-  /// Negative eigenvalues that is_stable() counted.
-  std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
+  std::optional<int> negative_eigenvalues() const override { return negative_eigenvalues_; }
 
   /// Gives the body the masses, damping and loads in time of a scene: the functions below are about these.
   /// @param scene        that the discretisation is of: already refined

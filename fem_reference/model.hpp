@@ -2,6 +2,8 @@
 
 #include "cases/case/solution.hpp"
 #include "fem_reference/backend.hpp"
+#include "mechanics/dynamics/time_integrator.hpp"
+#include "mechanics/vibrating_body.hpp"
 
 #include <memory>
 #include <mpi.h>
@@ -42,9 +44,31 @@ class Model {
 
  private:
   struct Implementation;
-  struct Assembled;
+  template<class Body>
+  struct Of;
   struct OnGrid;
+  MPI_Comm communicator_;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// The usual limits of a step in time of finite elements: those of a path's load step.
+mechanics::IntegrationSettings default_steps();
+
+/// The motion of a scene's finite elements through the time of its [dynamics], over the ranks of a
+/// communicator. Collective: they share the end of the motion, and each has the whole trajectory.
+/// @param backend  automatic: the grid's where choose_backend() says so, and the assembled one where the
+/// grid's
+///                 linear solver fails
+/// @return the end of the motion, with its trajectory
+/// @throws InputError as Model
+/// @throws SolveError with the time reached when the motion cannot be followed, or with the load reached when
+/// it cannot start in equilibrium
+cases::Solution follow(const cases::Scene& scene,
+                       const mechanics::IntegrationSettings& settings = default_steps(),
+                       Backend backend = Backend::automatic, MPI_Comm communicator = MPI_COMM_SELF);
+
+/// The vibrations of a scene's finite elements about rest, assembled in this process alone.
+/// @throws InputError as Model
+mechanics::VibratingBody vibrating_body(const cases::Scene& scene);
 
 } // namespace springproof::fem_reference

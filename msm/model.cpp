@@ -1,7 +1,7 @@
 #include "msm/model.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/equilibrium/turns.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/direct/direct_system.hpp"
 #include "msm/relaxation/relaxation.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
-#include "mechanics/dynamics/load_in_time.hpp"
 #include "mechanics/vibrating_body.hpp"
 #include "msm/problem.hpp"
 #include "msm/pull.hpp"

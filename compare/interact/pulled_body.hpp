@@ -2,7 +2,7 @@
 
 #include "compare/solve/springs.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
-#include "mechanics/surface/patch.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
 #include "mechanics/surface/rays.hpp"
 #include "msm/moving_body.hpp"
 

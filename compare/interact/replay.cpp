@@ -2,7 +2,7 @@
 
 #include "cases/scene/loads.hpp"
 #include "compare/measure/surfaces.hpp"
-#include "mechanics/surface/patch.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
 
 #include <fmt/format.h>
 

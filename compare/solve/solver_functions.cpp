@@ -1,7 +1,5 @@
 #include "compare/solve/solvers.hpp"
-#include "fem_reference/motion.hpp"
 #include "fem_reference/session.hpp"
-#include "fem_reference/vibrating_elements.hpp"
 #include "msm/snes/snes.hpp"
 
 #include <dlfcn.h>

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "fem_reference/element_equations.hpp"
 #include "fem_reference/grid/quadratic_elements.hpp"
 #include "fem_reference/grid/stencil_levels.hpp"
 #include "fem_reference/grid/supported.hpp"
-#include "mechanics/dynamics/dynamic_problem.hpp"
-
 #include <memory>
 
 namespace springproof::fem_reference::grid {
@@ -19,7 +18,7 @@ constexpr double volume_tolerance_of(double residual_tolerance) {
 /// those of all nodes and cells that its slab holds. Forces are right in the planes that a rank computes.
 /// Supports are part of the equations, as in EquilibriumEquations; pressures have no inertia. Every member
 /// function that evaluates a state is collective.
-class GridEquations : public mechanics::DynamicProblem {
+class GridEquations : public ElementEquations {
  public:
   /// @param body, supported  must outlive this
   /// @param quadratic  elements on the body's nodes in place of its own, or null; must outlive this
@@ -29,7 +28,7 @@ class GridEquations : public mechanics::DynamicProblem {
                 QuadraticElements* quadratic = nullptr, double volume_tolerance = 1e-12);
 
   using Vector = mechanics::Vector;
-  Vector rest() const { return Vector::Zero(n_displacements() + n_pressures()); }
+  Vector rest() const override { return Vector::Zero(n_displacements() + n_pressures()); }
   Eigen::Index n_displacements() const { return 3 * body_.layout.size; }
   Eigen::Index n_pressures() const { return body_.has_modes ? body_.layout.n_cell_entries() + 16 : 0; }
 
@@ -66,11 +65,8 @@ class GridEquations : public mechanics::DynamicProblem {
   }
 
   void set_volume_tolerance(double tolerance) { volume_tolerance_ = tolerance; }
-  /// Whether the last direction was not found.
-  bool linear_solver_failed() const { return has_failed_; }
-
-  /// Negative eigenvalues that is_stable() counted.
-  std::optional<int> negative_eigenvalues() const { return negative_eigenvalues_; }
+  bool linear_solver_failed() const override { return has_failed_; }
+  std::optional<int> negative_eigenvalues() const override { return negative_eigenvalues_; }
   /// Deformed volumes, mm³, per cell entry of the elements.
   std::vector<double> cell_volumes(const Vector& at) const;
 

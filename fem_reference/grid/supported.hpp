@@ -2,7 +2,7 @@
 
 #include "cases/scene/scene.hpp"
 #include "fem_reference/grid/body.hpp"
-#include "mechanics/dynamics/load_in_time.hpp"
+#include "mechanics/dynamics/dynamic_problem.hpp"
 
 #include <functional>
 #include <vector>

@@ -49,6 +49,57 @@ struct Factors {
   }
 };
 
+/// Which steps the factor serves. Steps that are halved leave it alone; it is made anew when the first step
+/// was of another scheme, as with bdf2, and when a motion goes on in steps of another length.
+class FactorSchedule {
+ public:
+  void begin_step(const mechanics::StepTerms& terms) {
+    n_alike_ = step_.are_of(terms) ? n_alike_ + 1 : 1;
+    step_ = {terms.mass, terms.damping};
+    serves_ = made_with_ && made_with_->are_of(terms);
+    if (serves_) ++n_served_;
+    n_to_pass_ = std::max(0, n_to_pass_ - 1);
+  }
+  const Factors& step() const { return step_; }
+  bool is_due() const {
+    const int enough_alike = !made_with_ ? 1 : n_served_ <= 2 ? 2 : 50;
+    return !serves_ && n_alike_ == enough_alike;
+  }
+  void make() {
+    made_with_ = step_;
+    serves_ = true;
+    n_served_ = n_to_pass_ = 0;
+  }
+  /// Far from where the factor was made, cycles that are prepared there do better.
+  void pass() { n_to_pass_ = 16; }
+  bool serves() const { return serves_ && n_to_pass_ == 0; }
+
+ private:
+  Factors step_;
+  std::optional<Factors> made_with_; ///< none: it was not
+  bool serves_ = false;              ///< made with the factors of this step
+  int n_alike_ = 0;                  ///< steps on end with these
+  int n_served_ = 0;                 ///< steps of its length since it was made
+  int n_to_pass_ = 0;                ///< steps before it is tried again
+};
+
+/// Whether the cycle has become slow since it was prepared, by its iterations.
+class CycleSpeed {
+ public:
+  bool is_slow() const { return is_slow_; }
+  void forget() { is_slow_ = true; }
+  /// @param is_prepared  for this solution
+  void measure(int iterations, double forcing, bool is_prepared) {
+    const double slowness = iterations / -std::log(forcing);
+    if (is_prepared) usual_ = slowness;
+    is_slow_ = slowness > 2 * usual_ + 1;
+  }
+
+ private:
+  double usual_ = 0; ///< iterations over what was asked for, where the cycle was prepared
+  bool is_slow_ = true;
+};
+
 class MovingGrid : public MovingSprings {
  public:
   MovingGrid(const Problem& problem, const GridProblem& grid, const NodeVectors& vectors, GridSystem& statics,
@@ -83,10 +134,7 @@ class MovingGrid : public MovingSprings {
     MovingSprings::set_step(terms);
     linear_iterations_ = 0;
     is_prepared_ = is_set_ = false;
-    n_alike_ = last_.are_of(terms) ? n_alike_ + 1 : 1;
-    last_ = {terms.mass, terms.damping};
-    if (of_factor_ && of_factor_->are_of(terms)) ++n_with_factor_;
-    n_to_pass_ = std::max(0, n_to_pass_ - 1);
+    schedule_.begin_step(terms);
   }
 
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double forcing,
@@ -132,18 +180,13 @@ class MovingGrid : public MovingSprings {
   int linear_iterations_ = 0; ///< in this step
 
   std::optional<HeldFactor> factor_; ///< none of large bodies
-  std::optional<Factors> of_factor_; ///< that it was made with; none: it was not
-  Factors last_;                     ///< of this step
-  int n_alike_ = 0;                  ///< steps on end with these
-  int n_with_factor_ = 0;            ///< steps of its length since it was made
-  int n_to_pass_ = 0;                ///< steps before the factor is tried again
+  FactorSchedule schedule_;
 
   std::optional<SpringLevels> multigrid_; ///< of these:
   Factors of_multigrid_;
   std::optional<RealTimeSolver> real_time_; ///< of the same
   bool is_set_ = false;                     ///< it knows this step
-  double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
-  bool is_slow_ = true;       ///< it is to be prepared
+  CycleSpeed speed_;
   bool has_failed_ = false;
   bool is_prepared_ = false; ///< in this step
 
@@ -213,20 +256,17 @@ class MovingGrid : public MovingSprings {
     return enough ? std::max(1, *enough - linear_iterations_) : without_limit;
   }
 
-  /// Whether there is a factor for this step. Steps that are halved leave it alone; it is made anew when the
-  /// first step was of another scheme, as with bdf2, and when a motion goes on in steps of another length.
+  /// Whether there is a factor for this step.
   bool has_factor(const Vector& at) {
-    const int enough_alike = !of_factor_ ? 1 : n_with_factor_ <= 2 ? 2 : 50;
-    if (factor_ && !(of_factor_ && of_factor_->are_of(terms())) && n_alike_ == enough_alike) {
-      of_factor_ = last_;
-      n_with_factor_ = n_to_pass_ = 0;
+    if (factor_ && schedule_.is_due()) {
+      schedule_.make();
       factor_with_pull_.reset();
       const Field<double>& place = vectors_.to_field(at, at_);
       if (!factor_->factorise(
               [&](const Vector& v, Vector& product) { multiply(place, Clamp::yes, v, product); }))
         factor_.reset(); // lost in rounding
     }
-    return factor_ && of_factor_ && of_factor_->are_of(terms()) && n_to_pass_ == 0;
+    return factor_ && schedule_.serves();
   }
 
   bool goes_by_factor(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
@@ -235,17 +275,17 @@ class MovingGrid : public MovingSprings {
         [&](const Vector& v, Vector& out) { factor_->apply(v, out); }, factor_with_pull_);
     const bool is_done =
         found_.converged || found_.met_negative_curvature || terms().enough_linear_iterations.has_value();
-    if (!is_done) n_to_pass_ = 16; // far from where it was made, cycles that are prepared here do better
+    if (!is_done) schedule_.pass();
     return is_done;
   }
 
   /// Damping by stiffness is of the body at rest, here of the body where it is.
   void make_multigrid() {
-    of_multigrid_ = last_;
-    multigrid_.emplace(damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_, n_threads_,
-                       smoother_in_motion);
+    of_multigrid_ = schedule_.step();
+    multigrid_.emplace(damping_body_ ? stiffened(body_, of_multigrid_.damping, *damping_body_) : body_,
+                       n_threads_, smoother_in_motion);
     multigrid_->set_diagonal(multigrid_->scale() * vectors_.to_field(diagonal(), in_));
-    is_slow_ = true;
+    speed_.forget();
     real_time_.reset();
     is_set_ = false;
   }
@@ -267,13 +307,12 @@ class MovingGrid : public MovingSprings {
   /// As far as the step's iterations go.
   bool goes_by_cut_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
-    const bool is_anew = is_slow_ && !is_prepared_; // once in a step: it takes as long as some iterations
+    const bool is_anew =
+        speed_.is_slow() && !is_prepared_; // once in a step: it takes as long as some iterations
     if (is_anew) linearise(at);
     is_prepared_ = is_prepared_ || is_anew;
     solve_in_real_time(at, residual, forcing, clamp);
-    const double slowness = found_.iterations / -std::log(forcing);
-    if (is_anew) usual_slowness_ = slowness;
-    is_slow_ = slowness > 2 * usual_slowness_ + 1;
+    speed_.measure(found_.iterations, forcing, is_anew);
     return found_.converged;
   }
 
@@ -295,17 +334,14 @@ class MovingGrid : public MovingSprings {
   /// To the end, with a cycle that is prepared anew where it has become slow.
   bool goes_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
-    const double asked_for = -std::log(forcing); // of conjugate gradients
-    for (int attempt = is_slow_ ? 1 : 0; attempt < 3; ++attempt) {
+    for (int attempt = speed_.is_slow() ? 1 : 0; attempt < 3; ++attempt) {
       if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
       if (attempt > 0) linearise(at);
       solve_by_cycles(at, residual, forcing, clamp);
-      const double slowness = found_.iterations / asked_for;
-      if (attempt > 0) usual_slowness_ = slowness;
-      is_slow_ = slowness > 2 * usual_slowness_ + 1;
+      speed_.measure(found_.iterations, forcing, attempt > 0);
       if (found_.converged || found_.met_negative_curvature) break;
     }
-    if (!found_.converged) is_slow_ = true;
+    if (!found_.converged) speed_.forget();
     has_failed_ = has_failed_ || !(found_.converged || found_.met_negative_curvature);
     return found_.converged;
   }

@@ -2,7 +2,6 @@
 
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "mechanics/equilibrium/newton.hpp"
-#include "mechanics/equilibrium/turns.hpp"
 #include "mechanics/interruption.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 #include "mechanics/ranks/share_out.hpp"

@@ -1,4 +1,5 @@
-#include "fem_reference/grid/grid_model.hpp"
+#include "fem_reference/grid/grid_body.hpp"
+#include "fem_reference/solved_body.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -59,7 +60,8 @@ void elements(benchmark::State& state, cases::Formulation formulation, cases::El
   cases::Solution motion;
   double seconds = 0;
   for (auto _ : state) {
-    fem_reference::grid::GridModel model(scene, MPI_COMM_SELF, static_cast<int>(state.range(1)));
+    fem_reference::SolvedBody<fem_reference::grid::GridBody> model(scene, MPI_COMM_SELF,
+                                                                   static_cast<int>(state.range(1)));
     const auto start = std::chrono::steady_clock::now();
     motion = model.follow(settings);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / n_steps;

@@ -65,14 +65,10 @@ Vector3d sum(const std::vector<Vector3d>& vectors) {
   return std::accumulate(vectors.begin(), vectors.end(), Vector3d(0, 0, 0));
 }
 
-cases::Load traction(const Vector3d& value) {
-  return {{"z+"}, cases::loads::Traction{value}};
-}
-
 cases::Case block(cases::Formulation formulation, Element element, const Vector3d& value) {
   cases::Case definition = scenes::cube(scenes::Test::shear, scenes::LoadSet::small, scenes::thesis_elastic(),
                                         formulation, element, 4);
-  definition.loads = {traction(value)};
+  definition.loads = {scenes::traction("z+", value)};
   return definition;
 }
 

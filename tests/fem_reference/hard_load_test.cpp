@@ -49,12 +49,8 @@ TEST_CASE("a lubricated block of Ogden material is pressed to two fifths of its 
   for (const auto element : {Element::q1_p0, Element::q2_p1}) {
     auto definition =
         scenes::cube(Test::tensile, LoadSet::small, material, cases::Formulation::hyperelastic, element, 2);
-    definition.fixed.clear();
-    definition.loads.clear();
-    for (const char* face : {"x-", "y-", "z-"}) {
-      definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
-    }
-    definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, traction}}});
+    definition.fixed = scenes::on_rollers({"x-", "y-", "z-"});
+    definition.loads = {scenes::traction("z+", {0, 0, traction})};
     const auto scene = cases::make_scene(definition);
     const auto solution = fem_reference::Model(scene, MPI_COMM_SELF).solve();
     cases::Region top;

@@ -68,9 +68,7 @@ cases::Scene one_cell(const cases::Ogden& material, Element element,
   definition.material = material;
   definition.fem.formulation = cases::Formulation::hyperelastic;
   definition.fem.element = element;
-  for (const std::string& face : normal_supports) {
-    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
-  }
+  definition.fixed = scenes::on_rollers(normal_supports);
   return cases::make_scene(definition);
 }
 

@@ -1,4 +1,3 @@
-#include "fem_reference/motion.hpp"
 
 #include "cases/case/error.hpp"
 #include "fem_reference/assembled_body.hpp"
@@ -7,6 +6,7 @@
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -63,12 +63,6 @@ cases::Solution equilibrium(cases::Scene scene) {
   return fem_reference::Model(scene, MPI_COMM_SELF).solve();
 }
 
-double largest_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
-  double largest = 0;
-  for (std::size_t p = 0; p < a.size(); ++p) largest = larger(largest, (a[p] - b[p]).norm());
-  return largest;
-}
-
 } // namespace
 
 TEST_CASE("a bar is stretched by its own weight as analysis says", "[verification]") {
@@ -118,10 +112,9 @@ TEST_CASE("damped finite elements come to rest in their static equilibrium", "[v
       const cases::Scene scene = weighed(bar(true, formulation, element, {1000., 200, 0.01}),
                                          Vector3d(1, 0, -1), steps(cases::Scheme::implicit_euler, 0.05, 10));
       const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
-      double size = 0;
-      for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
+      const double size = largest_displacement(still);
       CHECK(size > 0.1);
-      CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
+      CHECK(largest_difference(motion, still) <= 1e-6 * size);
     }
 }
 
@@ -131,9 +124,7 @@ TEST_CASE("finite elements that start in equilibrium stay where they are", "[ver
         weighed(bar(true, cases::Formulation::log_strain, element), Vector3d::UnitX(),
                 steps(cases::Scheme::newmark, 0.001, 0.02, cases::MotionStart::equilibrium));
     const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
-    double size = 0;
-    for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
-    CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
+    CHECK(largest_difference(motion, still) <= 1e-6 * largest_displacement(still));
   }
 }
 
@@ -143,9 +134,7 @@ TEST_CASE("finite elements follow a step far beyond their period to where static
     const cases::Scene scene = weighed(bar(true, cases::Formulation::log_strain, element), Vector3d::UnitX(),
                                        steps(cases::Scheme::implicit_euler, 1000, 3000));
     const cases::Solution motion = fem_reference::follow(scene), still = equilibrium(scene);
-    double size = 0;
-    for (const Vector3d& u : still.displacement) size = larger(size, u.norm());
-    CHECK(largest_difference(motion.displacement, still.displacement) <= 1e-6 * size);
+    CHECK(largest_difference(motion, still) <= 1e-6 * largest_displacement(still));
   }
 }
 

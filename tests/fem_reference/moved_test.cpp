@@ -1,14 +1,13 @@
 // Bodies whose supports move with the load factor.
 
 #include "fem_reference/model.hpp"
-#include "tests/support/bodies.hpp"
+#include "tests/fem_reference/scenes.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace springproof;
 
-using bodies::region;
 using cases::Element;
 using Eigen::Vector3d;
 
@@ -32,9 +31,7 @@ cases::Solution solve(const cases::Scene& scene) {
 TEST_CASE("a bar pressed to half its height between sliding plates widens by its law", "[verification]") {
   for (const Element element : {Element::q1_bbar, Element::q2}) {
     cases::Case definition = box(element);
-    definition.fixed = {{cases::Region{"x-"}, {true, false, false}},
-                        {cases::Region{"y-"}, {false, true, false}},
-                        {cases::Region{"z-"}, {false, false, true}}};
+    definition.fixed = scenes::on_rollers({"x-", "y-", "z-"});
     cases::Moved down;
     down.region = cases::Region{"z+"};
     down.components = {false, false, true};

@@ -1,5 +1,7 @@
 #include "fem_reference/cuboid.hpp"
+#include "fem_reference/element_fields.hpp"
 #include "fem_reference/model.hpp"
+#include "tests/fem_reference/scenes.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
@@ -25,10 +27,8 @@ namespace {
 cases::Case pulled(Element element, int refine) {
   cases::Case bar = bodies::clamped_box({3, 2, 2}, {});
   bar.material = cases::LinearElastic{0.1, 0.2};
-  bar.fixed = {{bodies::region("x-"), {true, false, false}},
-               {bodies::region("y-"), {false, true, false}},
-               {bodies::region("z-"), {false, false, true}}};
-  bar.loads = {{bodies::region("x+"), cases::loads::Traction{{0.05, 0, 0}}}};
+  bar.fixed = scenes::on_rollers({"x-", "y-", "z-"});
+  bar.loads = {scenes::traction("x+", {0.05, 0, 0})};
   bar.fem.formulation = cases::Formulation::small_strain;
   bar.fem.element = element;
   bar.fem.refine = refine;
@@ -38,7 +38,7 @@ cases::Case pulled(Element element, int refine) {
 /// A clamped block that is bent and sheared.
 cases::Case bent(Element element, int refine = 0) {
   cases::Case block = bodies::clamped_box({4, 2, 3}, {});
-  block.loads = {{bodies::region("z+"), cases::loads::Traction{{0.01, 0.004, 0}}}};
+  block.loads = {scenes::traction("z+", {0.01, 0.004, 0})};
   block.fem.formulation = cases::Formulation::small_strain;
   block.fem.element = element;
   block.fem.refine = refine;

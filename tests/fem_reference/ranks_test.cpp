@@ -1,5 +1,4 @@
 #include "fem_reference/model.hpp"
-#include "fem_reference/motion.hpp"
 
 #include "grid/moving_block.hpp"
 #include "tests/support/largest.hpp"
@@ -51,7 +50,7 @@ cases::Case small_block(const Vector3d& size, const std::array<int, 3>& cells,
   auto definition = scenes::cube(scenes::Test::shear, scenes::LoadSet::small, scenes::thesis_elastic(),
                                  cases::Formulation::log_strain, element, 2);
   definition.body = cases::Box{size, cells};
-  definition.loads = {{{"z+"}, cases::loads::Traction{Vector3d(0.006, 0.001, -0.002)}}};
+  definition.loads = {scenes::traction("z+", {0.006, 0.001, -0.002})};
   return definition;
 }
 

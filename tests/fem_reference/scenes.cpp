@@ -1,7 +1,5 @@
 #include "scenes.hpp"
 
-#include "tests/support/bodies.hpp"
-
 #include <cmath>
 
 using namespace springproof;
@@ -9,8 +7,6 @@ using namespace springproof;
 namespace scenes {
 
 using Eigen::Vector3d;
-
-using bodies::region;
 
 namespace {
 
@@ -29,6 +25,13 @@ double degrees(double radians) {
 }
 
 } // namespace
+
+std::vector<cases::Fixed> on_rollers(const std::vector<std::string>& faces) {
+  std::vector<cases::Fixed> fixed;
+  for (const std::string& face : faces)
+    fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
+  return fixed;
+}
 
 cases::LinearElastic thesis_elastic(double poissons_ratio) {
   return {0.3, poissons_ratio};

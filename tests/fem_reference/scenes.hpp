@@ -13,6 +13,12 @@ namespace scenes {
 constexpr cases::Element all_elements[] = {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q1_p0,
                                            cases::Element::q2, cases::Element::q2_p1};
 
+inline cases::Load traction(const std::string& where, const Eigen::Vector3d& value) {
+  return {{where}, cases::loads::Traction{value}};
+}
+/// Faces that are held along their normals: "x-", "z+" ...
+std::vector<cases::Fixed> on_rollers(const std::vector<std::string>& faces);
+
 enum class Test { tensile, shear, torsion };
 enum class LoadSet { small, large };
 

@@ -24,10 +24,8 @@ cases::Scene pulled_cube(cases::Formulation formulation, Element element, double
   definition.material = cases::LinearElastic{0.3, 0.35};
   definition.fem.formulation = formulation;
   definition.fem.element = element;
-  for (const char* face : {"x-", "y-", "z-"}) {
-    definition.fixed.push_back({{face}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}});
-  }
-  definition.loads = {{{"z+"}, cases::loads::Traction{{0, 0, traction}}}};
+  definition.fixed = scenes::on_rollers({"x-", "y-", "z-"});
+  definition.loads = {scenes::traction("z+", {0, 0, traction})};
   return cases::make_scene(definition);
 }
 

@@ -21,7 +21,7 @@ cases::Solution pressed_column(double fraction, cases::Formulation formulation, 
   definition.fem.formulation = formulation;
   definition.fem.element = element;
   definition.fixed.push_back({{"z-"}});
-  definition.loads.push_back({{"z+"}, cases::loads::Traction{{0, 0, -fraction * euler}}});
+  definition.loads = {scenes::traction("z+", {0, 0, -fraction * euler})};
   return fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF).solve();
 }
 

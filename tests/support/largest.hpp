@@ -45,6 +45,13 @@ inline cases::Share part_of(const cases::Solution& alone, const cases::Solution&
   return {};
 }
 
+/// Largest displacement of what is here, mm; NaN if a number is.
+inline double largest_displacement(const cases::Solution& of) {
+  double largest = 0;
+  for (const Eigen::Vector3d& u : of.displacement) largest = larger(largest, u.norm());
+  return largest;
+}
+
 /// Largest difference of two displacements of one body, mm; NaN if a number is.
 /// @param b  ranks may share it: then of the nodes that are here
 inline double largest_difference(const cases::Solution& a, const cases::Solution& b) {

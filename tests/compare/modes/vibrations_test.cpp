@@ -2,8 +2,8 @@
 
 #include "compare/solve/springs.hpp"
 #include "fem_reference/element_stiffness.hpp"
-#include "mechanics/cell_mass.hpp"
 #include "msm/moving_springs.hpp"
+#include "tests/support/cell_mass.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -76,12 +76,6 @@ cases::Case flat_cells() {
   return flat;
 }
 
-double largest_displacement(const cases::Solution& solution) {
-  double largest = 0;
-  for (const Eigen::Vector3d& u : solution.displacement) largest = larger(largest, u.norm());
-  return largest;
-}
-
 /// A grid with holes, held at one end, with a volume term.
 Body body_with_holes(const std::array<int, 3>& cells) {
   Body body;

@@ -1,7 +1,6 @@
 // Motions of finite elements that are hard to follow.
 
 #include "fem_reference/model.hpp"
-#include "fem_reference/motion.hpp"
 
 #include "tests/fem_reference/grid/moving_block.hpp"
 #include "tests/support/largest.hpp"
@@ -25,23 +24,6 @@ cases::Solution follow(const cases::Case& definition, Backend backend) {
   return fem_reference::follow(cases::make_scene(definition), fem_reference::default_steps(), backend);
 }
 
-double largest(const cases::Solution& of) {
-  double size = 0;
-  for (const Vector3d& u : of.displacement) size = larger(size, u.norm());
-  return size;
-}
-
-double largest_difference(const cases::Solution& a, const cases::Solution& b) {
-  double size = 0;
-  for (std::size_t n = 0; n < a.displacement.size(); ++n)
-    size = larger(size, (a.displacement[n] - b.displacement[n]).norm());
-  return size;
-}
-
-cases::Load traction(const std::string& where, const Vector3d& value) {
-  return {region(where), cases::loads::Traction{value}};
-}
-
 } // namespace
 
 TEST_CASE("strong damping ends in the static equilibrium, on the grid too", "[verification]") {
@@ -56,8 +38,8 @@ TEST_CASE("strong damping ends in the static equilibrium, on the grid too", "[ve
     definition.dynamics.reset();
     const cases::Solution still =
         fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF, Backend::grid).solve();
-    CHECK(largest(still) > 0.1);
-    CHECK(largest_difference(motion, still) <= 1e-6 * largest(still));
+    CHECK(largest_displacement(still) > 0.1);
+    CHECK(largest_difference(motion, still) <= 1e-6 * largest_displacement(still));
   }
 }
 
@@ -72,7 +54,7 @@ TEST_CASE("steps far beyond the period are solved, and forget it", "[verificatio
     definition.dynamics.reset();
     const cases::Solution still =
         fem_reference::Model(cases::make_scene(definition), MPI_COMM_SELF, Backend::grid).solve();
-    CHECK(largest_difference(motion, still) <= 1e-6 * largest(still));
+    CHECK(largest_difference(motion, still) <= 1e-6 * largest_displacement(still));
   }
 }
 
@@ -87,9 +69,9 @@ TEST_CASE("stiffnesses that differ by six orders move as the assembled backend s
   definition.dynamics->scheme.scheme = cases::Scheme::generalized_alpha;
   const cases::Solution motion = follow(definition, Backend::automatic),
                         assembled = follow(definition, Backend::assembled);
-  CHECK(largest(assembled) > 0.1);
+  CHECK(largest_displacement(assembled) > 0.1);
   // Tolerance: residuals of 1e-10 of the forces in the stiff part, whose lever is the soft one.
-  CHECK(largest_difference(motion, assembled) <= 1e-5 * largest(assembled));
+  CHECK(largest_difference(motion, assembled) <= 1e-5 * largest_displacement(assembled));
 }
 
 TEST_CASE("a body that nothing holds is set spinning by a torque, and both backends turn it alike",
@@ -103,8 +85,8 @@ TEST_CASE("a body that nothing holds is set spinning by a torque, and both backe
   definition.dynamics->end = 0.2;
   const cases::Solution assembled = follow(definition, Backend::assembled),
                         grid = follow(definition, Backend::grid);
-  CHECK(largest(grid) > 3); // a corner is 5 mm from the axis
-  CHECK(largest_difference(grid, assembled) <= 1e-6 * largest(assembled));
+  CHECK(largest_displacement(grid) > 3); // a corner is 5 mm from the axis
+  CHECK(largest_difference(grid, assembled) <= 1e-6 * largest_displacement(assembled));
   Vector3d sum = Vector3d::Zero(); // the centre of mass stays: lumped masses of corners, edges, faces
   const cases::HexMesh mesh = cases::make_scene(definition).mesh;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -118,28 +100,28 @@ TEST_CASE("a column that snaps sideways is followed where statics finds no equil
   definition.material = cases::LinearElastic{0.1, 0.3};
   definition.material_dynamics = {1000., 5, 0.001};
   // Euler's load over the area is pi²/12 E (4/48)² = 5.7e-4 MPa
-  definition.loads = {traction("z+", {0, 0, -1.5e-3}), traction("x-", {1e-6, 0, 0})};
+  definition.loads = {scenes::traction("z+", {0, 0, -1.5e-3}), scenes::traction("x-", {1e-6, 0, 0})};
   definition.loads[0].history.points = {{{0., 0.}}, {{0.05, 1.}}};
   definition.dynamics->step = 0.005;
   definition.dynamics->end = 0.5;
   const cases::Solution assembled = follow(definition, Backend::assembled),
                         grid = follow(definition, Backend::grid);
-  CHECK(largest(grid) > 5);
+  CHECK(largest_displacement(grid) > 5);
   CHECK(grid.inverted_cells == 0);
   // Tolerance: the way down multiplies what residuals leave.
-  CHECK(largest_difference(grid, assembled) <= 1e-4 * largest(assembled));
+  CHECK(largest_difference(grid, assembled) <= 1e-4 * largest_displacement(assembled));
 }
 
 TEST_CASE("a step that is too long for Newton's method is halved, and the motion goes on") {
   cases::Case definition = block(cases::Formulation::log_strain, Element::q1_bbar);
-  definition.loads = {traction("z+", {1e-3, 0, 0})}; // at once a quarter of its modulus
+  definition.loads = {scenes::traction("z+", {1e-3, 0, 0})}; // at once a quarter of its modulus
   definition.dynamics->step = 0.01;
   definition.dynamics->end = 0.04;
   for (const auto backend : {Backend::assembled, Backend::grid}) {
     const cases::Solution motion = follow(definition, backend);
-    CAPTURE(int(backend), largest(motion));
+    CAPTURE(int(backend), largest_displacement(motion));
     CHECK(motion.trajectory->halved_steps > 0);
-    CHECK(std::isfinite(largest(motion)));
+    CHECK(std::isfinite(largest_displacement(motion)));
     CHECK(motion.trajectory->time.size() == 5);
   }
 }

@@ -1,7 +1,7 @@
 // The two backends of the finite elements in time: the same equations, so the same trajectories.
 
 #include "cases/scene/in_time.hpp"
-#include "fem_reference/motion.hpp"
+#include "fem_reference/model.hpp"
 
 #include "tests/fem_reference/grid/moving_block.hpp"
 #include "tests/support/largest.hpp"
@@ -35,8 +35,7 @@ void agree(const cases::Case& definition) {
     largest = larger(largest, a.displacement[n].norm());
     difference = larger(difference, (a.displacement[n] - b.displacement[n]).norm());
   }
-  for (std::size_t n = 0; n < assembled.displacement.size(); ++n)
-    difference = larger(difference, (assembled.displacement[n] - grid.displacement[n]).norm());
+  difference = larger(difference, largest_difference(assembled, grid));
   for (std::size_t n = 0; n < a.volume.size(); ++n)
     of_volume = larger(of_volume, std::abs(a.volume[n] - b.volume[n]) / a.volume[n]);
   CAPTURE(largest, difference, of_volume, assembled.newton_iterations, grid.newton_iterations,
@@ -81,7 +80,7 @@ TEST_CASE("both backends move alike with several materials, weights, histories a
     stiff.upper = Vector3d(7, INFINITY, INFINITY);
     definition.region_materials = {stiff};
     definition.masses.push_back({region("z+"), 1e-4}); // kg; the block has 6e-4
-    cases::Load push{region("x-"), cases::loads::Traction{Vector3d(2e-5, 0, 0)}};
+    cases::Load push = scenes::traction("x-", {2e-5, 0, 0});
     push.history.frequency = 15;
     definition.loads.push_back(push);
     agree(definition);

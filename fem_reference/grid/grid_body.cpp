@@ -1,0 +1,237 @@
+#include "fem_reference/grid/grid_body.hpp"
+
+#include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/grid/coarse_guess.hpp"
+#include "fem_reference/grid/grid_equations.hpp"
+#include "fem_reference/grid/on_grid.hpp"
+#include "mechanics/ranks/share_out.hpp"
+
+#include <cmath>
+
+namespace springproof::fem_reference::grid {
+
+namespace {
+
+using cases::index;
+using mechanics::Vector;
+
+bool is_quadratic(const cases::Scene& scene) {
+  return scene.definition.fem.element == cases::Element::q2;
+}
+
+/// An element of those that the cells of a body's own mesh are divided into.
+struct Part {
+  std::size_t cell;           ///< of the body's own mesh
+  std::array<int, 3> in_cell; ///< 0 to along - 1
+  std::array<int, 3> at;      ///< of the grid of elements
+  int layer;                  ///< of those that are held
+};
+
+/// Calls action(Part) cell by cell, for the parts in a range of the layers that are held.
+/// @param along  parts along an edge of a cell   @param first  of the grid's layers of parts, the first held
+template<class Action>
+void for_each_part(const cases::Grid& grid, int along, int first, const Slab::Range& layers,
+                   const Action& action) {
+  std::size_t next = 0;
+  for (int k = 0; k < grid.cells[2]; ++k)
+    for (int j = 0; j < grid.cells[1]; ++j)
+      for (int i = 0; i < grid.cells[0]; ++i) {
+        if (!grid.has(i, j, k)) continue;
+        const std::size_t cell = next++;
+        for (int c = 0; c < along; ++c) {
+          const int layer = along * k + c - first;
+          if (layer < layers.begin || layer >= layers.end) continue;
+          for (int b = 0; b < along; ++b)
+            for (int a = 0; a < along; ++a)
+              action(Part{cell, {a, b, c}, {along * i + a, along * j + b, along * k + c}, layer});
+        }
+      }
+}
+
+std::array<int, 3> cells_along(const cases::Scene& scene, int along) {
+  std::array<int, 3> cells = scene.mesh.grid->cells;
+  for (int& n : cells) n *= along;
+  return cells;
+}
+
+/// @param along        elements along an edge of a cell
+/// @param first_layer  of the grid's layers of cells, the first that the slab holds
+Body make_body(const cases::Scene& scene, int along, const Slab& of_nodes, int first_layer) {
+  const cases::Element element = scene.definition.fem.element;
+  const auto materials = cases::materials_of(scene.definition);
+  Body made(cells_along(scene, along), of_nodes, scene.mesh.grid->spacing / along,
+            law_of(scene.definition.fem.formulation),
+            element == cases::Element::q1_bbar || element == cases::Element::q1_p0);
+  const bool is_uniform = scene.material_of_cell.empty();
+  made.parameters = parameters_of(materials.front());
+  made.n_parameters = static_cast<int>(made.parameters.size());
+  const auto n_entries = index(made.layout.n_cell_entries());
+  if (!is_uniform) made.parameters.assign(index(made.n_parameters) * n_entries + 16, 0.);
+  std::vector<std::vector<double>> values;
+  for (const auto& material : materials) values.push_back(parameters_of(material));
+  for_each_part(*scene.mesh.grid, along, first_layer, {0, made.cells[2]}, [&](const Part& part) {
+    const auto entry = index(made.layout.cell(part.at[0], part.at[1], part.layer));
+    made.weight[entry] = 1;
+    if (is_uniform) return;
+    const auto material = index(scene.material_of_cell[part.cell]);
+    for (std::size_t p = 0; p < index(made.n_parameters); ++p)
+      made.parameters[p * n_entries + entry] = values[material][p];
+  });
+  return made;
+}
+
+Body make_body(const cases::Scene& scene, int along, const Slab& of_nodes) {
+  return make_body(scene, along, of_nodes, of_nodes.first_of_grid());
+}
+
+std::unique_ptr<QuadraticElements> make_quadratic(const cases::Scene& scene, int cell_factor,
+                                                  const Body& body, int n_threads) {
+  if (!is_quadratic(scene)) return nullptr;
+  const Slab& slab = body.slab;
+  const auto [begin, end] = slab.computed();
+  const int first = slab.first_of_grid() + begin,
+            beyond = std::min(slab.first_of_grid() + end, slab.n_planes_of_grid() - 1);
+  return std::make_unique<QuadraticElements>(
+      body, make_body(scene, cell_factor, Slab((beyond - first) / 2 + 1), first / 2), n_threads);
+}
+
+} // namespace
+
+/// What refers to each other.
+struct GridBody::Parts {
+  Parts(const cases::Scene& scene, MPI_Comm communicator, int n_threads, int cell_factor)
+      : factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
+        body(make_body(scene, factor, deal(cells_along(scene, factor), communicator, factor / cell_factor))),
+        places{scene.mesh.grid->origin, scene.mesh.grid->spacing / factor, body},
+        supported(make_supported(cases::refine(scene, scene.definition.fem.refine), is_quadratic(scene),
+                                 places, body)),
+        quadratic(make_quadratic(scene, cell_factor, body, n_threads)),
+        equations(body, supported, n_threads, quadratic.get()) {}
+
+  int factor; ///< intervals of the grid of nodes along an edge of the body's own cells
+  Body body;
+  Places places;
+  Supported supported;
+  std::unique_ptr<QuadraticElements> quadratic;
+  GridEquations equations;
+
+  Eigen::Vector3d displacement_at(const Place& at, const Vector& state) const {
+    const std::ptrdiff_t entry = places.entry(at), size = body.layout.size;
+    return {state[entry], state[entry + size], state[entry + 2 * size]};
+  }
+  /// Calls action(Part, its entry in the elements' layout) for the elements that the rank computes, cell by
+  /// cell. Where every rank computes all, for those of the cells that are its own.
+  template<class Action>
+  void for_each_own_element(const GridBody& of, const cases::Sharing* sharing, const Action& action) const {
+    const Slab& slab = body.slab;
+    const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
+    // the rank's elements have layers of their own
+    const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
+    const int first = quadratic ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
+    for_each_part(*of.scene.mesh.grid, of.cell_factor, first, layers, [&](const Part& part) {
+      if (!slab.is_shared() && sharing && !sharing->here().cells.has(part.cell)) return;
+      action(part, index(layout.cell(part.at[0], part.at[1], part.layer)));
+    });
+  }
+};
+
+GridBody::GridBody(const cases::Scene& on_mesh, MPI_Comm the_communicator, int threads)
+    : scene(on_mesh), communicator(the_communicator), n_threads(threads),
+      cell_factor(1 << scene.definition.fem.refine),
+      parts(std::make_unique<Parts>(scene, communicator, n_threads, cell_factor)),
+      equations(parts->equations) {}
+GridBody::GridBody(const cases::Scene& another, const GridBody& like)
+    : GridBody(another, like.communicator, like.n_threads) {}
+GridBody::~GridBody() = default;
+
+mechanics::StateOnMesh GridBody::on_mesh() const {
+  auto shared = mechanics::share_out(scene.mesh, communicator);
+  const cases::Sharing* const sharing = shared.get();
+  // Where every rank computes all nodes, it tells its own.
+  const auto displacements = [this, sharing](const Vector& state) {
+    std::vector<cases::Numbered<Eigen::Vector3d>> own;
+    for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
+      if (!parts->body.slab.is_shared() && sharing && !sharing->here().own_nodes.has(n)) continue;
+      const Place at = parts->places.of(scene.mesh.nodes[n]);
+      if (parts->places.owns(at))
+        own.push_back({static_cast<std::int64_t>(n), parts->displacement_at(at, state)});
+    }
+    return own;
+  };
+  const auto cell_volumes = [this, sharing](const Vector& state) {
+    const std::vector<double> of_entries = parts->equations.cell_volumes(state);
+    std::vector<cases::Numbered<double>> volumes;
+    parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t entry) {
+      const auto cell = static_cast<std::int64_t>(part.cell);
+      if (volumes.empty() || volumes.back().number != cell) volumes.push_back({cell, 0.});
+      volumes.back().value += of_entries[entry];
+    });
+    return volumes;
+  };
+  return {scene.mesh, std::move(shared), {displacements, cell_volumes}};
+}
+
+std::vector<double> GridBody::node_displacements(const Vector& state) const {
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  std::vector<double> numbers;
+  if (rank > 0 && !parts->body.slab.is_shared()) return numbers; // every rank has all of them
+  parts->places.for_each([&](const Place& at) {
+    const Eigen::Vector3d rest = parts->places.rest(at), displacement = parts->displacement_at(at, state);
+    numbers.insert(numbers.end(), rest.begin(), rest.end());
+    numbers.insert(numbers.end(), displacement.begin(), displacement.end());
+  });
+  return numbers;
+}
+
+void GridBody::add_guess(mechanics::EquilibriumSettings& settings) const {
+  if (settings.from != 0 || settings.first_load_step != 1 || parts->body.law == Law::small_strain) return;
+  CoarseGuess coarse = coarse_guess(parts->body, parts->supported, settings.to, n_threads);
+  settings.guess = std::move(coarse.state);
+  settings.first_load_step = coarse.first_load_step;
+}
+
+void GridBody::set_in_motion(const mechanics::EquilibriumSettings& settings) {
+  parts->equations.set_in_motion(cases::refine(scene, scene.definition.fem.refine), parts->places);
+  parts->equations.set_volume_tolerance(volume_tolerance_of(settings.tolerance));
+}
+
+bool GridBody::can_leave_rest() {
+  constexpr double part = 1e-6; // of the load: so small that Newton's step is the answer to it
+  constexpr double forcing = 1e-3, enough = 0.1;
+  const Vector rest = equations.rest();
+  parts->equations.forget_tangent();
+  const Vector residual = equations.residual(rest, part, mechanics::Expect::direction);
+  const auto step = equations.direction(rest, residual, part, forcing, mechanics::Convexity::exact);
+  if (!step) return false;
+  const Vector left = equations.residual(rest + *step, part, mechanics::Expect::residual);
+  return equations.dot(left, left) <= enough * enough * equations.dot(residual, residual);
+}
+
+cases::Range GridBody::cells(const cases::Sharing* sharing) const {
+  std::optional<cases::Range> cells;
+  parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t) {
+    if (!cells) cells = cases::Range{part.cell, part.cell}; // they come in ascending order
+    cells->end = part.cell + 1;
+  });
+  return cells.value_or(cases::Range{});
+}
+
+void GridBody::for_each_element(const Vector& state, const cases::Sharing* sharing,
+                                const std::function<void(const Element&)>& action) const {
+  const int degree = parts->factor / cell_factor, n = degree + 1;
+  std::vector<double> displacement(index(3 * n * n * n));
+  parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t entry) {
+    double* to = displacement.data();
+    for (int a = 0; a < n * n * n; ++a, to += 3) {
+      const Place node(degree * part.at[0] + a % n, degree * part.at[1] + a / n % n,
+                       degree * part.at[2] + a / (n * n));
+      Eigen::Map<Eigen::Vector3d>{to} = parts->displacement_at(node, state);
+    }
+    const double pressure =
+        parts->body.has_modes ? state[parts->equations.n_displacements() + Eigen::Index(entry)] : 0;
+    action({part.cell, part.in_cell, cell_factor, displacement, pressure});
+  });
+}
+
+} // namespace springproof::fem_reference::grid

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "cases/scene/in_time.hpp"
+#include "mechanics/dynamics/follow_motion.hpp"
+#include "mechanics/equilibrium/find_equilibrium.hpp"
+
+#include <utility>
+
+namespace springproof::fem_reference {
+
+/// A scene as finite elements, and their state: the equilibrium last found, or the end of a motion. Every
+/// member function is collective.
+/// @tparam Body  AssembledBody or grid::GridBody
+template<class Body>
+struct SolvedBody {
+  template<class... Arguments>
+  explicit SolvedBody(const cases::Scene& scene, Arguments&&... arguments)
+      : body(scene, std::forward<Arguments>(arguments)...), last(body.equations.rest()) {}
+
+  Body body;
+  mechanics::Vector last;
+  double last_load_factor = 0; ///< of an equilibrium; 0: at rest
+
+  void back_to_rest() {
+    last = body.equations.rest();
+    last_load_factor = 0;
+  }
+
+  /// As Model::solve_again().
+  cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) {
+    const cases::Case& definition = body.scene.definition;
+    settings.from = last_load_factor;
+    settings.to = load_factor;
+    settings = mechanics::in_small_turns(cases::largest_turn(definition), cases::least_load_steps(definition),
+                                         std::move(settings));
+    body.add_guess(settings);
+    const auto equilibrium = mechanics::find_equilibrium(body.equations, last, "finite elements", settings);
+    last = equilibrium.state;
+    last_load_factor = load_factor;
+    cases::Solution solution = mechanics::to_solution(equilibrium);
+    body.on_mesh().add_to(solution, last);
+    if (settings.stability != mechanics::Stability::ignore)
+      solution.negative_eigenvalues = body.equations.negative_eigenvalues();
+    return solution;
+  }
+
+  /// As follow().
+  /// @param settings  an equilibrium that the motion starts in is found with those of Newton's method
+  cases::Solution follow(const mechanics::IntegrationSettings& settings) {
+    body.set_in_motion(settings.newton);
+    last = start_of_motion(settings.newton);
+    return mechanics::follow_motion(body.scene, body.equations, body.on_mesh(), last, settings);
+  }
+
+ private:
+  /// The state when the motion begins: of the static scene, whose states are of the same nodes and cells.
+  mechanics::Vector start_of_motion(const mechanics::EquilibriumSettings& settings) const {
+    if (body.scene.definition.dynamics->start == cases::MotionStart::rest) return body.equations.rest();
+    SolvedBody still(cases::scene_before_start(body.scene), body);
+    still.solve(1, settings);
+    return still.last;
+  }
+};
+
+} // namespace springproof::fem_reference
