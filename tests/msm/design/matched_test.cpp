@@ -111,7 +111,7 @@ TEST_CASE("over a vanishing range of strains the matched exponents are the close
   const cases::LinearElastic material{0.3, 0.35};
   const mechanics::ElasticModuli moduli = mechanics::elastic_moduli(material);
   const double p = msm::closed_form_exponent(msm::second_order_coefficient(material, 0.35), moduli, 0.8);
-  const auto [edge, face, internal] = msm::matched_exponents(material, moduli, 0.8, {-1e-4, 1e-4}).exponents;
+  const auto [edge, face, internal, law] = msm::matched_exponents(material, moduli, 0.8, {-1e-4, 1e-4}).exponents;
   // their share of the stresses is the strain, 1e-4: squared, over the prior's square
   for (const double exponent : {edge, face, internal}) CHECK(exponent == Approx(p).margin(1e-3));
 }
@@ -151,7 +151,7 @@ TEST_CASE("a matched design has the hybrid's stiffnesses, and exponents of neith
 
 TEST_CASE("springs of a soft Ogden material keep the tension that it keeps at large stretches") {
   const cases::Ogden softening{{0.03, 0.013}, {2, -2}, std::nullopt};
-  const auto [edge, face, internal] = *msm::design(matched(softening)).stiffness.exponents;
+  const auto [edge, face, internal, law] = *msm::design(matched(softening)).stiffness.exponents;
   for (const double exponent : {edge, face, internal})
     CHECK(exponent >= msm::lowest_ogden_exponent - 1e-12); // Ceres projects
   CHECK(edge == Approx(msm::lowest_ogden_exponent));       // unbounded: about -1.1
