@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/mesh/cell_point.hpp"
+#include "mechanics/dynamics/follow_motion.hpp"
 #include "msm/grid/grid_system.hpp"
 #include "msm/grid/node_vectors.hpp"
 #include "msm/model.hpp"
@@ -41,5 +42,13 @@ class MovingBody {
   Eigen::Index size() const { return vectors_ ? vectors_->size() : statics_->load().size(); }
   void find_entries();
 };
+
+/// The motion of a scene's springs through the time of its [dynamics], on the path that a Model of them would
+/// take; of the options, on which threads.
+/// @return the end of the motion, with its trajectory
+/// @throws cases::SolveError with the time reached when the motion cannot be followed, or with the load
+/// reached when it cannot start in equilibrium
+cases::Solution follow(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options = {},
+                       const mechanics::IntegrationSettings& settings = {});
 
 } // namespace springproof::msm

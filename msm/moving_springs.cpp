@@ -1,6 +1,7 @@
 #include "msm/moving_springs.hpp"
 
 #include "cases/scene/masses.hpp"
+#include "msm/tangent.hpp"
 
 #include <algorithm>
 
@@ -36,6 +37,40 @@ SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs)
   if (!is_damped(scene)) return {};
   return scaled(springs, scene.mesh.cells.size(),
                 [&](std::size_t cell) { return cases::dynamics_of(scene, cell).stiffness_damping; });
+}
+
+mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice& lattice) {
+  Tangent tangent(lattice, cases::constrained_dofs(scene));
+  mechanics::VibratingBody body;
+  body.stiffness = tangent.assemble(lattice.rest, TransverseTerm::exact).selfadjointView<Eigen::Lower>();
+  const std::vector<double> masses = cases::point_masses(scene);
+  const std::vector<int>& number = tangent.free_number();
+  body.mesh_dof.resize(cases::index(tangent.n_free()));
+  std::vector<Eigen::Triplet<double>> diagonal;
+  for (std::size_t dof = 0; dof < number.size(); ++dof) {
+    if (number[dof] < 0) continue;
+    diagonal.emplace_back(number[dof], number[dof], masses[dof / 3]);
+    body.mesh_dof[cases::index(number[dof])] = static_cast<Eigen::Index>(dof);
+  }
+  body.mass.resize(tangent.n_free(), tangent.n_free());
+  body.mass.setFromTriplets(diagonal.begin(), diagonal.end());
+  return body;
+}
+
+MovingSprings::Entries MovingSprings::entries_of(const Problem& problem, const Inertia& inertia,
+                                                 const std::function<Vector(const Points&)>& on_free) {
+  const auto of_points = [&](const std::vector<double>& values) {
+    Points points;
+    for (const double value : values) points.push_back(Eigen::Vector3d::Constant(value));
+    return on_free(points);
+  };
+  Entries entries{of_points(inertia.mass),
+                  of_points(inertia.mass_damping),
+                  {},
+                  of_points(std::vector<double>(inertia.mass.size(), 1))};
+  for (const auto& [history, force] : inertia.loads)
+    entries.loads.emplace_back(history, on_free(problem.on_all_points(force)));
+  return entries;
 }
 
 void MovingSprings::external_force(double time, Vector& force) {

@@ -2,6 +2,7 @@
 
 #include "mechanics/dynamics/dynamic_problem.hpp"
 #include "mechanics/dynamics/load_in_time.hpp"
+#include "mechanics/vibrating_body.hpp"
 #include "msm/problem.hpp"
 #include "msm/pull.hpp"
 #include "msm/spring_body.hpp"
@@ -31,6 +32,9 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 /// stiffness. Without stiffness_damping, none. A network is in a scene of one material.
 SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs);
 
+/// The vibrations of a scene's springs about rest: the lattice's tangent there, point masses.
+mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice& lattice);
+
 /// The motion of a lattice with the forces of its static equations, on their vectors unless forces, energy,
 /// supports and inverted cells are overridden. Masses are on the diagonal.
 class MovingSprings : public mechanics::DynamicProblem {
@@ -41,6 +45,9 @@ class MovingSprings : public mechanics::DynamicProblem {
     std::vector<mechanics::LoadInTime> loads;
     Vector free; ///< 1 on free degrees of freedom
   };
+  /// @param on_free  values of points as a vector, 0 on constrained degrees of freedom
+  static Entries entries_of(const Problem& problem, const Inertia& inertia,
+                            const std::function<Vector(const Points&)>& on_free);
   /// @param springs  static equations of a problem of make_moving_problem(); must outlive this
   MovingSprings(mechanics::NonlinearProblem& springs, Entries entries)
       : springs_(springs), entries_(std::move(entries)) {}

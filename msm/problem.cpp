@@ -4,7 +4,6 @@
 #include "cases/scene/masses.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace springproof::msm {
@@ -44,16 +43,6 @@ std::vector<cases::NodeVector> loads(const cases::Scene& scene) {
   return all;
 }
 
-/// Of the cells that are here.
-std::vector<double> cell_volumes(const cases::HexMesh& mesh, const Points& displacement,
-                                 const cases::Sharing* sharing) {
-  const auto [own_nodes, cells, nodes] = cases::share_here(mesh, sharing);
-  std::vector<double> volumes;
-  for (std::size_t c = cells.begin; c < cells.end; ++c)
-    volumes.push_back(cases::cell_volume(cases::cell_vertices(mesh, c, displacement, nodes.begin)));
-  return volumes;
-}
-
 } // namespace
 
 std::size_t n_unknowns(const Problem& problem) {
@@ -71,15 +60,13 @@ Problem make_moving_problem(const cases::Scene& scene) {
   return {scene.mesh, {}, {}, cases::constrained_dofs(scene), moving_supports(scene, factor)};
 }
 
-double volume_of(const cases::HexMesh& mesh, const Points& displacement, const cases::Sharing* sharing) {
-  const std::vector<double> of_cells = cell_volumes(mesh, displacement, sharing);
-  const double here = std::accumulate(of_cells.begin(), of_cells.end(), 0.);
-  return sharing ? sharing->sum(here) : here;
-}
-
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
   const cases::Sharing* const sharing = solution.sharing.get();
-  solution.cell_volume = cell_volumes(mesh, solution.displacement, sharing);
+  const auto [own_nodes, cells, nodes] = cases::share_here(mesh, sharing);
+  solution.cell_volume.clear();
+  for (std::size_t c = cells.begin; c < cells.end; ++c)
+    solution.cell_volume.push_back(
+        cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement, nodes.begin)));
   solution.inverted_cells = cases::n_inverted(mesh, solution.displacement, sharing);
 }
 

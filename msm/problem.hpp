@@ -36,11 +36,6 @@ Problem make_moving_problem(const cases::Scene& scene);
 /// Free degrees of freedom.
 std::size_t n_unknowns(const Problem& problem);
 
-/// Volume of a body, mm³.
-/// @param displacement  mm, one per point that is here   @param sharing  as of solution_of(); collective
-double volume_of(const cases::HexMesh& mesh, const Points& displacement,
-                 const cases::Sharing* sharing = nullptr);
-
 /// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
 /// inverted. Collective over the ranks that share it.
 void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);

@@ -38,7 +38,7 @@ SPRINGPROOF_FIELDS(Voxels, file, edge, scale)
 
 /// A class of voxels, and of the cells that they fill.
 struct LabelClass {
-  std::string name;    ///< of no face, and another than the other classes'
+  std::string name;    ///< no face's, and another than the other classes'
   double lower, upper; ///< intensities, closed, lower <= upper
   bool is_rigid;       ///< bone: nodes of its cells are held unless something moves them; one class at most
 };

@@ -10,7 +10,7 @@ namespace springproof::cases {
 struct Part {
   std::string cell_class;                           ///< a three-dimensional group's name; empty: every cell
   Eigen::Vector3d lower, upper;                     ///< mm; infinite where the box has no end
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< mm; of the plane
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< mm; on the plane
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit length, towards the part; zero: no plane
 };
 SPRINGPROOF_FIELDS(Part, cell_class, lower, upper, point, normal)
@@ -35,7 +35,7 @@ SPRINGPROOF_FIELDS(Fixed, region, components)
 /// Where a motion fades out (thesis section 6.1.3, the scaled displacement method): its factor is 0 on and
 /// behind a plane, 1 from `length` beyond it on, and linear between, the zone that is scaled.
 struct ScaledDisplacement {
-  Eigen::Vector3d point;  ///< mm; of the plane
+  Eigen::Vector3d point;  ///< mm; on the plane
   Eigen::Vector3d normal; ///< unit length, towards the part that moves as a whole
   double length;          ///< mm, > 0
   Where where;
@@ -58,7 +58,7 @@ struct Moved {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();       ///< mm
   History history{};
   std::optional<ScaledDisplacement> scaled{}; ///< absent: the region moves as a whole
-  int steps = 1;                              ///< of the load, at least
+  int steps = 1;                              ///< load steps, at least
 };
 SPRINGPROOF_FIELDS(Moved, region, components, displacement, angle, axis, centre, history, scaled, steps)
 

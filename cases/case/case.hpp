@@ -22,7 +22,7 @@ SPRINGPROOF_FIELDS(PictureContour, intensity, n_smoothing, most_triangles)
 /// A surface that the body takes along: of a skin, say, which the cells follow in steps. Triangles of a file
 /// (STL, VTP), or the contour of the picture that the body is made of.
 struct BodySurface {
-  NamedFile file; ///< of the surface or the picture
+  NamedFile file; ///< surface or picture
   std::optional<PictureContour> contour;
   double scale = 1; ///< mm of a unit of the file
 };
@@ -52,12 +52,12 @@ struct Case {
   Msm msm;
   std::vector<Measure> measures;
   std::vector<Expectation> expectations;
-  std::optional<Stress> stress; ///< of a hard case
+  std::optional<Stress> stress; ///< hard cases only
   bool has_fields = false;      ///< solutions get their fields: a measure or a file of results needs them
   std::optional<Dynamics> dynamics;
   std::optional<BodySurface> surface{}; ///< absent: the outer one of the cells
   std::vector<Landmark> landmarks{};
-  std::vector<Removed> removed{}; ///< of the body
+  std::vector<Removed> removed{}; ///< cut out of the body
 };
 
 template<class Archive>

@@ -23,7 +23,7 @@ enum class DesignLaw {
 
 /// What the cells of a design consist of.
 enum class DesignCells {
-  four_stiffnesses, ///< of edges, face diagonals, internal diagonals and a volume term: the grid's kernels
+  four_stiffnesses, ///< edges, face diagonals, internal diagonals and a volume term: the grid's kernels
                     ///< take them
   terms,            ///< others, on any mesh: assembled and factorised
   cut               ///< others, cut in mirror images from cell to cell of a grid
@@ -39,7 +39,7 @@ struct DesignFacts {
   Design design;
   const char* what;              ///< a line
   const char* published_in;      ///< a line
-  std::vector<std::string> keys; ///< of [msm] that this design takes and not every design
+  std::vector<std::string> keys; ///< keys of [msm] that this design takes and not every design
   DesignLaw law = DesignLaw::any;
   DesignSource source = DesignSource::material;
   DesignCells cells = DesignCells::four_stiffnesses;

@@ -80,8 +80,8 @@ SPRINGPROOF_ENUMERATION(OverTime,
                         settled,       ///< what it swings about: mean of the last whole swings
                         peak,          ///< the value that is furthest from the first one
                         peak_time,     ///< s
-                        overshoot,     ///< of the peak beyond the settled value, percent of the way there
-                        frequency,     ///< of its swings, Hz
+                        overshoot,     ///< peak beyond the settled value, percent of the way there
+                        frequency,     ///< its swings, Hz
                         damping_ratio, ///< from the logarithmic decrement of its swings
                         trajectory_l2  ///< root mean square over time
 )

@@ -50,7 +50,7 @@ class InputError : public std::runtime_error {
 /// A file that a case names.
 struct NamedFile {
   std::string path; ///< as opened: relative paths are resolved against the case file
-  Where where{};    ///< of the name in the case file
+  Where where{};    ///< the name in the case file
 
   /// @throws InputError, at the name, with the path before the reason
   [[noreturn]] void refuse(const std::string& reason) const { throw InputError(where, path + ": " + reason); }

@@ -20,7 +20,7 @@ SPRINGPROOF_ENUMERATION(
 struct ExpectedOutcome {
   std::string model; ///< name of its table
   Side side;
-  std::optional<Design> design; ///< of the springs, in place of the case's own with all its settings
+  std::optional<Design> design; ///< springs in place of the case's own with all its settings
   Outcome outcome;
   std::optional<std::array<double, 2>> load_reached; ///< closed, of the full load
   std::optional<int> inverted_cells;
@@ -42,9 +42,9 @@ struct Stress {
   double amplitude = 0;                  ///< mm; perturbed
   int seed = 0;                          ///< perturbed
   std::optional<Stiffer> stiffer;        ///< springs only
-  int least_load_steps = 1;              ///< of equal size or smaller
-  double max_seconds = 0;                ///< of each solve
-  int max_iterations = 0;                ///< of Newton's method, of each solve
+  int least_load_steps = 1;              ///< equal or smaller ones
+  double max_seconds = 0;                ///< each solve
+  int max_iterations = 0;                ///< Newton's method, each solve
   std::vector<ExpectedOutcome> expected; ///< one per model that is solved, at least one
 };
 SPRINGPROOF_FIELDS(Stress, is_heavy, start, amplitude, seed, stiffer, least_load_steps, max_seconds,

@@ -18,7 +18,7 @@ namespace {
                           reason ? reason : "a shared object of the program");
 }
 
-/// Of the program or shared object that this function is in.
+/// The folder of the program or shared object that this function is in.
 const fs::path& own_folder() {
   static const fs::path folder = [] {
     Dl_info unused{};

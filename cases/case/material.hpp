@@ -52,7 +52,7 @@ inline bool is_isotropic(const Material& material) {
 /// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
 /// those whose centre lies in a box.
 struct RegionMaterial {
-  Material material;            ///< of the same model as the body's own
+  Material material;            ///< the same model as the body's own
   std::string group;            ///< empty: the box
   Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
   Where where;

@@ -5,13 +5,13 @@
 /// [[measure]] and [[expect]] of a case file. Units: mm, N, MPa, degrees.
 namespace springproof::cases {
 
-/// Of a quantity's values on several cells.
+/// A number of a quantity's values on several cells.
 SPRINGPROOF_ENUMERATION(Statistic, largest, mean,
                         deviation ///< root of the mean square distance from the mean
 )
 
 SPRINGPROOF_ENUMERATION(Component, x, y, z, norm)
-/// Of a symmetric tensor. principal_1 is its largest eigenvalue, principal_3 its smallest.
+/// A component of a symmetric tensor. principal_1 is its largest eigenvalue, principal_3 its smallest.
 SPRINGPROOF_ENUMERATION(TensorComponent, xx, yy, zz, xy, yz, xz, von_mises, principal_1, principal_2,
                         principal_3)
 
@@ -107,8 +107,8 @@ struct OfCells {
   TensorComponent component = TensorComponent::xx;
   Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< mm, of the body at rest
   Where point_where{};
-  std::optional<Statistic> statistic{}; ///< of the cells with a face in the region, in place of the point's
-  Region region{};                      ///< of no name: all cells
+  std::optional<Statistic> statistic{}; ///< over the cells with a face in the region, in place of the point's
+  Region region{};                      ///< no name: all cells
   bool has_region() const { return region.near || !region.name.empty(); }
 };
 SPRINGPROOF_FIELDS(OfCells, component, point, point_where, statistic, region)
@@ -163,7 +163,7 @@ struct Measure {
   std::string name;
   measures::Kind kind;
   Where where{};
-  std::optional<OverTime> over_time{}; ///< of a dynamic case's measures, but for norms of fields
+  std::optional<OverTime> over_time{}; ///< dynamic cases only, but for norms of fields
 };
 SPRINGPROOF_FIELDS(Measure, name, kind, where, over_time)
 
@@ -188,7 +188,7 @@ struct Expectation {
   ReferenceKind reference;
   std::string reason;
   Where where;
-  std::array<Where, 2> ends_where = {}; ///< of the interval's ends
+  std::array<Where, 2> ends_where = {}; ///< the interval's ends
 };
 SPRINGPROOF_FIELDS(Expectation, measure, quantity, interval, reference, reason, where, ends_where)
 

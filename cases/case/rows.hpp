@@ -38,8 +38,8 @@ inline std::string in_small_letters(std::string text) {
 struct TextRow {
   std::vector<std::string_view> fields; ///< without the blanks around them
   std::string_view line;                ///< likewise
-  const std::string& name;              ///< of the file
-  int number;                           ///< of the line, from 1
+  const std::string& name;              ///< the file's
+  int number;                           ///< the line's, from 1
   std::string place() const { return name + ":" + std::to_string(number) + ": "; }
 };
 

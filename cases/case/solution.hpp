@@ -52,7 +52,7 @@ struct Vibration {
 
 struct Trajectory {
   std::vector<double> time; ///< s, ascending; the first is the start
-  std::vector<int> nodes;   ///< of the body's mesh, ascending: those that are watched
+  std::vector<int> nodes;   ///< watched ones of the body's mesh, ascending
   std::vector<Eigen::Vector3d>
       displacement;           ///< mm, of the watched nodes at the first time, at the second ...
   std::vector<double> volume; ///< mm³, of the body at these times; empty: it is not watched
@@ -70,11 +70,11 @@ struct Trajectory {
 /// How far an answer after a given number of explicit iterations is from the equilibrium of the same springs,
 /// which Newton's method finds.
 struct FromEquilibrium {
-  double tolerance; ///< of an equilibrium's relative residual
+  double tolerance; ///< an equilibrium's relative residual
   std::optional<double> largest,
       root_mean_square; ///< mm, of all points' distances from where they are in equilibrium
   std::string reason;   ///< why these are not known
-  std::vector<Eigen::Vector3d> displacement{}; ///< of that equilibrium, mm, one per node; empty: not known
+  std::vector<Eigen::Vector3d> displacement{}; ///< that equilibrium's, mm, one per node; empty: not known
 };
 
 /// Norms of a displacement over all of the body at rest, where the body's nodes do not tell them: of elements
@@ -100,16 +100,15 @@ struct Solution {
   double load_reached = 0;  ///< 0 to 1; of a motion, the part of its time
   int newton_iterations = 0;
   long linear_iterations = 0;
-  long relaxation_iterations = 0; ///< of an explicit relaxation, which has no Newton iterations
+  long relaxation_iterations = 0; ///< explicit relaxation, which has no Newton iterations
   long force_evaluations = 0;     ///< internal forces of the whole body, with or without their tangent
-  long factorisations = 0;        ///< of a tangent matrix; 0 where none is assembled
-  std::optional<double>
-      lowest_eigenvalue; ///< of the tangent on the free degrees of freedom, N/mm, when asked for
+  long factorisations = 0;        ///< tangent matrices; 0 where none is assembled
+  std::optional<double> lowest_eigenvalue; ///< tangent on the free degrees of freedom, N/mm, when asked for
   std::optional<int>
-      negative_eigenvalues; ///< of the tangent, from a factorisation's pivots; 0: a stable equilibrium
-  int inverted_cells = 0;   ///< cells with a corner Jacobian <= 0
-  std::optional<Trajectory> trajectory{}; ///< of a dynamic case: the rest is of its end
-  /// Of an answer that was asked for after a number of iterations, equilibrium or not.
+      negative_eigenvalues;               ///< tangent, from a factorisation's pivots; 0: a stable equilibrium
+  int inverted_cells = 0;                 ///< cells with a corner Jacobian <= 0
+  std::optional<Trajectory> trajectory{}; ///< a dynamic case's: the rest is of its end
+  /// Present where the answer was asked for after a number of iterations, equilibrium or not.
   std::optional<FromEquilibrium> from_equilibrium{};
 
   std::optional<FieldNorms> norms{}; ///< when the case measures them, of quadratic elements and finer meshes

@@ -11,7 +11,7 @@ namespace {
 constexpr double rounding = 1e-9; // relative, of turns and steps
 
 struct Turn {
-  double degrees, begin; ///< of the step with the largest turn; s
+  double degrees, begin; ///< the step with the largest turn; s
 };
 
 /// In steps of equal length.

@@ -9,7 +9,7 @@ namespace springproof::cases {
 /// small steps lead the body around with it. A straight guess then leaves the arc by 15 % of the radius.
 constexpr double largest_turn_of_step = 30;
 
-constexpr double most_time_steps = 1e7; ///< of a case
+constexpr double most_time_steps = 1e7; ///< in a case
 
 /// The smallest and the largest factor of a history from one time to another (s), ends included.
 std::array<double, 2> factors_between(const History& history, double begin, double end);

@@ -1,10 +1,51 @@
 #include "cases/mesh/cell_point.hpp"
 
-#include "mechanics/hexahedron.hpp"
-
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace springproof::cases {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double on_boundary = 1e-6; ///< part of the unit cube, and of a cell's largest edge
+constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
+
+double largest_edge(const Eigen::AlignedBox3d& box) {
+  return box.sizes().maxCoeff();
+}
+
+bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+  const Eigen::AlignedBox3d box = bounding_box(vertices);
+  if (box.exteriorDistance(point) > on_boundary * largest_edge(box)) return false;
+  const auto at = place_in_cell(vertices, point);
+  return at && (at->array() >= -on_boundary).all() && (at->array() <= 1 + on_boundary).all();
+}
+
+/// Numbers of the cells of a grid whose cells are all present that touch the point's neighbourhood,
+/// ascending.
+std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
+  const auto place_of = [&](int axis, double aside) {
+    const double at = (point[axis] - grid.origin[axis]) / grid.spacing[axis] + aside;
+    return static_cast<int>(std::clamp(std::floor(at), 0., grid.cells[index(axis)] - 1.));
+  };
+  std::array<int, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    first[index(axis)] = place_of(axis, -2 * on_boundary);
+    last[index(axis)] = place_of(axis, 2 * on_boundary);
+  }
+  std::vector<std::size_t> cells;
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        cells.push_back((index(k) * index(grid.cells[1]) + index(j)) * index(grid.cells[0]) + index(i));
+  return cells;
+}
+
+} // namespace
 
 std::array<double, 8> weights_at(const CellPoint& point) {
   std::array<double, 8> weights = mechanics::shape_values(point.at);
@@ -34,6 +75,33 @@ std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const
   for (const auto& [node, share] : weight)
     if (share != 0) weights.push_back({node, share});
   return weights;
+}
+
+std::optional<Vector3d> place_in_cell(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
+  const double size = largest_edge(bounding_box(vertices));
+  Vector3d at = Vector3d::Constant(0.5);
+  for (int step = 0; step < most_steps; ++step) {
+    const Vector3d missing = point - mechanics::image(vertices, at);
+    if (missing.norm() <= 1e-3 * on_boundary * size) return at;
+    at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);
+    if (!(at.array().abs() <= 10).all()) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> cells_at(const HexMesh& mesh, const Vector3d& point, const Range& among) {
+  std::vector<std::size_t> cells;
+  const auto look_at = [&](std::size_t cell) {
+    if (holds(cell_vertices(mesh, cell), point)) cells.push_back(cell);
+  };
+  const auto [begin, end] = among.common({0, mesh.cells.size()});
+  if (mesh.nodes.rule && mesh.cells.rule && mesh.grid) { // of 10^7 cells a look at eight is enough
+    for (const std::size_t cell : cells_near(*mesh.grid, point))
+      if (among.has(cell)) look_at(cell);
+    return cells;
+  }
+  for (std::size_t cell = begin; cell < end; ++cell) look_at(cell);
+  return cells;
 }
 
 } // namespace springproof::cases

@@ -1,6 +1,6 @@
 #include "cases/mesh/check_mesh.hpp"
 
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 
 #include <fmt/format.h>
 #include <limits>
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double touching = 0.01; ///< of an edge: what is nearer is meant to meet
+constexpr double touching = 0.01; ///< part of an edge: what is nearer is meant to meet
 constexpr const char* way_out =
     "cells have to meet in whole faces and to share the vertices there: divide all of them alike, and merge "
     "nodes in one place (gmsh: Coherence; before the mesh is made, or Coherence Mesh;). Sides of a crack "

@@ -8,8 +8,8 @@ namespace springproof::cases {
 
 /// What a confined process may use.
 struct Limits {
-  int seconds;         ///< of processor and wall-clock time, > 0
-  std::uint64_t bytes; ///< of memory, besides what this process has
+  int seconds;         ///< processor and wall-clock time, > 0
+  std::uint64_t bytes; ///< memory, besides what this process has
 };
 
 /// Enough to read a file of so many bytes, far less than one can claim that it has.

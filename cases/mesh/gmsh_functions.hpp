@@ -16,7 +16,7 @@ enum GmshType { line = 1, quadrangle = 3, hexahedron = 5, point = 15 };
 struct GmshElements {
   int type;
   Tags tags;
-  std::vector<Tags> nodes; ///< of each element
+  std::vector<Tags> nodes; ///< one list an element
 };
 
 struct GmshNodes {

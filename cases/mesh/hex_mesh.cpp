@@ -156,6 +156,33 @@ Grid cropped(const Grid& grid) {
   return part;
 }
 
+Pieces pieces_of(const Grid& grid) {
+  Pieces pieces;
+  pieces.piece_of_cell.assign(grid.present.size(), -1);
+  std::vector<std::size_t> to_visit;
+  const auto visit = [&](std::size_t cell) {
+    if (!grid.present[cell] || pieces.piece_of_cell[cell] >= 0) return;
+    pieces.piece_of_cell[cell] = static_cast<int>(pieces.sizes.size()) - 1;
+    to_visit.push_back(cell);
+  };
+  for (std::size_t first = 0; first < grid.present.size(); ++first) {
+    if (!grid.present[first] || pieces.piece_of_cell[first] >= 0) continue;
+    pieces.sizes.push_back(0);
+    for (visit(first); !to_visit.empty(); ++pieces.sizes.back()) {
+      const std::size_t cell = to_visit.back();
+      to_visit.pop_back();
+      std::size_t stride = 1;
+      for (const int n_cells : grid.cells) {
+        const std::size_t n = index(n_cells), place = cell / stride % n;
+        if (place > 0) visit(cell - stride);
+        if (place + 1 < n) visit(cell + stride);
+        stride *= n;
+      }
+    }
+  }
+  return pieces;
+}
+
 HexMesh make_grid_mesh(const Grid& grid) {
   assert(grid.present.empty() || grid.present.size() == grid.n_lattice_cells());
   HexMesh mesh;
@@ -326,7 +353,7 @@ std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
 
 namespace {
 
-/// Of a grid: no memory but for the faces.
+/// The faces of a grid, without memory for others.
 std::vector<std::array<int, 4>> boundary_faces_of_grid(const HexMesh& mesh) {
   std::vector<std::array<int, 4>> faces;
   std::size_t cell = 0;

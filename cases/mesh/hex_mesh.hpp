@@ -39,7 +39,7 @@ struct Grid {
   /// a bar that is more than thin, if it succeeds.
   double slenderness() const;
   static constexpr double thin = 20;
-  static constexpr double most_cells = 50e6; ///< of a grid that a surface or a picture is filled with
+  static constexpr double most_cells = 50e6; ///< in a grid that fills a surface or a picture
 };
 
 class Sharing;
@@ -65,6 +65,15 @@ constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 
 /// The same cells without the empty layers around them: fields on a grid have numbers for what is empty too.
 Grid cropped(const Grid& grid);
+
+/// The present cells of a grid, in pieces that hang together by faces.
+struct Pieces {
+  std::vector<int> piece_of_cell; ///< for every place of the grid, -1 where no cell is
+  std::vector<std::size_t> sizes; ///< cells of each piece
+};
+
+/// @param grid  with `present`
+Pieces pieces_of(const Grid& grid);
 
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
 /// Where every cell is present, neither nodes nor cells are stored.
@@ -98,11 +107,11 @@ std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t ce
                                              const std::vector<Eigen::Vector3d>& displacement = {},
                                              std::size_t first_node = 0);
 
-/// Of every cell that is here, whether it is inverted or degenerate.
+/// Whether each cell that is here is inverted or degenerate.
 /// @param sharing  the ranks that share the displacement; null: all of it is here
 std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                                  const Sharing* sharing = nullptr);
-/// Of all ranks.
+/// Their number on all ranks.
 int n_inverted(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                const Sharing* sharing = nullptr);
 

@@ -2,7 +2,7 @@
 
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
-#include "cases/mesh/pieces.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
@@ -122,7 +122,7 @@ std::optional<std::size_t> place_at(const LabelGrid& grid, double edge, const Ve
   return place;
 }
 
-/// Of every cell of a grid, whether it or a cell that shares a node with it is of a class.
+/// Whether each cell of a grid, or one that shares a node with it, belongs to a class.
 std::vector<bool> near_body(const LabelGrid& grid) {
   std::vector<bool> near;
   near.reserve(grid.class_of_cell.size());

@@ -13,7 +13,7 @@ struct LabelGrid {
   std::vector<std::uint8_t>
       class_of_cell;             ///< x fastest; 0: none, else one more than a place in Labels::classes
   float lowest = 0, highest = 0; ///< intensity of the whole picture, what is no number left out
-  Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< of the whole picture, mm
+  Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< mm, the whole picture
 };
 
 /// Reads the picture of a body, at the body's scale.

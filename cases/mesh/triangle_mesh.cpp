@@ -11,7 +11,7 @@ namespace {
 
 /// Gives numbers to keys, in the order in which they are met.
 template<class Key>
-class Numbers {
+class Numbering {
  public:
   /// @return the number of a key, and whether it is a new one
   std::pair<int, bool> of(const Key& key) {
@@ -27,7 +27,7 @@ class Numbers {
 
 TriangleMesh joined(const Surface& surface) {
   TriangleMesh mesh;
-  Numbers<std::array<double, 3>> numbers;
+  Numbering<std::array<double, 3>> numbers;
   for (const auto& corners : surface) {
     std::array<int, 3> triangle;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -48,7 +48,7 @@ TriangleMesh outer_surface(const HexMesh& mesh) {
 
 TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
   TriangleMesh outer;
-  Numbers<int> numbers; // of nodes
+  Numbering<int> numbers; // of nodes
   for (const std::array<int, 4>& face : faces) {
     std::array<int, 4> vertices;
     for (std::size_t v = 0; v < 4; ++v) {

@@ -1,6 +1,6 @@
 #include "cases/mesh/voxels.hpp"
 
-#include "cases/mesh/pieces.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/read_vtk.hpp"
 
 #include <algorithm>

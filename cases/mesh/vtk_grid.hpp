@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/point_cloud.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <cstring>
 #include <vtkDoubleArray.h>

@@ -1,6 +1,6 @@
 #include "cases/scene/cut.hpp"
 
-#include "cases/mesh/pieces.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <algorithm>

@@ -22,7 +22,7 @@ struct NodeMass {
 /// What [[mass]] adds to nodes of the mesh, in ascending order: shared equally by a region's nodes; a node on
 /// symmetry planes has the modelled part alone, as of a force.
 std::vector<NodeMass> added_masses(const Scene& scene);
-/// Of a node; 0 where the list has none.
+/// The mass of a node; 0 where the list has none.
 double mass_of(const std::vector<NodeMass>& added, int node);
 
 /// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them; or as

@@ -12,7 +12,7 @@ struct NetworkSpring {
   int a, b;
   double stiffness;                    ///< N/mm, > 0
   std::optional<double> rest_length{}; ///< mm, > 0; absent: the distance of the nodes at rest
-  std::optional<double> exponent{};    ///< of the power-log law; absent: Hooke's
+  std::optional<double> exponent{};    ///< power-log law; absent: Hooke's
 };
 
 /// Lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes), stiffness in

@@ -1,7 +1,7 @@
 #include "cases/scene/scene.hpp"
 
 #include "cases/case/input_file.hpp"
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"

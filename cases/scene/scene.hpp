@@ -20,8 +20,8 @@ struct Scene {
   struct AppliedLoad {
     Selection selection;
     Load load;
-    std::vector<double> part{}; ///< of a nodal_force, for each of the selection's nodes; empty: all of it
-    /// Of a nodal_force on a patch of a surface, which nodes and parts are made from: see give_to_nodes()
+    std::vector<double> part{}; ///< share of a nodal_force at each selected node; empty: all of it
+    /// Points of a nodal_force on a patch of a surface, from which give_to_nodes() makes nodes and parts
     std::vector<WeightedPoint> points{};
   };
   struct AppliedMass {
@@ -36,8 +36,8 @@ struct Scene {
   std::vector<MovedNodes> moved;             ///< the sides of joined cuts after [[moved]]
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
-  std::vector<NetworkSpring> network{}; ///< of design = "network", whose springs are no cells'
-  TriangleMesh surface{};               ///< of the case's file; empty: it names none
+  std::vector<NetworkSpring> network{}; ///< springs of design = "network", which are no cells'
+  TriangleMesh surface{};               ///< from the case's file; empty: it names none
   std::vector<std::string> remarks{};   ///< what was left out of files that the body is made from
 };
 

@@ -2,8 +2,8 @@
 // cells. `springproof sweep --perf` has the instructions counted that run below springproof_counted_call.
 
 #include "compare/sweep/timed_cube.hpp"
-#include "msm/grid/multigrid.hpp"
 #include "msm/spring_body.hpp"
+#include "msm/grid/spring_levels.hpp"
 
 #include <functional>
 #include <iostream>
@@ -49,8 +49,7 @@ void run_grid(int cells, void (Grid<Real>::*kernel)()) {
 
 void run_multigrid(int cells) {
   const Body body = compare::timed_cube(cells);
-  const std::deque<Body> bodies = msm::grid::coarsenings(body);
-  msm::grid::Multigrid multigrid(bodies, 1);
+  msm::grid::SpringLevels multigrid(body, 1);
   Field<double> field = Field<double>::Zero(3 * body.layout.size), solution = field;
   multigrid.linearise(field);
   field[body.layout.at(1, 1, cells)] = 1;

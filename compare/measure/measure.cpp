@@ -1,9 +1,8 @@
 #include "compare/measure/measure.hpp"
 
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/measure/of_regions.hpp"
-#include "compare/measure/tensor.hpp"
+#include "compare/measure/of_cells.hpp"
 #include "compare/measure/turns.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
@@ -98,7 +97,7 @@ class NodeMeasure {
     return std::visit(value, measure_.kind);
   }
 
-  /// Of an angle, its value with whole turns.
+  /// The value of an angle with whole turns.
   /// @param displacement  mm, one per node that is here   @param time  s; none: of statics
   double with_turns(double value, const Points& displacement, const cases::Sharing* sharing,
                     std::optional<double> time) const {
@@ -127,7 +126,7 @@ Numbers sum_of_ranks(Numbers here, const cases::Solution& solution) {
   return here;
 }
 
-/// Of the cells that hold the measure's point.
+/// The mean over the cells that hold the measure's point.
 double at_point(const measures::OfCells& measure, const cases::Scene& scene, const cases::Solution& solution,
                 const std::vector<cases::SymmetricTensor>& of_cells) {
   const cases::Range here = cases::share_here(scene.mesh, solution.sharing.get()).cells;

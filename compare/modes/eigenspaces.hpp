@@ -2,7 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "compare/solve/solvers.hpp"
-#include "msm/design/linear_method.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include <Eigen/SparseCore>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/solve/springs.hpp"
-#include "msm/vibrating_lattice.hpp"
+#include "msm/moving_springs.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

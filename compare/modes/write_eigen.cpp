@@ -59,6 +59,10 @@ Json mode_to_json(const MatchedModes& mode) {
           {"error_percent", mode.error_percent}};
 }
 
+void write_rows(const std::string& path, const Columns& columns, const Json& rows) {
+  write_file(path, [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+}
+
 /// Writes shapes of modes on a mesh as arrows.
 void write_shapes(const std::string& path, const cases::HexMesh& mesh,
                   const std::vector<cases::PointField>& shapes) {
@@ -221,8 +225,8 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
       fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
                         as_points(canonical_basis(basis(*spectrum, *space)).col(0))});
   }
-  const Columns columns{{"# mode"}, {"fem_eigenvalue"}, {"msm_eigenvalue"}, {"ratio"}, {"angle_degrees"}};
-  write_file(folder + "/body_modes.csv", [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+  write_rows(folder + "/body_modes.csv",
+             {{"# mode"}, {"fem_eigenvalue"}, {"msm_eigenvalue"}, {"ratio"}, {"angle_degrees"}}, rows);
   write_shapes(folder + "/body_modes.vtu", mesh, fields);
   draw(folder, "body_modes", "body_modes");
 }
@@ -275,9 +279,7 @@ void write_vibrations_files(const std::string& folder, const VibrationStudy& stu
       if (mode.msm_hz) add(design.design, mode, design.msm.shapes.col(mode.msm_mode));
     }
   const std::string path = folder + "/" + study.name + "_modes";
-  const Columns columns{{"design"}, {"mode"},    {"fem_hz"},       {"multiplicity"},
-                        {"msm_hz"}, {"overlap"}, {"error_percent"}};
-  write_file(path + ".csv", [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+  write_rows(path + ".csv", columns_of("design mode fem_hz multiplicity msm_hz overlap error_percent"), rows);
   write_shapes(path + ".vtu", mesh, fields);
 }
 

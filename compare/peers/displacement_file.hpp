@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/point_cloud.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 /// Displacements that another simulator computed, as they stand in a file.
 namespace springproof::compare {

@@ -5,7 +5,7 @@
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/larger.hpp"
 #include "msm/fields.hpp"
-#include "msm/motion.hpp"
+#include "msm/moving_body.hpp"
 #include "msm/moving_springs.hpp"
 
 #include <algorithm>

@@ -97,21 +97,11 @@ void write_ranking_csv(std::ostream& out, const std::vector<Ranking>& rankings) 
       rows.back()["recommended"] = &trial == best;
     }
   }
+  const std::string of_errors =
+      "worst_error_percent worst_error_uncertainty_percent worst_at worst_volume_error_percent ";
   write_csv(out,
-            {{"case"},
-             {"design"},
-             {"recommended"},
-             {"worst_error_percent"},
-             {"worst_error_uncertainty_percent"},
-             {"worst_at"},
-             {"worst_volume_error_percent"},
-             {"stable"},
-             {"has_moduli"},
-             {"milliseconds"},
-             {"milliseconds_a_step"},
-             {"springs"},
-             {"refused"},
-             {"failed"}},
+            columns_of("case design recommended " + of_errors +
+                       "stable has_moduli milliseconds milliseconds_a_step springs refused failed"),
             rows);
 }
 

@@ -1,4 +1,4 @@
-#include "compare/sweep/reference.hpp"
+#include "compare/sweep/sweep.hpp"
 
 #include "compare/error_bars/mesh_study.hpp"
 #include "compare/measure/measure.hpp"

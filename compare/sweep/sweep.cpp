@@ -4,6 +4,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/process_pool.hpp"
+#include "compare/solve/progress.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/solvers.hpp"

@@ -2,11 +2,10 @@
 
 #include "cases/case/case.hpp"
 #include "cases/case/solution.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/solve/progress.hpp"
-#include "compare/sweep/plan.hpp"
-#include "compare/sweep/reference.hpp"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <ostream>
@@ -15,6 +14,134 @@
 
 /// Speed against error of a case: springs and finite elements at several resolutions, at rest and in time.
 namespace springproof::compare {
+
+/// A number that is known up to an error bar.
+struct ReferenceValue {
+  std::string name, unit;
+  double value;               ///< extrapolated to no mesh width, where there is an order to do that by
+  double uncertainty_percent; ///< grid convergence index of the finest mesh
+  std::string note;           ///< how it was found when there is no order
+};
+
+/// What every variant of a sweep is held against: the finite-strain answer extrapolated from three meshes,
+/// each known on the nodes of a grid.
+struct Reference {
+  cases::Scene scene;       ///< that of the middle grid, on whose nodes displacements are compared
+  cases::Solution solution; ///< the extrapolated displacement there
+  ReferenceValue field;     ///< the displacement as a whole; its value is the root mean square, mm
+  std::vector<ReferenceValue> measures; ///< those of the case, in its order
+};
+
+/// Extrapolates by Richardson's rule, measures by what judge_refinement() finds, the displacement by the
+/// order of its differences' L2 norms on the coarsest grid's nodes. Without an order the finest mesh's value
+/// stands, and its uncertainty is three times the difference to the next mesh: an order of 1 is assumed, with
+/// the safety factor that Roache (1994) asks for then.
+/// @param definition    its body is a box
+/// @param cells         of three grids, each of twice the cells before
+/// @param displacement  mm, on the nodes of each
+/// @throws InputError if the case's measures have no nodes on the middle grid
+Reference make_reference(const cases::Case& definition, const std::array<std::array<int, 3>, 3>& cells,
+                         const std::array<std::vector<Eigen::Vector3d>, 3>& displacement);
+
+/// Error of a displacement on another grid of the same box, percent of the reference's: L2 norm of the
+/// difference, on the reference's mesh.
+std::optional<double> field_error_percent(const Reference& reference, const std::array<int, 3>& cells,
+                                          const std::vector<Eigen::Vector3d>& displacement);
+
+/// Errors of the case's measures, percent, with their sign; volumes are those of the interpolated
+/// displacement.
+std::vector<std::optional<double>> measure_errors_percent(const Reference& reference,
+                                                          const std::array<int, 3>& cells,
+                                                          const std::vector<Eigen::Vector3d>& displacement);
+
+/// The case's scene on a box of that many cells, measures and all.  @throws InputError
+cases::Scene scene_on(const cases::Case& definition, const std::array<int, 3>& cells);
+
+/// A field on the nodes of a box's grid, trilinear between them, at the nodes of another grid of the same
+/// box.
+/// @param field     one vector per node, x fastest
+/// @param from, to  cells along x, y, z
+std::vector<Eigen::Vector3d> interpolate(const std::vector<Eigen::Vector3d>& field,
+                                         const std::array<int, 3>& from, const std::array<int, 3>& to);
+
+SPRINGPROOF_ENUMERATION(Program, springs, finite_elements, calculix)
+
+/// Springs against everything else: what "which model is faster" is about.
+enum class Family { springs, finite_elements };
+
+/// One way to answer a case on a box: a model, its resolution, and how exactly its equations are solved, or
+/// in which steps it moves.
+struct Variant {
+  Program program = Program::springs;
+  cases::Design design{};           ///< springs
+  cases::Formulation formulation{}; ///< finite elements, CalculiX
+  cases::Element element{};         ///< finite elements, CalculiX
+  std::array<int, 3> cells{};       ///< those of the box, along x, y, z
+  double tolerance = 1e-9;          ///< on |imbalance| / |applied load|; CalculiX has its own
+  double step = 0;                  ///< a motion's, s; 0: at rest
+};
+
+Family family_of(const Variant& variant);
+
+/// The model without its resolution: "springs hybrid", "log_strain q2", "CalculiX small_strain q1".
+std::string method_name(const Variant& variant);
+
+/// "8x8x8"
+std::string cells_name(const std::array<int, 3>& cells);
+
+/// The grid on whose nodes a variant knows displacements: that of its cells, for a quadratic element of twice
+/// as many.
+std::array<int, 3> field_cells(const Variant& variant);
+
+/// Method, cells and tolerance: "springs hybrid 8x2x2 to 1e-09"; of a motion "springs hybrid, 8x2x2 cells,
+/// steps of 2 ms".
+std::string full_name(const Variant& variant);
+
+/// The case as a variant has it, without measures: their nodes need not exist on every mesh.
+/// @param definition  its body is a box
+cases::Case with_variant(const cases::Case& definition, const Variant& variant);
+
+enum class Extent { full, quick };
+
+/// Something that a full answer would have and this sweep has not.
+struct LeftOut {
+  std::string what, reason;
+};
+
+/// Levels of cells, each of twice the level before: four, of a quick sweep three. They start at half the
+/// box's own cells where these are even, at its own otherwise.
+std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent);
+
+/// Tolerances (in time: steps) with which a sweep solves springs.
+enum class Settings { all, one };
+
+/// A design of springs on one level.
+struct SweptSprings {
+  cases::Design design{};
+  std::array<int, 3> cells{};
+  Settings settings{};
+};
+
+/// The designs that are made from a material, each on every level. Designs of others are there to be compared
+/// with: one setting is enough, and all have the sizes that those of them have that are factorised. A quick
+/// sweep has one setting of every design.
+/// @param left_out  what is too large is added to it
+std::vector<SweptSprings> springs_to_sweep(const cases::Material& material,
+                                           const std::vector<std::array<int, 3>>& levels, Extent extent,
+                                           std::vector<LeftOut>& left_out);
+
+/// What a sweep solves.
+struct Plan {
+  std::vector<std::array<int, 3>> levels; ///< cells, each of twice the level before
+  std::vector<Variant> reference; ///< the finite-strain meshes that the truth comes from, coarse to fine
+  std::vector<Variant> variants;  ///< the reference's among them
+  std::vector<LeftOut> left_out;
+};
+
+/// The plan for a case: every spring design at every level and tolerance, small- and finite-strain finite
+/// elements (q1, q1_bbar, q2) and CalculiX as far as their unknowns allow, on levels_of() its body.
+/// @throws InputError for a body that is no box or a material without small strain
+Plan plan_sweep(const cases::Case& definition, Extent extent);
 
 /// How often a variant is timed.
 struct TimingRules {

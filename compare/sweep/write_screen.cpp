@@ -42,7 +42,7 @@ std::string with_name(const std::string& start, const Point& point, const std::s
   return start + short_name(point, width - start.size() - marked.size()) + marked;
 }
 
-std::size_t columns_of(Family family) {
+std::size_t width_of(Family family) {
   return side_columns[family == Family::springs ? 0 : 1] - 1;
 }
 
@@ -64,7 +64,7 @@ std::string fastest_text(const std::vector<Point>& points, double percent, Famil
   const std::string factor =
       wins && rival ? fmt::format(" ({} x)", short_number(points[*rival].seconds / point.seconds)) : "";
   return with_name(fmt::format("{}{:>8} ", wins ? ">" : " ", short_time(point.seconds)), point, factor,
-                   columns_of(family));
+                   width_of(family));
 }
 
 void write_fastest(std::ostream& out, const Sweep& sweep, Error error, Clock clock) {
@@ -95,7 +95,7 @@ std::string real_time_text(const std::vector<Point>& points, double uncertainty,
   if (!found) return "          none";
   const Point& point = points[*found];
   return with_name(fmt::format(" {} at {}: ", error_text(point, uncertainty), short_time(point.seconds)),
-                   point, "", columns_of(family));
+                   point, "", width_of(family));
 }
 
 void write_real_time(std::ostream& out, const Sweep& sweep) {

@@ -87,9 +87,7 @@ std::vector<std::size_t> TextTable::widths() const {
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     all.push_back(printed_width(columns_[c].heading));
-    for (const auto& row : rows_)
-      if (c + 1 < row.size() || (c < row.size() && row.size() == columns_.size()))
-        all.back() = std::max(all.back(), printed_width(row[c]));
+    for (const auto& row : rows_) all.back() = std::max(all.back(), printed_width(row.at(c)));
   }
   return all;
 }
@@ -101,21 +99,19 @@ std::size_t TextTable::width() const {
 
 void TextTable::write(std::ostream& out) const {
   const std::vector<std::size_t> all = widths();
-  const auto write_row = [&](std::size_t n, const auto& text_in) {
+  const auto write_row = [&](const auto& text_in) {
     std::string line;
-    for (std::size_t c = 0; c < n; ++c) {
-      const std::string text = one_line(text_in(c));
-      const std::string fill = blanks(all[c] - std::min(all[c], printed_width(text)));
-      const bool is_message = c + 1 == n && n < columns_.size();
-      const bool is_left = c == 0 || is_message || columns_[c].format.find('<') != std::string::npos;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string text = one_line(text_in(c)), fill = blanks(all[c] - printed_width(text));
+      const bool is_left = c == 0 || columns_[c].format.find('<') != std::string::npos;
       line += blanks(c == 0 ? indent_of_tables : gap);
       line += is_left ? text + fill : fill + text;
     }
     line.erase(line.find_last_not_of(' ') + 1);
     print(out, "{}\n", line);
   };
-  write_row(columns_.size(), [&](std::size_t c) { return columns_[c].heading; });
-  for (const auto& row : rows_) write_row(row.size(), [&](std::size_t c) { return row[c]; });
+  write_row([&](std::size_t c) { return columns_[c].heading; });
+  for (const auto& row : rows_) write_row([&](std::size_t c) { return row.at(c); });
 }
 
 } // namespace springproof::compare

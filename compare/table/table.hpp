@@ -130,7 +130,7 @@ class TextTable {
   ///              or "no"
   TextTable(Columns columns, const Json& rows);
 
-  /// @param row  as many texts as there are columns; or fewer, and then the last one may have any width
+  /// @param row  as many texts as there are columns
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   /// Number of columns of the terminal that the widest line takes.
   std::size_t width() const;

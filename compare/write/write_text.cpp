@@ -173,41 +173,30 @@ void write_table(std::ostream& out, const Comparison& comparison) {
   const auto& peer = comparison.answers.peer;
   const bool has_limits = std::any_of(measures.begin(), measures.end(),
                                       [](const MeasuredValue& m) { return m.fem_limit.has_value(); });
-  Columns columns{{"measure"}, {"unit"}, {"fem"}, {"springs"}};
-  if (has_limits) columns.push_back({"fem's limit"});
-  columns.push_back({"error %"});
-  if (has_limits) columns.push_back({"fem's error %"});
-  if (peer) columns.push_back({peer->program});
-  TextTable table(std::move(columns));
-  for (const MeasuredValue& m : measures) {
+  const Json rows = json_list(measures, [&](const MeasuredValue& m) {
+    const bool is_of_difference = is_norm(m, comparison.scene.definition);
     const auto& limit = m.fem_limit;
-    std::vector<std::string> row{m.name, m.unit, number(m.fem, "{:.6g}"), number(m.msm, "{:.6g}")};
-    if (has_limits) row.push_back(limit ? with_bar(limit->value, "{:.6g}", limit->uncertainty) : "-");
-    row.push_back(error_text(m, is_norm(m, comparison.scene.definition)));
-    if (has_limits)
-      row.push_back(
-          number(m.fem_error_percent, is_norm(m, comparison.scene.definition) ? "{:.2f}*" : "{:+.2f}"));
-    if (peer) row.push_back(number(m.peer, "{:.6g}"));
-    table.add(std::move(row));
-  }
-  table.write(out);
+    Json row = SPRINGPROOF_MEMBERS(m, name, unit, fem, msm, peer);
+    row.update({{"limit", limit ? with_bar(limit->value, "{:.6g}", limit->uncertainty) : "-"},
+                {"error", error_text(m, is_of_difference)},
+                {"fem_error", number(m.fem_error_percent, is_of_difference ? "{:.2f}*" : "{:+.2f}")}});
+    return row;
+  });
+  Columns columns{{"measure", "name"}, {"unit"}, {"fem", "", "{:.6g}"}, {"springs", "msm", "{:.6g}"}};
+  if (has_limits) columns.push_back({"fem's limit", "limit"});
+  columns.push_back({"error %", "error"});
+  if (has_limits) columns.push_back({"fem's error %", "fem_error"});
+  if (peer) columns.push_back({peer->program, "peer", "{:.6g}"});
+  TextTable(columns, rows).write(out);
 }
 
-/// What a value of all measures has in common, if it has: then it is told once.
-template<class Get>
-std::string common_text(const std::vector<StudiedMeasure>& measures, const Get& get) {
-  const bool is_common =
-      !measures.empty() && std::all_of(measures.begin(), measures.end(), [&](const StudiedMeasure& m) {
-        return get(m) == get(measures.front());
-      });
-  return is_common ? get(measures.front()) : "";
-}
-
-/// Why the errors are against the same mesh, of those measures of which they are.
+/// Tells why errors are against the same mesh, once where all measures have the same reason.
 void write_missing_limits(std::ostream& out, const MeshStudy& study) {
-  const auto reason = [](const StudiedMeasure& m) { return m.no_reference; };
-  if (const std::string common = common_text(study.measures, reason); !common.empty()) {
-    write_wrapped(out, "  errors are against the finite elements on the same mesh: " + common, 4);
+  if (study.measures.empty()) return;
+  const std::string& reason = study.measures.front().no_reference;
+  const auto has_it = [&](const StudiedMeasure& m) { return m.no_reference == reason; };
+  if (!reason.empty() && std::all_of(study.measures.begin(), study.measures.end(), has_it)) {
+    write_wrapped(out, "  errors are against the finite elements on the same mesh: " + reason, 4);
     return;
   }
   for (const StudiedMeasure& m : study.measures)

@@ -8,6 +8,7 @@
 namespace springproof::fem_reference::grid {
 
 using cases::index;
+using mechanics::grid::for_each_place;
 
 namespace {
 
@@ -60,15 +61,6 @@ bool has_cell(const Body& body, int i, int j, int k) {
   return false;
 }
 
-std::array<bool, 3> axes_to_coarsen(const std::array<int, 3>& cells, const Eigen::Vector3d& spacing) {
-  double smallest = INFINITY;
-  for (int a = 0; a < 3; ++a)
-    if (cells[index(a)] > 2) smallest = std::min(smallest, spacing[a]);
-  std::array<bool, 3> axes{};
-  for (int a = 0; a < 3; ++a) axes[index(a)] = cells[index(a)] > 2 && spacing[a] < 1.5 * smallest;
-  return axes;
-}
-
 Slab deal(const std::array<int, 3>& cells, MPI_Comm communicator, int multiple) {
   return is_small(cells) ? Slab(cells[2] + 1) : Slab(cells[2] + 1, communicator, multiple);
 }
@@ -77,16 +69,15 @@ Slab coarsen(const Slab& fine, const std::array<int, 3>& cells, bool along_z) {
   return fine.coarser(along_z, is_small(cells) || (along_z && !fine.can_be_halved()));
 }
 
-Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
+Body coarsen(const Body& fine, const std::array<int, 3>& factor) {
   const std::array<int, 3> fine_cells = fine.cells_of_grid();
-  std::array<int, 3> factor, cells;
+  std::array<int, 3> cells;
   Eigen::Vector3d spacing;
   for (std::size_t a = 0; a < 3; ++a) {
-    factor[a] = axes[a] ? 2 : 1;
     cells[a] = (fine_cells[a] + factor[a] - 1) / factor[a];
     spacing[static_cast<int>(a)] = factor[a] * fine.spacing[static_cast<int>(a)];
   }
-  Body coarse(cells, coarsen(fine.slab, cells, axes[2]), spacing, fine.law, fine.has_modes);
+  Body coarse(cells, coarsen(fine.slab, cells, factor[2] == 2), spacing, fine.law, fine.has_modes);
   const int first = fine.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
   const float share = 1.0f / static_cast<float>(factor[0] * factor[1] * factor[2]);
   const auto place = [&](int i, int j, int k) {
@@ -96,20 +87,18 @@ Body coarsen(const Body& fine, const std::array<bool, 3>& axes) {
   coarse.n_parameters = fine.n_parameters;
   coarse.parameters = fine.parameters;
   if (!fine.has_one_material()) coarse.parameters.assign(index(fine.n_parameters) * n_coarse, 0.);
-  for (int k = 0; k < fine.cells[2]; ++k)
-    for (int j = 0; j < fine.cells[1]; ++j)
-      for (int i = 0; i < fine.cells[0]; ++i) {
-        const auto from = index(fine.layout.cell(i, j, k)), to = place(i, j, k);
-        const float before = coarse.weight[to], added = share * fine.weight[from];
-        if (!(added > 0)) continue;
-        coarse.weight[to] += added;
-        if (fine.has_one_material()) continue;
-        const double part = static_cast<double>(added / (before + added));
-        for (std::size_t p = 0; p < index(fine.n_parameters); ++p) {
-          double& mean = coarse.parameters[p * n_coarse + to];
-          mean += part * (fine.parameters[p * n_fine + from] - mean);
-        }
-      }
+  for_each_place(fine.cells, [&](int i, int j, int k) {
+    const auto from = index(fine.layout.cell(i, j, k)), to = place(i, j, k);
+    const float before = coarse.weight[to], added = share * fine.weight[from];
+    if (!(added > 0)) return;
+    coarse.weight[to] += added;
+    if (fine.has_one_material()) return;
+    const double part = static_cast<double>(added / (before + added));
+    for (std::size_t p = 0; p < index(fine.n_parameters); ++p) {
+      double& mean = coarse.parameters[p * n_coarse + to];
+      mean += part * (fine.parameters[p * n_fine + from] - mean);
+    }
+  });
   const std::ptrdiff_t n_of_layer = coarse.layout.cell(0, 0, 1);
   coarse.slab.complete_layers(coarse.weight.data(), n_of_layer);
   if (!fine.has_one_material())

@@ -32,10 +32,47 @@ struct Body {
   Cells view() const;
 };
 
+/// Rows are padded to whole packs; a plane and a row of ghosts lie before the first node and after the last.
+/// Ghosts are numbers, and 0 in what is summed over.
 Layout make_layout(const std::array<int, 3>& cells);
 
 /// Whether node (i, j, k) touches a cell that is held.
 bool has_cell(const Body& body, int i, int j, int k);
+
+using Place = Eigen::Vector3i; ///< of a node in its grid
+
+/// Where the nodes of a grid are, and which of them a rank has.
+struct Places {
+  Eigen::Vector3d origin, spacing; ///< mm
+  const Body& body;
+
+  Place of(const Eigen::Vector3d& rest) const {
+    const Eigen::Vector3d at = (rest - origin).cwiseQuotient(spacing);
+    return at.array().round().cast<int>();
+  }
+  Eigen::Vector3d rest(const Place& at) const { return origin + at.cast<double>().cwiseProduct(spacing); }
+  bool holds(const Place& at) const { return is_in({0, body.slab.n_planes()}, at); }
+  bool owns(const Place& at) const { return is_in(body.slab.computed(), at); }
+  /// Of a node that is held.
+  std::ptrdiff_t entry(const Place& at) const {
+    return body.layout.at(at.x(), at.y(), at.z() - body.slab.first_of_grid());
+  }
+  /// Calls action(place) for the nodes of the elements that the rank computes.
+  template<class Action>
+  void for_each(const Action& action) const {
+    const auto [begin, end] = body.slab.computed();
+    for (int k = begin; k < end; ++k)
+      for (int j = 0; j <= body.cells[1]; ++j)
+        for (int i = 0; i <= body.cells[0]; ++i)
+          if (has_cell(body, i, j, k)) action(Place(i, j, body.slab.first_of_grid() + k));
+  }
+
+ private:
+  bool is_in(const Slab::Range& planes, const Place& at) const {
+    const int plane = at.z() - body.slab.first_of_grid();
+    return plane >= planes.begin && plane < planes.end;
+  }
+};
 
 /// A rank's slab of a grid; the whole grid on every rank when it is small.
 /// @param multiple  of which each rank's first plane is one
@@ -45,12 +82,8 @@ Slab deal(const std::array<int, 3>& cells, MPI_Comm communicator, int multiple);
 /// planes.
 Slab coarsen(const Slab& fine, const std::array<int, 3>& cells_of_coarse_grid, bool along_z);
 
-/// The axes along which a grid is next coarsened: those whose spacing is (almost) the smallest, so that cells
-/// tend to cubes. None: it is as coarse as it gets.
-std::array<bool, 3> axes_to_coarsen(const std::array<int, 3>& cells, const Eigen::Vector3d& spacing);
-
-/// The same body in cells of twice the edge along some axes: a coarse cell has the mean weight and parameters
-/// of its fine ones; a node is constrained where the fine node at its place is.
-Body coarsen(const Body& fine, const std::array<bool, 3>& axes);
+/// The same body in cells that are `factor` fine ones along each axis: a coarse cell has the mean weight and
+/// parameters of its fine ones; a node is constrained where the fine node at its place is.
+Body coarsen(const Body& fine, const std::array<int, 3>& factor);
 
 } // namespace springproof::fem_reference::grid

@@ -1,9 +1,6 @@
 #include "fem_reference/grid/coarse_guess.hpp"
 
-#include "cases/case/error.hpp"
 #include "cases/mesh/hex_mesh.hpp"
-#include "fem_reference/grid/transfer.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -16,15 +13,13 @@ using cases::index;
 using mechanics::Vector;
 
 constexpr int fewest_nodes = 200;
-/// Of a coarse body's path: a guess is worth no more.
-constexpr double smallest_step = 0.25, tolerance = 1e-3;
 
 /// A field's values at the fine nodes in the same places.
 Field<double> inject(const Field<double>& fine, const Body& from, const Body& to,
-                     const std::array<bool, 3>& axes) {
+                     const std::array<int, 3>& factor) {
   Field<double> coarse = Field<double>::Zero(3 * to.layout.size);
   const std::array<int, 3> fine_cells = from.cells_of_grid();
-  const auto fine_node = [&](int n, std::size_t a) { return std::min(axes[a] ? 2 * n : n, fine_cells[a]); };
+  const auto fine_node = [&](int n, std::size_t a) { return std::min(factor[a] * n, fine_cells[a]); };
   const auto [begin, end] = to.slab.own();
   for (int k = begin; k < end; ++k) {
     const int fine_k = fine_node(to.slab.first_of_grid() + k, 2) - from.slab.first_of_grid();
@@ -40,19 +35,19 @@ Field<double> inject(const Field<double>& fine, const Body& from, const Body& to
 
 /// Loads by the transpose of interpolation; supports as those of the fine nodes in the same place.
 /// @param from, to  must outlive the result
-Supported coarsen(const Supported& fine, const Body& from, const Body& to, const std::array<bool, 3>& axes,
+Supported coarsen(const Supported& fine, const Body& from, const Body& to, const std::array<int, 3>& factor,
                   int n_threads) {
   Supported coarse;
   coarse.load.setZero(3 * to.layout.size);
   Field<double> load = fine.load;
-  restrict(from.space(n_threads), to.space(n_threads), axes, load, coarse.load);
+  Transfer<double>(from.space(n_threads), to.space(n_threads), factor).restrict(load, coarse.load);
   coarse.load.array() *= to.free.cast<double>().array();
   if (!fine.prescribed) return coarse;
   // every rank takes part, whether or not it has any of these nodes
-  const auto injected = [&from, &to, axes, moved = fine.moved](const std::vector<double>& values) {
+  const auto injected = [&from, &to, factor, moved = fine.moved](const std::vector<double>& values) {
     Field<double> field = Field<double>::Zero(3 * from.layout.size);
     for (std::size_t m = 0; m < moved.size(); ++m) field[moved[m]] = values[m];
-    return inject(field, from, to, axes);
+    return inject(field, from, to, factor);
   };
   const Field<double> is_moved = injected(std::vector<double>(fine.moved.size(), 1.));
   for (Eigen::Index entry = 0; entry < is_moved.size(); ++entry)
@@ -69,48 +64,39 @@ Supported coarsen(const Supported& fine, const Body& from, const Body& to, const
 } // namespace
 
 CoarseGuess coarse_guess(const Body& body, const Supported& supported, double load_factor, int n_threads) {
-  const std::array<bool, 3> axes = axes_to_coarsen(body.cells_of_grid(), body.spacing);
-  if (!axes[0] && !axes[1] && !axes[2]) return {};
-  const Body coarse = coarsen(body, axes);
+  const auto factor = mechanics::grid::coarsening_factor(body.cells_of_grid(), body.spacing);
+  if (!factor) return {};
+  const Body coarse = coarsen(body, *factor);
   const Layout &from = coarse.layout, &to = body.layout;
   if (from.nodes[0] * from.nodes[1] * coarse.slab.n_planes_of_grid() < fewest_nodes) return {};
-  const Supported held = coarsen(supported, body, coarse, axes, n_threads);
-  GridEquations equations(coarse, held, n_threads, nullptr, tolerance);
+  const Supported held = coarsen(supported, body, coarse, *factor, n_threads);
+  GridEquations equations(coarse, held, n_threads, nullptr, mechanics::grid::guess_tolerance);
   mechanics::EquilibriumSettings settings;
-  settings.tolerance = tolerance;
   settings.to = load_factor;
   settings.max_newton_per_step = 14;
   settings.easy_newton_per_step = 6;
-  settings.smallest_load_step = smallest_step;
-  settings.max_convexified_per_step = 0;
-  settings.stability = mechanics::Stability::ignore;
-  const CoarseGuess coarser = coarse_guess(coarse, held, load_factor, n_threads);
-  settings.guess = coarser.state;
-  settings.first_load_step = coarser.first_load_step;
-  try {
-    const Vector found =
-        mechanics::find_equilibrium(equations, equations.rest(), "coarse grid", settings).state;
-    Field<double> displacement = found.head(3 * from.size), fine = Field<double>::Zero(3 * to.size);
-    prolong(coarse.space(n_threads), body.space(n_threads), axes, displacement, fine);
-    fine.array() *= body.free.cast<double>().array();
-    if (supported.prescribed) {
-      const std::vector<double> values = supported.prescribed(load_factor);
-      for (std::size_t m = 0; m < values.size(); ++m) fine[supported.moved[m]] = values[m];
-    }
-    Vector guess = Vector::Zero(3 * to.size + (body.has_modes ? to.n_cell_entries() + 16 : 0));
-    guess.head(3 * to.size) = fine;
-    const int first = body.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
-    if (body.has_modes)
-      for (int k = 0; k < body.cells[2]; ++k)
-        for (int j = 0; j < body.cells[1]; ++j)
-          for (int i = 0; i < body.cells[0]; ++i)
-            guess[3 * to.size + to.cell(i, j, k)] =
-                found[3 * from.size + from.cell(axes[0] ? i / 2 : i, axes[1] ? j / 2 : j,
-                                                (axes[2] ? (first + k) / 2 : first + k) - first_coarse)];
-    return {std::move(guess)};
-  } catch (const cases::SolveError& failed) { // the fine grid has to find its own way
-    return {std::nullopt, std::clamp(failed.so_far().load_reached / load_factor, smallest_step, 0.5)};
+  CoarseGuess guess = find_guess(equations, equations.rest(), "coarse grid", settings,
+                                 coarse_guess(coarse, held, load_factor, n_threads));
+  if (!guess.state) return guess;
+  const Vector found = std::move(*guess.state);
+  Field<double> displacement = found.head(3 * from.size), fine = Field<double>::Zero(3 * to.size);
+  Transfer<double>(body.space(n_threads), coarse.space(n_threads), *factor).prolong(displacement, fine);
+  fine.array() *= body.free.cast<double>().array();
+  if (supported.prescribed) {
+    const std::vector<double> values = supported.prescribed(load_factor);
+    for (std::size_t m = 0; m < values.size(); ++m) fine[supported.moved[m]] = values[m];
   }
+  Vector& state =
+      guess.state.emplace(Vector::Zero(3 * to.size + (body.has_modes ? to.n_cell_entries() + 16 : 0)));
+  state.head(3 * to.size) = fine;
+  const int first = body.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
+  if (body.has_modes)
+    mechanics::grid::for_each_place(body.cells, [&](int i, int j, int k) {
+      const std::ptrdiff_t around =
+          from.cell(i / (*factor)[0], j / (*factor)[1], (first + k) / (*factor)[2] - first_coarse);
+      state[3 * to.size + to.cell(i, j, k)] = found[3 * from.size + around];
+    });
+  return guess;
 }
 
 } // namespace springproof::fem_reference::grid

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem_reference/grid/slab.hpp"
-#include "mechanics/grid/field.hpp"
+#include "mechanics/grid/transfer.hpp"
 
 #include <cmath>
 
@@ -16,8 +16,7 @@ using mechanics::grid::piece;
 /// matter.
 template<class Action>
 void for_each_plane(const Slab::Range& planes, int n_threads, const Action& action) {
-#pragma omp parallel for num_threads(n_threads) schedule(static) if (n_threads > 1)
-  for (int k = planes.begin; k < planes.end; ++k) action(k);
+  mechanics::grid::for_each_plane(planes.begin, planes.end, n_threads, action);
 }
 
 /// Calls action(layer) for the layers of cells held, first the even ones of the grid and then the odd ones:
@@ -49,5 +48,32 @@ template<class Real>
 double norm(const Space& space, const Field<Real>& a) {
   return std::sqrt(dot(space, a, a));
 }
+
+/// Trilinear interpolation between a slab of a grid and that of the coarser one, and its transpose. Ghosts of
+/// both fields are brought up to date.
+template<class Real>
+class Transfer {
+ public:
+  Transfer(const Space& fine, const Space& coarse, const std::array<int, 3>& factor)
+      : fine_(fine), coarse_(coarse),
+        interpolation_(fine.layout, coarse.layout, factor,
+                       {0, 0, factor[2] * coarse.slab.first_of_grid() - fine.slab.first_of_grid()},
+                       fine.n_threads) {}
+
+  void prolong(Field<Real>& coarse, Field<Real>& fine) const {
+    coarse_.slab.update_ghosts(coarse_.layout, coarse.data());
+    interpolation_.prolong(coarse, fine);
+  }
+  void restrict(Field<Real>& fine, Field<Real>& coarse) const {
+    fine_.slab.update_ghosts(fine_.layout, fine.data());
+    const auto [begin, end] = coarse_.slab.own();
+    interpolation_.restrict(fine, coarse, begin, end);
+    coarse_.slab.complete(coarse_.layout, coarse.data());
+  }
+
+ private:
+  Space fine_, coarse_;
+  mechanics::grid::Interpolation<Real> interpolation_;
+};
 
 } // namespace springproof::fem_reference::grid

@@ -1,8 +1,8 @@
 #include "fem_reference/grid/grid_equations.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "fem_reference/grid/generalised_minimal_residual.hpp"
 #include "fem_reference/grid/negative_eigenvalues.hpp"
+#include "mechanics/grid/krylov.hpp"
 
 #include <cmath>
 #include <limits>
@@ -171,10 +171,12 @@ bool GridEquations::may_keep_tangent(double norm) const {
 std::optional<Field<double>> GridEquations::solve(const Field<double>& right_side, double target) {
   const auto times = [&](Field<double>& x, Field<double>& y) { product(x, y); };
   const auto precondition = [&](const Field<double>& x, Field<double>& y) { multigrid_.apply(x, y); };
+  const auto dot = [&](const Field<double>& a, const Field<double>& b) { return grid::dot(space_, a, b); };
   const std::ptrdiff_t n_unknowns = 3 * space_.slab.n_planes_of_grid() * space_.layout.plane;
   const auto minimise = [&](int max_iterations) {
-    auto found = generalised_minimal_residual(times, precondition, right_side, target, max_iterations,
-                                              restart_of(n_unknowns), space_);
+    auto found = mechanics::grid::generalised_minimal_residual(times, precondition, right_side, target,
+                                                               max_iterations, restart_of(n_unknowns), dot,
+                                                               space_.n_threads);
     work_.linear_iterations += found.iterations;
     return found;
   };
@@ -182,7 +184,6 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
     auto found = minimise(max_unsymmetric_iterations);
     return found.converged ? std::optional(std::move(found.solution)) : std::nullopt;
   }
-  const auto dot = [&](const Field<double>& a, const Field<double>& b) { return grid::dot(space_, a, b); };
   auto found = mechanics::grid::conjugate_gradients(times, precondition, right_side, target,
                                                     max_linear_iterations, dot, space_.n_threads);
   work_.linear_iterations += found.iterations;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fem_reference/grid/multigrid.hpp"
 #include "fem_reference/grid/quadratic_elements.hpp"
+#include "fem_reference/grid/stencil_levels.hpp"
 #include "fem_reference/grid/supported.hpp"
 #include "mechanics/dynamics/dynamic_problem.hpp"
 
@@ -79,7 +79,7 @@ class GridEquations : public mechanics::DynamicProblem {
   const Supported& supported_;
   Space space_;
   QuadraticElements* quadratic_;
-  Multigrid multigrid_;
+  StencilLevels multigrid_;
   double load_norm_, volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;

@@ -2,6 +2,7 @@
 
 #include "fem_reference/grid/laws.hpp"
 #include "mechanics/grid/instruction_set.hpp"
+#include "mechanics/grid/layout.hpp"
 
 #include <cstddef>
 
@@ -10,22 +11,7 @@
 /// sets; which one runs is decided when the program starts.
 namespace springproof::fem_reference::grid {
 
-/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k). Rows are padded to whole
-/// packs; a plane and a row of ghosts lie before the first node and after the last. A field of vectors is
-/// three such arrays, x, y and z, one after the other; ghosts are numbers, and 0 in what is summed over. Cell
-/// (i, j, k) has index cell(i, j, k): rows of the same length.
-struct Layout {
-  int nodes[3] = {0, 0, 0};
-  std::ptrdiff_t row = 0;   ///< from one row to the next
-  std::ptrdiff_t plane = 0; ///< from one plane to the next
-  std::ptrdiff_t lead = 0;  ///< ghosts before the first node
-  std::ptrdiff_t size = 0;  ///< entries of one array
-  std::ptrdiff_t at(int i, int j, int k) const { return lead + i + row * j + plane * k; }
-  std::ptrdiff_t cell(int i, int j, int k) const { return i + row * (j + std::ptrdiff_t{nodes[1] - 1} * k); }
-  std::ptrdiff_t n_cell_entries() const { return row * (nodes[1] - 1) * (nodes[2] - 1); }
-  /// Row (j, k) of nodes among all.
-  std::ptrdiff_t node_row(int j, int k) const { return j + std::ptrdiff_t{nodes[1]} * k; }
-};
+using mechanics::grid::Layout;
 
 /// A matrix of 3x3 blocks between each node and its 27 neighbours: of every row of nodes (j, k) the entries
 /// [(9*neighbour + 3*c + d)][i], neighbour = (dx+1) + 3(dy+1) + 9(dz+1). Rows begin stencil_row(layout)

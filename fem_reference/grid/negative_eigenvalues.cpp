@@ -22,7 +22,7 @@ using Product = std::function<void(Field<double>&, Field<double>&)>;
 
 class Lanczos {
  public:
-  Lanczos(const Body& body, const Product& product, Multigrid& multigrid)
+  Lanczos(const Body& body, const Product& product, StencilLevels& multigrid)
       : body_(body), times_(product), multigrid_(multigrid), space_(multigrid.space()) {}
 
   /// One run from a random vector.  @return number of negative eigenvalues found; they are deflated next time
@@ -76,7 +76,7 @@ class Lanczos {
  private:
   const Body& body_;
   const Product& times_;
-  Multigrid& multigrid_;
+  StencilLevels& multigrid_;
   const Space& space_;
   std::vector<Pair> basis_, found_;
   std::mt19937 generator_{3};
@@ -117,7 +117,7 @@ class Lanczos {
 
 } // namespace
 
-int count_negative_eigenvalues(const Body& body, const Product& product, Multigrid& multigrid,
+int count_negative_eigenvalues(const Body& body, const Product& product, StencilLevels& multigrid,
                                long& linear_iterations) {
   Lanczos lanczos(body, product, multigrid);
   int total = 0;

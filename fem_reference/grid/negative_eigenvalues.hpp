@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/grid/multigrid.hpp"
+#include "fem_reference/grid/stencil_levels.hpp"
 
 namespace springproof::fem_reference::grid {
 
@@ -13,6 +13,6 @@ namespace springproof::fem_reference::grid {
 /// @param product  with the tangent; of the free degrees of freedom
 int count_negative_eigenvalues(const Body& body,
                                const std::function<void(Field<double>&, Field<double>&)>& product,
-                               Multigrid& multigrid, long& linear_iterations);
+                               StencilLevels& multigrid, long& linear_iterations);
 
 } // namespace springproof::fem_reference::grid

@@ -32,7 +32,8 @@ std::vector<Place> places_on(const cases::Scene& scene, const cases::Selection& 
   return found;
 }
 
-/// Of gravity on every element, by the integrals of its shape functions, and on what [[mass]] adds.
+/// Adds the force of gravity on every element, by the integrals of its shape functions, and on what [[mass]]
+/// adds.
 template<class AddForce>
 void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& places,
                  const AddForce& add_force) {
@@ -54,7 +55,7 @@ void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& pla
     add_force(places.of(mesh.nodes[index(node)]), mass * gravity);
 }
 
-/// Of the nodes at 0, 1/2 and 1 on the unit interval.
+/// Shape functions of the nodes at 0, 1/2 and 1 on the unit interval.
 Eigen::Vector3d quadratic_shapes(double x) {
   return {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)};
 }

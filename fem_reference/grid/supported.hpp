@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/scene/scene.hpp"
-#include "fem_reference/grid/places.hpp"
+#include "fem_reference/grid/body.hpp"
 #include "mechanics/dynamics/load_in_time.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #include "mechanics/dynamics/time_integrator.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/grid/conjugate_gradients.hpp"
+#include "mechanics/grid/krylov.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,14 @@
 #pragma once
 
+#include "mechanics/grid/layout.hpp"
 #include "mechanics/grid/loops.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <random>
 
 /// What the matrix-free solvers of both models share.
 namespace springproof::mechanics::grid {
@@ -12,6 +16,14 @@ namespace springproof::mechanics::grid {
 /// Three arrays of a grid's layout: a vector at every node.
 template<class Real>
 using Field = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+/// Calls action(i, j, k) for all of n[0] * n[1] * n[2] cells or nodes, x fastest.
+template<class Counts, class Action>
+void for_each_place(const Counts& n, const Action& action) {
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i) action(i, j, k);
+}
 
 /// Fixed pieces of a field: sums that add piece by piece in order do not depend on the number of threads.
 constexpr std::ptrdiff_t piece = 1 << 14;
@@ -29,6 +41,22 @@ void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
   for (std::ptrdiff_t p = 0; p < n_pieces; ++p) run(p);
 }
 
+/// Calls action(k) for planes, or layers, from begin to end - 1 on n_threads threads.
+template<class Action>
+void for_each_plane(int begin, int end, int n_threads, const Action& action) {
+  if (n_threads == 1) { // a parallel region of one thread allocates
+    for (int k = begin; k < end; ++k) action(k);
+    return;
+  }
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+  for (int k = begin; k < end; ++k) action(k);
+}
+/// The same for all planes of nodes; small grids are not worth several threads.
+template<class Action>
+void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
+  for_each_plane(0, layout.nodes[2], layout.size <= piece ? 1 : n_threads, action);
+}
+
 /// a += factor * b
 template<class Real>
 void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {
@@ -43,6 +71,43 @@ void add_product(Field<Real>& a, const Field<Real>& b, const Field<Real>& c, int
   for_each_piece(a.size(), n_threads, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     add_product(a.data() + first, b.data() + first, c.data() + first, n);
   });
+}
+
+/// A generator that is cheap to seed, as every row of a field is (Steele, Lea, Flood 2014).
+struct SplitMix {
+  using result_type = std::uint64_t;
+  std::uint64_t state;
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return ~result_type{0}; }
+  result_type operator()() {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+};
+
+/// Random numbers, the same ones every time and on any number of ranks: a field with a part in every motion
+/// of the body.
+/// @param first  node of the whole grid that is the layout's node 0
+template<class Real, class Distribution>
+Field<Real> random_field(const Layout& layout, const std::array<int, 3>& first, unsigned seed,
+                         Distribution any_value) {
+  Field<Real> field = Field<Real>::Zero(3 * layout.size);
+  const auto& [rows_x, rows_y, rows_z] = layout.nodes;
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < rows_z; ++k)
+      for (int j = 0; j < rows_y; ++j) {
+        SplitMix generator{
+            (((seed * std::uint64_t{3} + std::uint64_t(c)) << 24 | std::uint64_t(first[2] + k)) << 24) |
+            std::uint64_t(first[1] + j)};
+        any_value.reset();
+        for (int i = -first[0]; i < rows_x; ++i) {
+          const auto value = static_cast<Real>(any_value(generator));
+          if (i >= 0) field[layout.at(i, j, k, c)] = value;
+        }
+      }
+  return field;
 }
 
 } // namespace springproof::mechanics::grid

@@ -1,19 +1,29 @@
 #include "msm/design/by_axis.hpp"
 
-#include "msm/design/linear_method.hpp"
-#include "msm/design/misfit.hpp"
+#include "msm/design/minimise.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace springproof::msm {
 
 using Eigen::Vector3d;
 
 namespace {
+
+/// c11, c12, c13, c33, c44, c66.
+using ModuliVector = Eigen::Matrix<double, 6, 1>;
+/// Elasticity in an orthonormal basis of the strains (Mandel's: shear strains times sqrt(2)).
+using Mandel = Eigen::Matrix<double, 6, 6>;
+
+Mandel elasticity(const ModuliVector& c) {
+  Mandel result = Mandel::Zero();
+  result.topLeftCorner<3, 3>() << c[0], c[1], c[2], c[1], c[0], c[2], c[2], c[2], c[3];
+  result.diagonal().tail<3>() << 2 * c[4], 2 * c[4], 2 * c[5];
+  return result;
+}
 
 /// A lattice whose face diagonals or edges carry nothing has waves without energy: what each kind carries at
 /// least, as a part of c44.
@@ -29,6 +39,24 @@ Vector3d mean_edges(const CellVertices& x) {
     for (int axis = 0; axis < 3; ++axis)
       if (((v >> axis) & 1U) == 0) edges[axis] += (x[v + (1U << axis)] - x[v]).norm() / 4;
   return edges;
+}
+
+/// Whether a cell is a box along the axes, to 1e-9 of its edges.
+bool is_box(const CellVertices& x) {
+  const Vector3d edges = mean_edges(x);
+  for (std::size_t v = 1; v < 8; ++v) {
+    const Vector3d ideal((v & 1U) != 0 ? edges[0] : 0, (v & 2U) != 0 ? edges[1] : 0,
+                         (v & 4U) != 0 ? edges[2] : 0);
+    if (!((x[v] - x[0] - ideal).norm() <= 1e-9 * edges.norm())) return false;
+  }
+  return true;
+}
+
+Elasticity elasticity_of(const CubicModuli& moduli) {
+  Elasticity c = Elasticity::Zero();
+  c.topLeftCorner<3, 3>().setConstant(moduli.c44 + moduli.volume);
+  c.diagonal() << Vector3d::Constant(moduli.c11 + moduli.volume), Vector3d::Constant(moduli.c44);
+  return c;
 }
 
 /// The two axes of the faces across an axis.
@@ -62,45 +90,7 @@ Elasticity in_mandel(Elasticity c) {
   return c;
 }
 
-/// The x >= 0 that minimises |A x - b|: of the minima with some of its numbers 0 and the others free, the
-/// least whose free ones are not negative. The numbers are so few that every choice is tried.
-Eigen::VectorXd least_squares_from_zero(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target) {
-  const Eigen::Index n = matrix.cols();
-  Eigen::VectorXd best = Eigen::VectorXd::Zero(n);
-  double least = target.norm();
-  for (unsigned choice = 1; choice < 1U << n; ++choice) {
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if ((choice >> i & 1U) != 0) free.push_back(i);
-    const Eigen::MatrixXd columns = matrix(Eigen::all, free);
-    const Eigen::VectorXd x = columns.householderQr().solve(target);
-    const double distance = (columns * x - target).norm();
-    if (!(x.minCoeff() >= 0 && distance < least)) continue;
-    least = distance;
-    best.setZero();
-    best(free) = x;
-  }
-  return best;
-}
-
 } // namespace
-
-bool is_box(const CellVertices& x) {
-  const Vector3d edges = mean_edges(x);
-  for (std::size_t v = 1; v < 8; ++v) {
-    const Vector3d ideal((v & 1U) != 0 ? edges[0] : 0, (v & 2U) != 0 ? edges[1] : 0,
-                         (v & 4U) != 0 ? edges[2] : 0);
-    if (!((x[v] - x[0] - ideal).norm() <= 1e-9 * edges.norm())) return false;
-  }
-  return true;
-}
-
-Elasticity elasticity_of(const CubicModuli& moduli) {
-  Elasticity c = Elasticity::Zero();
-  c.topLeftCorner<3, 3>().setConstant(moduli.c44 + moduli.volume);
-  c.diagonal() << Vector3d::Constant(moduli.c11 + moduli.volume), Vector3d::Constant(moduli.c44);
-  return c;
-}
 
 std::optional<AxisStiffness> exact_by_axis(const CubicModuli& moduli, double split,
                                            const CellVertices& vertices) {
@@ -157,7 +147,7 @@ AxisStiffness nearest_by_axis(const CubicModuli& moduli, double split, const Cel
   columns(36, 6) = split_weight;
   Eigen::VectorXd missing(37);
   missing << relative(target - elasticity_by_axis(result, vertices)).reshaped(), split_weight * split;
-  const Eigen::VectorXd parts = least_squares_from_zero(columns, missing);
+  const Eigen::VectorXd parts = nonnegative_least_squares(columns, missing);
   for (std::size_t n = 0; n < 7; ++n)
     result.springs[n] += parts[static_cast<Eigen::Index>(n)] * moduli.c44 * unit[n];
   return result;
@@ -171,6 +161,42 @@ std::optional<AxisStiffness> by_axis_where_needed(const CellStiffness& four, con
       moduli_misfit(cell_elasticity(four, vertices), elasticity_of(moduli)).largest <= told_moduli_misfit)
     return std::nullopt;
   return nearest_by_axis(moduli, split, vertices);
+}
+
+NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& m) {
+  ModuliVector material, relation; // of a lattice: relation . moduli = 0
+  material << m.c11, m.c12, m.c13, m.c33, m.c44, m.c66;
+  relation << 0, 1, -1, 0, 1, -1;
+  const Mandel root = Eigen::SelfAdjointEigenSolver<Mandel>(elasticity(material)).operatorInverseSqrt();
+  Eigen::Matrix<double, 36, 6>
+      relative; // columns: what a unit of each modulus adds to C^-1/2 C_lattice C^-1/2
+  for (int c = 0; c < 6; ++c) relative.col(c) = (root * elasticity(ModuliVector::Unit(c)) * root).reshaped();
+  // least |relative change|² with relation . (material + change) = 0
+  const Mandel normal = relative.transpose() * relative;
+  const ModuliVector towards = normal.ldlt().solve(relation);
+  const ModuliVector change = -relation.dot(material) / relation.dot(towards) * towards;
+  const ModuliVector c = material + change;
+  const Mandel errors = root * elasticity(change) * root;
+  NearestModuli nearest{{c[0], c[1], c[2], c[3], c[4], c[5], 0}, errors.norm(), 0};
+  nearest.moduli.bulk_modulus =
+      1 / elasticity(c).topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d::Ones()).sum();
+  nearest.misfit = Eigen::SelfAdjointEigenSolver<Mandel>(errors).eigenvalues().cwiseAbs().maxCoeff();
+  return nearest;
+}
+
+AxisStiffness stiffness_by_axis(const mechanics::TransverseModuli& c, double split, int fibre, double edge) {
+  const double volume = c.c13 - c.c44, internal = split * std::min(c.c44, c.c66);
+  AxisStiffness result{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_fibre = axis == fibre;
+    const double whole_edge =
+        is_fibre ? c.c33 - volume - 2 * c.c44 + internal : c.c11 - volume - c.c66 - c.c44 + internal;
+    result.springs[static_cast<std::size_t>(axis)] = edge * whole_edge / 4;
+    result.springs[static_cast<std::size_t>(3 + axis)] = edge * ((is_fibre ? c.c66 : c.c44) - internal) / 2;
+  }
+  result.springs[6] = edge * 3 * internal / 4;
+  result.volume = volume;
+  return result;
 }
 
 } // namespace springproof::msm

@@ -2,12 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
-#include "msm/design/by_axis.hpp"
-#include "msm/design/cut_cells.hpp"
-#include "msm/design/examine.hpp"
 #include "msm/design/homogeneous.hpp"
-#include "msm/design/matched.hpp"
-#include "msm/design/moduli_method.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/nonlinear_method.hpp"
 #include "msm/design/published.hpp"
@@ -197,11 +192,6 @@ DesignResult from_matched_method(const DesignRequest& request) {
   return result;
 }
 
-DesignResult from_nonlinear_method(const DesignRequest& request) {
-  const NonlinearFit fit = nonlinear_method(uniaxial_reference(request), required_cube_edge(request));
-  return {fit.stiffness, fit.objective};
-}
-
 DesignResult from_multi_load(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   cases::Material material = request.material;
@@ -245,10 +235,6 @@ double required_youngs_modulus(const DesignRequest& request) {
   return youngs_modulus;
 }
 
-DesignResult from_ladd_kinney(const DesignRequest& request) {
-  return {ladd_kinney(required_youngs_modulus(request), required_cube_edge(request))};
-}
-
 DesignResult from_baudet(const DesignRequest& request) {
   const cases::LinearElastic material = is_incompressible(request) ? small_strain_material(request.material)
                                                                    : designed_material(request, -0.25);
@@ -267,19 +253,6 @@ DesignResult from_uniform(const DesignRequest& request) {
   DesignResult result{uniform_springs(k)};
   result.springs = BodyTerms{{terms_of(result.stiffness)}, {}, Boundary::whole};
   return result;
-}
-
-DesignResult from_van_gelder(const DesignRequest& request) {
-  return of_terms(van_gelder(request.cell, required_youngs_modulus(request)));
-}
-
-DesignResult from_lloyd(const DesignRequest& request) {
-  return of_terms(lloyd(request.cell, required_youngs_modulus(request)));
-}
-
-DesignResult from_biquadratic(const DesignRequest& request) {
-  const mechanics::ElasticModuli moduli = elastic_moduli(request);
-  return of_terms(biquadratic(moduli.lambda, moduli.mu));
 }
 
 /// Where no stiffness is negative the lattice is stable at rest; where one is, the others may outweigh it.
@@ -325,26 +298,38 @@ DesignResult from_given(const DesignRequest& request) {
            options.volume_stiffness}};
 }
 
-DesignResult from_network(const DesignRequest& request) {
-  refuse(request, "design = \"network\" has springs of a whole body, and no cell");
-}
-
 const std::map<cases::Design, DesignResult (*)(const DesignRequest&)> known_methods = {
     {cases::Design::linear_method, from_linear_method},
-    {cases::Design::nonlinear_method, from_nonlinear_method},
+    {cases::Design::nonlinear_method,
+     [](const DesignRequest& r) {
+       const NonlinearFit fit = nonlinear_method(uniaxial_reference(r), required_cube_edge(r));
+       return DesignResult{fit.stiffness, fit.objective};
+     }},
     {cases::Design::moduli, from_moduli_method},
     {cases::Design::hybrid, from_hybrid_method},
     {cases::Design::matched, from_matched_method},
     {cases::Design::multi_load, from_multi_load},
-    {cases::Design::ladd_kinney, from_ladd_kinney},
+    {cases::Design::ladd_kinney,
+     [](const DesignRequest& r) {
+       return DesignResult{ladd_kinney(required_youngs_modulus(r), required_cube_edge(r))};
+     }},
     {cases::Design::baudet, from_baudet},
     {cases::Design::uniform, from_uniform},
-    {cases::Design::van_gelder, from_van_gelder},
-    {cases::Design::lloyd, from_lloyd},
-    {cases::Design::biquadratic, from_biquadratic},
+    {cases::Design::van_gelder,
+     [](const DesignRequest& r) { return of_terms(van_gelder(r.cell, required_youngs_modulus(r))); }},
+    {cases::Design::lloyd,
+     [](const DesignRequest& r) { return of_terms(lloyd(r.cell, required_youngs_modulus(r))); }},
+    {cases::Design::biquadratic,
+     [](const DesignRequest& r) {
+       const mechanics::ElasticModuli moduli = elastic_moduli(r);
+       return of_terms(biquadratic(moduli.lambda, moduli.mu));
+     }},
     {cases::Design::transverse, from_transverse},
     {cases::Design::given, from_given},
-    {cases::Design::network, from_network},
+    {cases::Design::network,
+     [](const DesignRequest& r) -> DesignResult {
+       refuse(r, "design = \"network\" has springs of a whole body, and no cell");
+     }},
 };
 
 } // namespace
@@ -395,15 +380,14 @@ DesignResult design(const DesignRequest& request) {
   const auto law = law_of(options);
   if (law) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
-  std::vector<std::string> doubts = examine(result.stiffness, request.cell);
   if (BodyTerms* terms = terms_in(result)) {
     if (law)
       for (CellTerms& kind : terms->kinds) set_exponents(kind, *law);
     kinds = terms->kinds;
-    doubts = examine(kinds.front(), request.cell); // the others are mirror images
   } else {
     result.springs = {result.stiffness};
   }
+  const std::vector<std::string> doubts = examine(kinds.front(), request.cell);
   result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
   const Elasticity elasticity = cell_elasticity(kinds, request.cell);
   result.moduli = averaged_moduli(elasticity);

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "msm/design/linear_method.hpp"
-#include "msm/design/misfit.hpp"
-#include "msm/design/transverse.hpp"
+#include "msm/design/by_axis.hpp"
+#include "msm/design/small_strain.hpp"
 #include "msm/design/uniaxial.hpp"
-#include "msm/spring_body.hpp"
 
 #include <optional>
 
@@ -50,10 +48,6 @@ void set_law(cases::Msm& options, const std::optional<Exponents>& exponents);
 
 /// The designs that are made from such a material, isotropic or not, in the order of cases::all_designs().
 std::vector<cases::Design> methods(const cases::Material& material);
-
-/// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
-/// a bulk modulus.
-cases::LinearElastic small_strain_material(const cases::Material& material);
 
 /// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to a strain
 /// of 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.

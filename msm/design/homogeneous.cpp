@@ -1,7 +1,7 @@
 #include "msm/design/homogeneous.hpp"
 
 #include "cases/case/error.hpp"
-#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/cell_at_rest.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -116,6 +116,16 @@ Eigen::Matrix3d uniaxial(double lateral, double axial) {
   return Eigen::Vector3d(lateral, lateral, axial).asDiagonal();
 }
 
+/// Whether no wave is unstable under a uniaxial stretch with free sides.
+bool is_stable_stretched(const CellStiffness& stiffness, double edge, double stretch) {
+  try {
+    const double lateral = free_lateral_stretch(stiffness, edge, stretch);
+    return smallest_wave_stiffness(stiffness, edge, uniaxial(lateral, stretch)) > 0;
+  } catch (const cases::SolveError&) {
+    return false; // nothing to be stable about
+  }
+}
+
 /// Last stable parameter on the way from start to end.
 double last_stable(double start, double end, const std::function<bool(double)>& is_stable) {
   const int n_steps = static_cast<int>(std::ceil(std::abs(end - start) / 0.02));
@@ -182,31 +192,16 @@ double free_lateral_stretch(const CellStiffness& stiffness, double edge, double 
 }
 
 StabilityRange stability_range(const CellStiffness& stiffness, double edge) {
-  const auto stable = [&](const Eigen::Matrix3d& f) {
-    return smallest_wave_stiffness(stiffness, edge, f) > 0;
-  };
-  const auto stable_stretch = [&](double stretch) {
-    try {
-      return stable(uniaxial(free_lateral_stretch(stiffness, edge, stretch), stretch));
-    } catch (const cases::SolveError&) {
-      return false; // nothing to be stable about
-    }
-  };
-  return {last_stable(1, search_ends.stretch, stable_stretch),
-          last_stable(1, search_ends.compression, stable_stretch),
-          last_stable(0, search_ends.shear, [&](double amount) { return stable(simple_shear(amount)); })};
+  const auto is_stable = [&](double stretch) { return is_stable_stretched(stiffness, edge, stretch); };
+  return {last_stable(1, search_ends.stretch, is_stable), last_stable(1, search_ends.compression, is_stable),
+          last_stable(0, search_ends.shear, [&](double amount) {
+            return smallest_wave_stiffness(stiffness, edge, simple_shear(amount)) > 0;
+          })};
 }
 
 bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge) {
-  return std::all_of(strain_range.begin(), strain_range.end(), [&](double strain) {
-    try {
-      const double axial = std::exp(strain), lateral = free_lateral_stretch(stiffness, edge, axial);
-      return smallest_wave_stiffness(stiffness, edge, Eigen::Vector3d(lateral, lateral, axial).asDiagonal()) >
-             0;
-    } catch (const cases::SolveError&) {
-      return false;
-    }
-  });
+  return std::all_of(strain_range.begin(), strain_range.end(),
+                     [&](double strain) { return is_stable_stretched(stiffness, edge, std::exp(strain)); });
 }
 
 } // namespace springproof::msm

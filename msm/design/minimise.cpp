@@ -1,10 +1,10 @@
 #include "msm/design/minimise.hpp"
 
 #include "cases/case/error.hpp"
-#include "msm/design/exponents.hpp"
 
-#include <ceres/normal_prior.h>
+#include <Eigen/QR>
 #include <glog/logging.h>
+#include <vector>
 
 namespace springproof::msm {
 
@@ -24,17 +24,29 @@ double minimum_of(ceres::Problem& problem, const ceres::Solver::Options& options
   return 2 * summary.final_cost;
 }
 
-double minimum_over_exponents(ceres::Problem& problem, std::array<double, 3>& exponents, double start,
-                              const std::optional<double>& lowest, const std::string& what) {
-  problem.AddResidualBlock(
-      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
-      nullptr, exponents.data());
-  for (int kind = 0; lowest && kind < 3; ++kind)
-    problem.SetParameterLowerBound(exponents.data(), kind, *lowest);
-  ceres::Solver::Options options;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-10;
-  return minimum_of(problem, options, what);
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target) {
+  const Eigen::Index n = matrix.cols();
+  // Q^T turns many rows into as many as there are unknowns.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
+  const Eigen::VectorXd reduced = (qr.householderQ().adjoint() * target).head(n);
+  const Eigen::MatrixXd triangle = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  const Eigen::VectorXd unbounded = triangle.triangularView<Eigen::Upper>().solve(reduced);
+  if (unbounded.minCoeff() >= 0) return unbounded;
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(n);
+  double least = reduced.norm();
+  for (unsigned choice = 1; choice < 1U << n; ++choice) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if ((choice >> i & 1U) != 0) free.push_back(i);
+    const Eigen::MatrixXd columns = triangle(Eigen::all, free);
+    const Eigen::VectorXd x = columns.householderQr().solve(reduced);
+    const double distance = (columns * x - reduced).norm();
+    if (!(x.minCoeff() >= 0 && distance < least)) continue;
+    least = distance;
+    best.setZero();
+    best(free) = x;
+  }
+  return best;
 }
 
 } // namespace springproof::msm

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <ceres/ceres.h>
-#include <optional>
 #include <string>
 
 namespace springproof::msm {
@@ -16,11 +15,10 @@ ceres::Solver::Summary minimise(ceres::Problem& problem, ceres::Solver::Options 
 /// @param what  begins the message    @return the sum of the squares at the minimum    @throws SolveError
 double minimum_of(ceres::Problem& problem, const ceres::Solver::Options& options, const std::string& what);
 
-/// minimum_of() a problem in the three exponents of power-log springs, and perhaps more, to which the squares
-/// of exponent_prior (p - start) are added.
-/// @param exponents  p, parameters of the problem that begin within the bound
-/// @param start  where the prior holds them    @param lowest  exponent, if there is one
-double minimum_over_exponents(ceres::Problem& problem, std::array<double, 3>& exponents, double start,
-                              const std::optional<double>& lowest, const std::string& what);
+/// The x >= 0 that minimises |A x - b|, exactly: the least of the minima with some of its numbers 0 and the
+/// others free whose free ones are not negative. For so few unknowns that every choice can be tried; unique
+/// when A has full column rank.
+/// @param matrix  A, any units    @param target  b
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& target);
 
 } // namespace springproof::msm

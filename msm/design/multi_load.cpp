@@ -5,25 +5,26 @@
 #include "mechanics/laws/log_strain.hpp"
 #include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
-#include "msm/design/bounded_least_squares.hpp"
-#include "msm/design/design.hpp"
-#include "msm/design/exponents.hpp"
 #include "msm/design/homogeneous.hpp"
 #include "msm/design/minimise.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <ceres/dynamic_numeric_diff_cost_function.h>
+#include <ceres/normal_prior.h>
 #include <cmath>
+#include <numeric>
 
 namespace springproof::msm {
 
 namespace {
 
 using cases::LoadPath;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr int n_states = 20;             ///< per path, as in the thesis's uniaxial fit
+constexpr int n_states = 20; ///< per path, as in the thesis's uniaxial fit
+constexpr int n_residuals = 9 * n_states;
+using PathVector = Eigen::Matrix<double, n_residuals, 1>;
 constexpr double lowest_exponent = -20;  ///< as in case files
 constexpr double hookean_exponent = 0.5; ///< whose tension has no second-order part, as Hooke's
 
@@ -56,46 +57,13 @@ Eigen::Matrix3d log_strain_stress(const cases::LinearElastic& material, const Ei
 
 enum class Part { all, deviator };
 
-/// Components weighted so that the squared norm is that of the tensor.
-Vector6 part_of(const Eigen::Matrix3d& stress, Part part) {
-  Eigen::Matrix3d s = stress;
-  if (part == Part::deviator) s -= stress.trace() / 3 * Eigen::Matrix3d::Identity();
-  const double root = std::sqrt(2.0);
-  Vector6 v;
-  v << s(0, 0), s(1, 1), s(2, 2), root * s(0, 1), root * s(1, 2), root * s(0, 2);
-  return v;
+Eigen::Matrix3d part_of(const Eigen::Matrix3d& stress, Part part) {
+  if (part == Part::all) return stress;
+  return stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
 }
 
 Eigen::Matrix3d cauchy_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   return lattice_stress(stiffness, edge, f) * f.transpose() / f.determinant();
-}
-
-/// Residual of one path = matrix * k - target; k = (k_e, k_f, k_d, k_v edge), N/mm.
-struct LinearProblem {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd target;
-};
-
-LinearProblem path_problem(const cases::Material& material, double edge, LoadPath path, Part part,
-                           const MultiLoadSettings& settings, const std::optional<Exponents>& exponents) {
-  LinearProblem problem{Eigen::MatrixXd(6 * n_states, 4), Eigen::VectorXd(6 * n_states)};
-  std::array<CellStiffness, 4> units = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1 / edge}}};
-  for (CellStiffness& unit : units) unit.exponents = exponents;
-  for (int i = 0; i < n_states; ++i) {
-    const double t = static_cast<double>(i) / (n_states - 1);
-    const double strain = settings.lowest_strain + t * (settings.highest_strain - settings.lowest_strain);
-    const MaterialState state = material_state(material, path, strain);
-    problem.target.segment<6>(6 * i) = part_of(state.cauchy_stress, part);
-    for (int c = 0; c < 4; ++c)
-      problem.matrix.block<6, 1>(6 * i, c) =
-          part_of(cauchy_stress(units[static_cast<std::size_t>(c)], edge, state.deformation_gradient), part);
-  }
-  const double norm = problem.target.norm();
-  if (!(norm > 0))
-    throw cases::InputError("multi-load design: the material has no stress on path " + cases::name_of(path));
-  problem.matrix /= norm;
-  problem.target /= norm;
-  return problem;
 }
 
 /// Columns k = T x of the stiffnesses in terms of the unknowns. With a split t these are k_e, the shear
@@ -122,105 +90,173 @@ void check(const MultiLoadSettings& settings) {
     throw cases::InputError("multi-load design: split must lie in [0, 1]");
 }
 
-/// The fit of all paths at once.
+/// Stresses of springs held against a material's over the states of several paths.
 class Fit {
  public:
-  Fit(const cases::Material& material, double edge, const MultiLoadSettings& settings)
-      : material_(material), edge_(edge), settings_(settings),
-        is_incompressible_(std::holds_alternative<cases::Ogden>(material)),
-        part_(settings.has_volume_term && is_incompressible_ ? Part::deviator : Part::all),
-        unit_(small_strain_material(material).youngs_modulus * edge),
-        to_stiffness_(
-            unknowns_to_stiffness(settings.split, settings.has_volume_term && !is_incompressible_)) {}
-
-  Eigen::Index n_residuals() const {
-    return static_cast<Eigen::Index>(6 * n_states * settings_.paths.size());
+  /// @param name  begins messages    @param part  of the stresses that counts
+  Fit(const std::string& name, const cases::Material& material, double edge,
+      const MultiLoadSettings& settings, Part part, bool fits_volume)
+      : name_(name), edge_(edge), part_(part), unit_(small_strain_material(material).youngs_modulus * edge),
+        to_stiffness_(unknowns_to_stiffness(settings.split, fits_volume)) {
+    for (std::size_t p = 0; p < settings.paths.size(); ++p) {
+      Path path{{}, 0, settings.weights[p]};
+      for (int i = 0; i < n_states; ++i) {
+        const double t = static_cast<double>(i) / (n_states - 1);
+        const double strain = settings.lowest_strain + t * (settings.highest_strain - settings.lowest_strain);
+        path.states.push_back(material_state(material, settings.paths[p], strain));
+        path.size_squared += part_of(path.states.back().cauchy_stress, part).squaredNorm();
+      }
+      if (!(path.size_squared > 0))
+        throw cases::InputError(name + ": the material has no stress on path " +
+                                cases::name_of(settings.paths[p]));
+      paths_.push_back(std::move(path));
+    }
   }
+
+  const std::string& name() const { return name_; }
+  std::size_t n_paths() const { return paths_.size(); }
   Eigen::Index n_unknowns() const { return to_stiffness_.cols(); }
 
-  /// All paths below each other, each with the square root of its weight.
-  LinearProblem weighted(const std::optional<Exponents>& exponents) const {
-    LinearProblem all{Eigen::MatrixXd(n_residuals(), 4), Eigen::VectorXd(n_residuals())};
-    for (std::size_t p = 0; p < settings_.paths.size(); ++p) {
-      const auto first = static_cast<Eigen::Index>(6 * n_states * p);
-      const double factor = std::sqrt(settings_.weights[p]);
-      const LinearProblem problem = problem_of(p, exponents);
-      all.matrix.middleRows<6 * n_states>(first) = factor * problem.matrix;
-      all.target.segment<6 * n_states>(first) = factor * problem.target;
+  /// Springs of unknowns over E edge.
+  CellStiffness springs(const Eigen::VectorXd& unknowns, const std::optional<Exponents>& exponents) const {
+    const Eigen::Vector4d k = to_stiffness_ * (unit_ * unknowns);
+    return {k(0), k(1), k(2), k(3) / edge_, exponents};
+  }
+
+  /// Errors of a path's states over the norm of its stresses, times the square root of its weight.
+  /// @param of_material  part of its stresses that is taken off
+  PathVector residuals(std::size_t path, const CellStiffness& springs, double of_material = 1) const {
+    const auto& [states, size_squared, weight] = paths_[path];
+    const double scale = std::sqrt(size_squared / weight);
+    PathVector all;
+    double* next = all.data();
+    for (const auto& [f, stress] : states) {
+      const Eigen::Matrix3d error =
+          part_of(cauchy_stress(springs, edge_, f) - of_material * stress, part_) / scale;
+      next = std::copy(error.data(), error.data() + 9, next);
     }
     return all;
   }
 
-  /// The unknowns over E edge, at their minimum for springs of these exponents.
+  /// The unknowns over E edge at their minimum for springs of these exponents.
   Eigen::VectorXd best_unknowns(const std::optional<Exponents>& exponents) const {
-    const LinearProblem all = weighted(exponents);
-    return bounded_least_squares(all.matrix * to_stiffness_, all.target, unit_) / unit_;
-  }
-
-  Eigen::VectorXd stiffness_of(const Eigen::VectorXd& unknowns) const {
-    return to_stiffness_ * (unit_ * unknowns);
+    const auto n_rows = static_cast<Eigen::Index>(n_residuals * n_paths());
+    Eigen::MatrixXd columns(n_rows, n_unknowns());
+    Eigen::VectorXd target(n_rows);
+    for (std::size_t p = 0; p < n_paths(); ++p) {
+      const auto first = static_cast<Eigen::Index>(n_residuals * p);
+      target.segment<n_residuals>(first) = -residuals(p, {});
+      for (Eigen::Index c = 0; c < n_unknowns(); ++c)
+        columns.block<n_residuals, 1>(first, c) =
+            residuals(p, springs(Eigen::VectorXd::Unit(n_unknowns(), c), exponents), 0);
+    }
+    return nonnegative_least_squares(columns, target);
   }
 
   MultiLoadFit result(const Eigen::VectorXd& unknowns, const std::optional<Exponents>& exponents) const {
-    const Eigen::VectorXd k = stiffness_of(unknowns);
-    MultiLoadFit fit{{k(0), k(1), k(2), k(3) / edge_, exponents}, 0, {}};
-    for (std::size_t p = 0; p < settings_.paths.size(); ++p) {
-      const LinearProblem problem = problem_of(p, exponents);
-      fit.errors.push_back((problem.matrix * k - problem.target).norm());
-      fit.objective += settings_.weights[p] * fit.errors[p] * fit.errors[p];
+    MultiLoadFit fit{springs(unknowns, exponents), 0, {}};
+    for (const Path& path : paths_) {
+      double squares = 0;
+      for (const auto& [f, stress] : path.states)
+        squares += part_of(cauchy_stress(fit.stiffness, edge_, f) - stress, part_).squaredNorm();
+      fit.errors.push_back(std::sqrt(squares / path.size_squared));
+      fit.objective += path.weight * squares / path.size_squared;
     }
-    // Lambda of the lattice is C12 = C44 + k_v.
-    if (part_ == Part::deviator)
-      fit.stiffness.volume = settings_.incompressible_lambda - lattice_moduli(fit.stiffness, edge_).c44;
     return fit;
   }
 
  private:
-  LinearProblem problem_of(std::size_t path, const std::optional<Exponents>& exponents) const {
-    return path_problem(material_, edge_, settings_.paths[path], part_, settings_, exponents);
-  }
-
-  const cases::Material& material_;
+  struct Path {
+    std::vector<MaterialState> states;
+    double size_squared, weight; ///< of the material's stresses
+  };
+  std::string name_;
   double edge_;
-  const MultiLoadSettings& settings_;
-  bool is_incompressible_;
   Part part_;
-  double unit_; ///< N/mm
+  double unit_; ///< of stiffnesses, N/mm
   Eigen::MatrixXd to_stiffness_;
+  std::vector<Path> paths_;
 };
 
 Exponents exponents_of(const double* p) {
   return {p[0], p[1], p[2]};
 }
 
-/// The weighted residual, a function of the unknowns and of the three exponents.
+/// The residuals of a path, a function of the three exponents, and of a fit's unknowns unless stiffnesses are
+/// held.
 struct PowerLogError {
   const Fit& fit;
+  std::size_t path;
+  const std::optional<CellStiffness>& held;
 
   bool operator()(double const* const* parameters, double* residual) const {
-    const LinearProblem all = fit.weighted(exponents_of(parameters[1]));
-    const Eigen::Map<const Eigen::VectorXd> unknowns(parameters[0], fit.n_unknowns());
-    Eigen::Map<Eigen::VectorXd>(residual, fit.n_residuals()) =
-        all.matrix * fit.stiffness_of(unknowns) - all.target;
+    CellStiffness springs =
+        held ? *held : fit.springs(Eigen::Map<const Eigen::VectorXd>(parameters[1], fit.n_unknowns()), {});
+    springs.exponents = exponents_of(parameters[0]);
+    Eigen::Map<PathVector> errors(residual);
+    errors = fit.residuals(path, springs);
     return true;
   }
 };
 
-/// @param start  one exponent for all kinds, near which they are held    @param lowest  exponent
-MultiLoadFit fit_exponents(const Fit& fit, double start, double lowest) {
+struct FittedExponents {
+  Exponents exponents;
+  Eigen::VectorXd unknowns; ///< of the fit; none where stiffnesses are held
+  double objective;         ///< of the fit, with the squares of exponent_prior (p - start)
+};
+
+/// @param start  one exponent for all kinds, near which they are held
+/// @param lowest  exponent, if there is one    @param held  stiffnesses that stay; absent: they are fitted
+/// too
+FittedExponents fit_exponents(const Fit& fit, double start, const std::optional<double>& lowest,
+                              const std::optional<CellStiffness>& held = {}) {
   std::array<double, 3> p;
-  p.fill(std::max(start, lowest));
-  Eigen::VectorXd unknowns = fit.best_unknowns(exponents_of(p.data()));
-  auto* cost =
-      new ceres::DynamicNumericDiffCostFunction<PowerLogError, ceres::CENTRAL>(new PowerLogError{fit});
-  cost->AddParameterBlock(static_cast<int>(fit.n_unknowns()));
-  cost->AddParameterBlock(3);
-  cost->SetNumResiduals(static_cast<int>(fit.n_residuals()));
+  p.fill(lowest ? std::max(start, *lowest) : start);
+  Eigen::VectorXd unknowns;
+  std::vector<double*> parameters{p.data()};
+  if (!held) {
+    unknowns = fit.best_unknowns(exponents_of(p.data()));
+    parameters.push_back(unknowns.data());
+  }
   ceres::Problem problem;
-  problem.AddResidualBlock(cost, nullptr, unknowns.data(), p.data());
-  for (int i = 0; i < fit.n_unknowns(); ++i) problem.SetParameterLowerBound(unknowns.data(), i, 0);
-  minimum_over_exponents(problem, p, start, lowest, "multi-load design");
-  return fit.result(unknowns, exponents_of(p.data()));
+  for (std::size_t path = 0; path < fit.n_paths(); ++path) {
+    auto* cost = new ceres::DynamicNumericDiffCostFunction<PowerLogError, ceres::CENTRAL>(
+        new PowerLogError{fit, path, held});
+    cost->AddParameterBlock(3);
+    if (!held) cost->AddParameterBlock(static_cast<int>(fit.n_unknowns()));
+    cost->SetNumResiduals(n_residuals);
+    problem.AddResidualBlock(cost, nullptr, parameters);
+  }
+  problem.AddResidualBlock(
+      new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
+      nullptr, p.data());
+  for (int kind = 0; lowest && kind < 3; ++kind) problem.SetParameterLowerBound(p.data(), kind, *lowest);
+  for (int i = 0; i < unknowns.size(); ++i) problem.SetParameterLowerBound(unknowns.data(), i, 0);
+  ceres::Solver::Options options;
+  options.function_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-10;
+  const double objective = minimum_of(problem, options, fit.name());
+  return {exponents_of(p.data()), unknowns, objective};
+}
+
+Fit multi_load_fit(const cases::Material& material, double edge, const MultiLoadSettings& settings) {
+  check(settings);
+  const bool is_incompressible = std::holds_alternative<cases::Ogden>(material);
+  const bool has_volume = settings.has_volume_term;
+  return {"multi-load design",
+          material,
+          edge,
+          settings,
+          has_volume && is_incompressible ? Part::deviator : Part::all,
+          has_volume && !is_incompressible};
+}
+
+/// Lambda of the lattice is C12 = C44 + k_v.
+MultiLoadFit with_volume_term(MultiLoadFit fit, const cases::Material& material, double edge,
+                              const MultiLoadSettings& settings) {
+  if (settings.has_volume_term && std::holds_alternative<cases::Ogden>(material))
+    fit.stiffness.volume = settings.incompressible_lambda - lattice_moduli(fit.stiffness, edge).c44;
+  return fit;
 }
 
 } // namespace
@@ -239,26 +275,29 @@ MaterialState material_state(const cases::Material& material, LoadPath path, dou
 
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings) {
-  check(settings);
-  const Fit fit(material, edge, settings);
-  return fit.result(fit.best_unknowns(settings.exponents), settings.exponents);
+  const Fit fit = multi_load_fit(material, edge, settings);
+  const MultiLoadFit found = fit.result(fit.best_unknowns(settings.exponents), settings.exponents);
+  return with_volume_term(found, material, edge, settings);
 }
 
 MultiLoadFit multi_load_with_exponents(const cases::Material& material, double edge,
                                        const MultiLoadSettings& settings, double exponent) {
-  check(settings);
-  const Fit fit(material, edge, settings);
+  const Fit fit = multi_load_fit(material, edge, settings);
   const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
-  const MultiLoadFit fitted =
+  const FittedExponents found =
       fit_exponents(fit, exponent, is_ogden ? lowest_ogden_exponent : lowest_exponent);
-  const auto is_stable = [&](const MultiLoadFit& found) {
-    return is_stable_over({settings.lowest_strain, settings.highest_strain}, found.stiffness, edge);
+  const auto result = [&](const Eigen::VectorXd& unknowns, const Exponents& p) {
+    return with_volume_term(fit.result(unknowns, p), material, edge, settings);
+  };
+  const MultiLoadFit fitted = result(found.unknowns, found.exponents);
+  const auto is_stable = [&](const MultiLoadFit& of) {
+    return is_stable_over({settings.lowest_strain, settings.highest_strain}, of.stiffness, edge);
   };
   const auto towards_hooke = [&](double part) {
     Exponents p = *fitted.stiffness.exponents;
     for (double* of : {&p.edge, &p.face_diagonal, &p.internal_diagonal})
       *of += part * (hookean_exponent - *of);
-    return fit.result(fit.best_unknowns(p), p);
+    return result(fit.best_unknowns(p), p);
   };
   if (is_stable(fitted) || !is_stable(towards_hooke(1))) return fitted;
   double unstable = 0, stable = 1;
@@ -267,6 +306,47 @@ MultiLoadFit multi_load_with_exponents(const cases::Material& material, double e
     (is_stable(towards_hooke(middle)) ? stable : unstable) = middle;
   }
   return towards_hooke(stable);
+}
+
+double second_order_coefficient(const cases::Material& material, double poissons_ratio) {
+  const double nu = poissons_ratio;
+  const auto* ogden = std::get_if<cases::Ogden>(&material);
+  if (ogden == nullptr) return -(0.5 + 2 * nu);
+  const double mean_alpha = std::inner_product(ogden->mu.begin(), ogden->mu.end(), ogden->alpha.begin(), 0.) /
+                            mechanics::shear_modulus(*ogden);
+  return -1.5 + mean_alpha * (1 + nu) * (1 + nu) / 9 + (1 - 2 * nu) * (1 - 2 * nu) / 3;
+}
+
+double closed_form_exponent(double second_order_coefficient, const mechanics::ElasticModuli& moduli,
+                            double split) {
+  const auto& [lambda, mu, kappa] = moduli;
+  const double t = split, nu = lambda / (2 * (lambda + mu)), sum = 1 + nu, volume = 1 - 2 * nu;
+  // Logarithmic strain of the diagonals per axial strain, to first order; an edge has 1 or -nu.
+  const double face = (1 - nu) / 2, internal = volume / 3;
+  // Over mu, terms with p + 1 and without: docs/developing/design-theory.md.
+  const double with = (1 + t) * (1 - 2 * std::pow(nu, 3)) +
+                      2 * (1 - t) * (4 * std::pow(face, 3) - 2 * std::pow(nu, 3)) +
+                      9 * t * std::pow(internal, 3);
+  const double without =
+      6 * (1 - t) * face * sum * sum + 6 * t * internal * sum * sum + (lambda / mu - 1) * std::pow(volume, 3);
+  return ((second_order_coefficient + 1.5) * 2 * sum - without) / with - 1;
+}
+
+MatchedFit matched_exponents(const cases::Material& material, const mechanics::ElasticModuli& moduli,
+                             double split, const std::array<double, 2>& strain_range) {
+  const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
+  const double start = closed_form_exponent(second_order_coefficient(material, nu), moduli, split);
+  const CellStiffness springs = hybrid_method(moduli.lambda, moduli.mu, split, cube(1));
+  MultiLoadSettings settings{};
+  settings.paths = {LoadPath::uniaxial, LoadPath::pure_shear};
+  settings.weights = {0.5, 0.5};
+  settings.lowest_strain = strain_range[0];
+  settings.highest_strain = strain_range[1];
+  const Fit fit("matched design", material, 1, settings, Part::deviator, false);
+  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
+  const FittedExponents found =
+      fit_exponents(fit, start, is_ogden ? std::optional(lowest_ogden_exponent) : std::nullopt, springs);
+  return {found.exponents, found.objective};
 }
 
 } // namespace springproof::msm

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/problem.hpp"
+#include "msm/moving_springs.hpp"
 
 #include <memory>
 
@@ -10,6 +10,12 @@ namespace springproof::msm {
 /// entry per free degree of freedom, points in order and components together.
 /// @param problem  must outlive the system
 std::unique_ptr<SpringSystem> make_direct_system(const Problem& problem);
+
+/// The motion of any lattice: the tangent of a step assembled and factorised by CHOLMOD.
+/// @param problem  of make_moving_problem(), with its lattice; must outlive what is returned, as must springs
+/// @param springs  make_direct_system(problem)
+std::unique_ptr<MovingSprings> make_moving_lattice(const Problem& problem, SpringSystem& springs,
+                                                   const Inertia& inertia);
 
 /// Between vectors of a direct system and one displacement (mm) per point.
 Points to_points(const Problem& problem, const Vector& free);

@@ -1,6 +1,7 @@
 #include "msm/grid/body.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "mechanics/grid/transfer.hpp"
 
 namespace springproof::msm::grid {
 
@@ -21,9 +22,9 @@ Layout make_layout(const std::array<int, 3>& cells) {
   for (int a = 0; a < 3; ++a) layout.nodes[a] = cells[index(a)] + 1;
   const auto in_packs = [](std::ptrdiff_t n) { return (n + 15) / 16 * 16; };
   layout.row = layout.nodes[0] + 1;
-  layout.lead = in_packs(layout.row + 16);
   layout.plane = in_packs(layout.row * (layout.nodes[1] + 1) + 48);
-  layout.size = layout.plane * (layout.nodes[2] + 2) + layout.lead + 32;
+  layout.lead = layout.plane + in_packs(layout.row + 16);
+  layout.size = layout.lead + layout.plane * (layout.nodes[2] + 1) + 32;
   return layout;
 }
 
@@ -44,21 +45,9 @@ bool has_cell(const Body& body, int i, int j, int k) {
   return false;
 }
 
-std::optional<std::array<int, 3>> coarsening_factor(const std::array<int, 3>& cells,
-                                                    const Eigen::Vector3d& spacing) {
-  double smallest = INFINITY;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (cells[a] > 2) smallest = std::min(smallest, spacing[static_cast<int>(a)]);
-  if (std::isinf(smallest)) return std::nullopt;
-  std::array<int, 3> factor;
-  for (std::size_t a = 0; a < 3; ++a)
-    factor[a] = cells[a] > 2 && spacing[static_cast<int>(a)] < 1.5 * smallest ? 2 : 1;
-  return factor;
-}
-
 std::optional<Body> coarsen(const Body& fine) {
   if (fine.part) return *fine.part->coarser;
-  const auto coarsening = coarsening_factor(fine.cells, fine.spacing);
+  const auto coarsening = mechanics::grid::coarsening_factor(fine.cells, fine.spacing);
   if (!coarsening) return std::nullopt;
   const std::array<int, 3>& factor = *coarsening;
   Body coarse;
@@ -94,6 +83,38 @@ std::optional<Body> coarsen(const Body& fine) {
     return std::binary_search(fine.constrained.begin(), fine.constrained.end(), entry);
   });
   return coarse;
+}
+
+Body cut_out(const Body& whole, const std::array<int, 3>& first, const std::array<int, 3>& last) {
+  Body here;
+  here.spacing = whole.spacing;
+  here.exponents = whole.exponents;
+  Part part;
+  std::array<int, 3> n_nodes;
+  for (std::size_t a = 0; a < 3; ++a) {
+    part.whole_nodes[a] = whole.layout.nodes[a];
+    part.first[a] = std::max(first[a] - 1, 0);
+    n_nodes[a] = std::min(last[a] + 1, part.whole_nodes[a]) - part.first[a];
+    here.cells[a] = n_nodes[a] - 1;
+    part.own_first[a] = first[a] - part.first[a];
+    part.own_last[a] = last[a] - part.first[a];
+  }
+  if (whole.is_uniform())
+    here.springs = whole.springs;
+  else
+    for_each_place(here.cells, [&](int i, int j, int k) {
+      here.springs.push_back(whole.cell(part.first[0] + i, part.first[1] + j, part.first[2] + k));
+    });
+  here.layout = make_layout(here.cells);
+  for (const std::ptrdiff_t entry : whole.constrained) {
+    const auto [i, j, k, c] = whole.layout.place(entry);
+    const std::array<int, 3> at{i - part.first[0], j - part.first[1], k - part.first[2]};
+    const auto is_here = [&](std::size_t a) { return at[a] >= 0 && at[a] < n_nodes[a]; };
+    if (is_here(0) && is_here(1) && is_here(2))
+      here.constrained.push_back(here.layout.at(at[0], at[1], at[2], c));
+  }
+  here.part = std::move(part);
+  return here;
 }
 
 bool is_small(const Body& body, const Field<double>& displacement) {

@@ -2,27 +2,17 @@
 
 #include "mechanics/grid/field.hpp"
 #include "msm/grid/kernels.hpp"
-#include "msm/grid/part.hpp"
 #include "msm/lattice.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <random>
 #include <vector>
 
 namespace springproof::msm::grid {
-
-/// Calls action(i, j, k) for all of n[0] * n[1] * n[2] cells or nodes, x fastest.
-template<class Counts, class Action>
-void for_each_place(const Counts& n, const Action& action) {
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i) action(i, j, k);
-}
 
 /// The springs of one cell of a grid. A coarser cell need not be a cube: its edges differ, and its face
 /// diagonals.
@@ -32,6 +22,41 @@ struct CellSprings {
   double internal_diagonal = 0;          ///< N/mm
   double volume = 0;                     ///< k_v, MPa
   bool is_empty() const;
+};
+
+struct Body;
+
+/// The other ranks, as a part of a grid sees them. Every function is collective.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  /// Ghost nodes of a field (three arrays of the part's layout) get their owners' values.
+  virtual void update_ghosts(double* field) const = 0;
+  virtual void update_ghosts(float* field) const = 0;
+  /// Sums over the ranks, in place: the same ones on every rank.
+  virtual void sum(double* values, std::size_t n) const = 0;
+  virtual void sum(float* values, std::size_t n) const = 0;
+  virtual double largest(double value) const = 0;
+};
+
+/// What one of several ranks has of a grid: a box of nodes that it owns, and around it, where the grid goes
+/// on, one layer of nodes that others own (ghosts), with the cells between. So every spring and every cell at
+/// an own node is here. Fields of all operators have their owners' values on ghosts, so that sums of fields
+/// need no messages; what adds up over nodes or springs counts own ones alone.
+struct Part {
+  std::array<int, 3> first;               ///< node of the whole grid that is the part's node 0
+  std::array<int, 3> own_first, own_last; ///< own nodes are first to last - 1, in the part's numbers
+  std::array<int, 3> whole_nodes;         ///< of the whole grid
+  std::shared_ptr<const Ranks> ranks;
+  /// The next coarser body: a part again, or the whole of it, which every rank then has.
+  std::shared_ptr<const Body> coarser;
+  /// Where that is the whole of it: its nodes at and around this part, own ones as for parts.
+  std::shared_ptr<const Body> coarser_here;
+
+  bool owns(int i, int j, int k) const {
+    return i >= own_first[0] && i < own_last[0] && j >= own_first[1] && j < own_last[1] &&
+           k >= own_first[2] && k < own_last[2];
+  }
 };
 
 /// A body made of the cells of a grid, and what holds it.
@@ -49,6 +74,9 @@ struct Body {
   const CellSprings& cell(int i, int j, int k) const;
 };
 
+/// One ghost node lies between two rows, so that the kernels run through the rows of a plane as through one;
+/// ghosts enough for a neighbouring row and a pack of numbers more lie before and after every plane. Ghosts
+/// never move and carry no spring.
 Layout make_layout(const std::array<int, 3>& cells);
 
 /// Fills in layout and constrained.
@@ -57,16 +85,15 @@ void set_layout(Body& body, const std::function<bool(int i, int j, int k, int co
 /// Whether a node touches a cell that is here.
 bool has_cell(const Body& body, int i, int j, int k);
 
-/// How many cells along each axis a coarser one has: 2 along those whose spacing is (almost) the smallest, so
-/// that cells tend to cubes, 1 along the others; nothing where no axis has more than two cells.
-std::optional<std::array<int, 3>> coarsening_factor(const std::array<int, 3>& cells,
-                                                    const Eigen::Vector3d& spacing);
-
 /// The same body in cells of twice the edge along those axes whose spacing is (almost) the smallest, so that
 /// cells tend to cubes; nothing when it is as coarse as it gets. A coarse spring has the energy of the fine
 /// ones in the same uniform strain; cells that are half outside have half the stiffness. A node is held where
 /// the fine node at its place is. Of a part, the coarser body that it brings.
 std::optional<Body> coarsen(const Body& fine);
+
+/// The part of a whole body with own nodes first to last - 1 along each axis; ranks and coarser bodies are
+/// not filled in.
+Body cut_out(const Body& whole, const std::array<int, 3>& first, const std::array<int, 3>& last);
 
 /// Ghosts and constrained entries are 0.
 using mechanics::grid::Field;
@@ -74,18 +101,9 @@ using mechanics::grid::Field;
 using mechanics::grid::add;
 using mechanics::grid::add_product;
 using mechanics::grid::for_each_piece;
+using mechanics::grid::for_each_place;
+using mechanics::grid::for_each_plane;
 using mechanics::grid::piece;
-
-/// Calls action(k) for the planes of nodes on n_threads threads.
-template<class Action>
-void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
-  if (n_threads == 1 || layout.size <= piece) { // a parallel region of one thread allocates
-    for (int k = 0; k < layout.nodes[2]; ++k) action(k);
-    return;
-  }
-#pragma omp parallel for num_threads(n_threads) schedule(static)
-  for (int k = 0; k < layout.nodes[2]; ++k) action(k);
-}
 
 namespace detail {
 
@@ -154,43 +172,15 @@ void clear_constrained(const Body& body, Field<Real>& field) {
   for (const std::ptrdiff_t entry : body.constrained) field[entry] = 0;
 }
 
-/// A generator that is cheap to seed, as every row of a field is (Steele, Lea, Flood 2014).
-struct SplitMix {
-  using result_type = std::uint64_t;
-  std::uint64_t state;
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return ~result_type{0}; }
-  result_type operator()() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-};
-
 /// Whether no two neighbours' displacements differ by midpoint_below of their distance.
 /// @param displacement  of this rank's nodes and ghosts, mm
 bool is_small(const Body& body, const Field<double>& displacement);
 
-/// Random numbers, the same ones every time and on any number of ranks: a field with a part in every motion
-/// of the body.
+/// As mechanics::grid::random_field(), of the entries that are not constrained.
 template<class Real, class Distribution>
-Field<Real> random_field(const Body& body, unsigned seed, Distribution any_value) {
-  Field<Real> field = Field<Real>::Zero(3 * body.layout.size);
-  const auto& [rows_x, rows_y, rows_z] = body.layout.nodes;
+Field<Real> random_field(const Body& body, unsigned seed, const Distribution& any_value) {
   const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < rows_z; ++k)
-      for (int j = 0; j < rows_y; ++j) {
-        SplitMix generator{
-            (((seed * std::uint64_t{3} + std::uint64_t(c)) << 24 | std::uint64_t(first[2] + k)) << 24) |
-            std::uint64_t(first[1] + j)};
-        any_value.reset();
-        for (int i = -first[0]; i < rows_x; ++i) {
-          const auto value = static_cast<Real>(any_value(generator));
-          if (i >= 0) field[body.layout.at(i, j, k, c)] = value;
-        }
-      }
+  Field<Real> field = mechanics::grid::random_field<Real>(body.layout, first, seed, any_value);
   clear_constrained(body, field);
   return field;
 }

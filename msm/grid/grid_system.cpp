@@ -1,10 +1,10 @@
 #include "msm/grid/grid_system.hpp"
 
-#include "cases/case/error.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
-#include "mechanics/grid/conjugate_gradients.hpp"
+#include "mechanics/grid/coarse_guess.hpp"
+#include "mechanics/grid/krylov.hpp"
 #include "msm/grid/rigidity.hpp"
+#include "msm/grid/transfer.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -64,8 +64,7 @@ Field<double> to_field(const Problem& problem, const Body& body, const std::vect
 class MatrixFreeSystem : public GridSystem {
  public:
   MatrixFreeSystem(const GridProblem& problem, int n_threads)
-      : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads),
-        bodies_(coarsenings(problem.body)) {}
+      : problem_(problem), n_threads_(n_threads), springs_(problem.body, n_threads) {}
 
   const SpringField<double>& springs() const override { return springs_; }
   const Vector& load() const override { return problem_.load; }
@@ -231,13 +230,12 @@ class MatrixFreeSystem : public GridSystem {
   const GridProblem& problem_;
   int n_threads_;
   SpringField<double> springs_;
-  std::deque<Body> bodies_;
-  std::optional<Multigrid> multigrid_; ///< none before it is asked for
+  std::optional<SpringLevels> multigrid_; ///< none before it is asked for
   Vector probe_, mode_at_, reactions_, on_supports_, middle_, backwards_;
   Mode mode_{};
 
-  Multigrid& multigrid() {
-    if (!multigrid_) multigrid_.emplace(bodies_, n_threads_);
+  SpringLevels& multigrid() {
+    if (!multigrid_) multigrid_.emplace(problem_.body, n_threads_);
     return *multigrid_;
   }
 
@@ -286,7 +284,7 @@ class MatrixFreeSystem : public GridSystem {
           [&](const Vector& a, const Vector& b) { return dot(a, b); }, n_threads_);
       work_.linear_iterations += found.iterations;
       if (found.converged || found.met_negative_curvature || !may_be_misled) return found;
-      multigrid_.emplace(bodies_, n_threads_);
+      multigrid_.emplace(problem_.body, n_threads_);
     }
     return {}; // not reached
   }
@@ -357,18 +355,10 @@ std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads) {
   coarse.load.setZero(3 * layout.size);
   transfer.restrict(problem.load, coarse.load);
   const auto system = make_grid_system(coarse, n_threads);
-  mechanics::EquilibriumSettings settings;
-  settings.tolerance = 1e-3; // a guess
-  settings.smallest_load_step = 0.25;
-  settings.max_convexified_per_step = 0; // nor may it leave the path from rest
-  settings.stability = mechanics::Stability::ignore;
-  settings.guess = coarse_guess(coarse, n_threads);
   const Vector rest = Vector::Zero(coarse.load.size());
-  std::optional<Vector> found;
-  try {
-    found = mechanics::find_equilibrium(*system, rest, "coarse lattice", settings).state;
-  } catch (const cases::SolveError&) { // the fine lattice has to find its own way
-  }
+  const std::optional<Vector> found =
+      mechanics::grid::find_guess(*system, rest, "coarse lattice", {}, {coarse_guess(coarse, n_threads)})
+          .state;
   if (!on_all_ranks(problem.body, found.has_value())) return std::nullopt;
   Vector guess = Vector::Zero(problem.load.size());
   transfer.prolong(*found, guess);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "msm/grid/multigrid.hpp"
+#include "msm/grid/spring_levels.hpp"
 #include "msm/problem.hpp"
 
 #include <memory>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanics/grid/instruction_set.hpp"
+#include "mechanics/grid/layout.hpp"
 #include "msm/spring_laws.hpp"
 
 #include <cstddef>
@@ -18,29 +19,7 @@ constexpr int spring_steps[n_springs][3] = {{-1, -1, 1}, {0, -1, 1}, {1, -1, 1},
                                             {1, 0, 1},   {-1, 1, 1}, {0, 1, 1},  {1, 1, 1},  {-1, 1, 0},
                                             {0, 1, 0},   {1, 1, 0},  {1, 0, 0}};
 
-/// How the nodes of a grid lie in memory: node (i, j, k) has index at(i, j, k, c) in array c. One ghost node
-/// lies between two rows, so that the kernels run through the rows of a plane as through one; ghosts enough
-/// for a neighbouring row and a pack of numbers more lie before and after every plane. Ghosts never move and
-/// carry no spring. A field of vectors is three such arrays, x, y and z, one after the other.
-struct Layout {
-  int nodes[3] = {0, 0, 0};
-  std::ptrdiff_t row = 0;   ///< from one row to the next: nodes[0] + 1
-  std::ptrdiff_t lead = 0;  ///< ghosts before the first node of a plane
-  std::ptrdiff_t plane = 0; ///< from one plane to the next
-  std::ptrdiff_t size = 0;  ///< entries of one array, ghosts and all
-  std::ptrdiff_t at(int i, int j, int k, int c = 0) const {
-    return c * size + lead + i + row * j + plane * (k + 1);
-  }
-  struct Place {
-    int i, j, k, c;
-  };
-  /// The node and the component of an entry that at() gives.
-  Place place(std::ptrdiff_t entry) const {
-    const std::ptrdiff_t in_array = entry % size - lead - plane, in_plane = in_array % plane;
-    return {static_cast<int>(in_plane % row), static_cast<int>(in_plane / row),
-            static_cast<int>(in_array / plane), static_cast<int>(entry / size)};
-  }
-};
+using mechanics::grid::Layout;
 
 /// A lattice on a grid. Lengths in mm, stiffnesses in N/mm; Real is float inside the preconditioner.
 template<class Real>

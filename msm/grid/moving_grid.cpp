@@ -1,6 +1,6 @@
 #include "msm/grid/moving_grid.hpp"
 
-#include "mechanics/grid/conjugate_gradients.hpp"
+#include "mechanics/grid/krylov.hpp"
 #include "msm/grid/held_factor.hpp"
 #include "msm/grid/real_time_solver.hpp"
 
@@ -12,27 +12,6 @@
 namespace springproof::msm::grid {
 
 namespace {
-
-MovingSprings::Entries entries_of(const Problem& problem, const Body& body, const NodeVectors& vectors,
-                                  const Inertia& inertia) {
-  const auto on_free_entries = [&](const Points& points) {
-    Field<double> field = to_field(problem, body, points);
-    clear_constrained(body, field);
-    return vectors.from_field(field);
-  };
-  const auto of_points = [&](const std::vector<double>& values) {
-    Points points;
-    for (const double value : values) points.push_back(Eigen::Vector3d::Constant(value));
-    return on_free_entries(points);
-  };
-  MovingSprings::Entries entries{of_points(inertia.mass),
-                                 of_points(inertia.mass_damping),
-                                 {},
-                                 of_points(std::vector<double>(inertia.mass.size(), 1))};
-  for (const auto& [history, force] : inertia.loads)
-    entries.loads.emplace_back(history, on_free_entries(problem.on_all_points(force)));
-  return entries;
-}
 
 CellSprings sum(CellSprings a, double factor, const CellSprings& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -74,9 +53,14 @@ class MovingGrid : public MovingSprings {
  public:
   MovingGrid(const Problem& problem, const GridProblem& grid, const NodeVectors& vectors, GridSystem& statics,
              const Inertia& inertia, std::optional<Body> damping, int n_threads)
-      : MovingSprings(statics, entries_of(problem, grid.body, vectors, inertia)), grid_(grid),
-        body_(grid.body), vectors_(vectors), statics_(statics), damping_body_(std::move(damping)),
-        n_threads_(n_threads) {
+      : MovingSprings(statics, entries_of(problem, inertia,
+                                          [&](const Points& points) {
+                                            Field<double> field = to_field(problem, grid.body, points);
+                                            clear_constrained(grid.body, field);
+                                            return vectors.from_field(field);
+                                          })),
+        grid_(grid), body_(grid.body), vectors_(vectors), statics_(statics),
+        damping_body_(std::move(damping)), n_threads_(n_threads) {
     if (damping_body_) {
       damping_.emplace(*damping_body_, n_threads);
       rest_.setZero(3 * body_.layout.size);
@@ -154,10 +138,8 @@ class MovingGrid : public MovingSprings {
   int n_with_factor_ = 0;            ///< steps of its length since it was made
   int n_to_pass_ = 0;                ///< steps before the factor is tried again
 
-  std::deque<Body> bodies_;            ///< of the cycle
-  std::optional<Multigrid> multigrid_; ///< of bodies_, and of these:
+  std::optional<SpringLevels> multigrid_; ///< of these:
   Factors of_multigrid_;
-  double scale_ = 1;                        ///< of the cycle
   std::optional<RealTimeSolver> real_time_; ///< of the same
   bool is_set_ = false;                     ///< it knows this step
   double usual_slowness_ = 0; ///< iterations over what was asked for, where the cycle was prepared
@@ -260,12 +242,9 @@ class MovingGrid : public MovingSprings {
   /// Damping by stiffness is of the body at rest, here of the body where it is.
   void make_multigrid() {
     of_multigrid_ = last_;
-    multigrid_.reset(); // it refers to the bodies
-    const Body all = damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_;
-    bodies_ = coarsenings(all);
-    multigrid_.emplace(bodies_, n_threads_, smoother_in_motion);
-    scale_ = scale_of(all);
-    multigrid_->set_diagonal(scale_ * vectors_.to_field(diagonal(), in_));
+    multigrid_.emplace(damping_body_ ? stiffened(body_, last_.damping, *damping_body_) : body_, n_threads_,
+                       smoother_in_motion);
+    multigrid_->set_diagonal(multigrid_->scale() * vectors_.to_field(diagonal(), in_));
     is_slow_ = true;
     real_time_.reset();
     is_set_ = false;
@@ -282,7 +261,7 @@ class MovingGrid : public MovingSprings {
       const Field<double>& right_side = vectors_.to_field(v, in_);
       vectors_.from_field([&](Field<double>& field) { multigrid_->apply(right_side, field); }, out_, out);
     };
-    solve(at, residual, forcing, clamp, max_iterations, scale_, cycle, cycle_with_pull_);
+    solve(at, residual, forcing, clamp, max_iterations, multigrid_->scale(), cycle, cycle_with_pull_);
   }
 
   /// As far as the step's iterations go.
@@ -300,7 +279,7 @@ class MovingGrid : public MovingSprings {
 
   void solve_in_real_time(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!real_time_) {
-      real_time_.emplace(body_, vectors_, scale_, damping_body_, n_threads_);
+      real_time_.emplace(body_, vectors_, multigrid_->scale(), damping_body_, n_threads_);
       real_time_->set_pull(pull());
     }
     if (!is_set_) real_time_->set_step(diagonal(), terms().damping);

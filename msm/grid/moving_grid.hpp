@@ -14,7 +14,7 @@ namespace springproof::msm::grid {
 /// @param vectors    of the motion, of grid.body; must outlive what is returned, as must grid and statics
 /// @param statics    equations of `grid`
 /// @param inertia    whose damping is not looked at
-/// @param damping    damping_stiffness() of the scene's cells
+/// @param damping    cells of damping_springs()
 std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const GridProblem& grid,
                                                 const NodeVectors& vectors, GridSystem& statics,
                                                 const Inertia& inertia,

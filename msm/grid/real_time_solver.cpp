@@ -47,7 +47,7 @@ void RealTimeSolver::multiply(Clamp clamp, const Field<float>& direction, Field<
 const mechanics::grid::LinearSolutionIn<float>& RealTimeSolver::solve(const Vector& at, Clamp clamp,
                                                                       const Vector& right_side, double size,
                                                                       double forcing, int most_iterations,
-                                                                      Multigrid& cycle, Vector& solution) {
+                                                                      SpringLevels& cycle, Vector& solution) {
   vectors_.to_field(at, 1, at_);
   vectors_.to_field(right_side, size > 0 ? 1 / size : 0, right_side_);
   const auto precondition = [&](const Field<float>& v, Field<float>& out) { cycle.apply(v, out); };

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mechanics/grid/conjugate_gradients.hpp"
-#include "msm/grid/multigrid.hpp"
+#include "mechanics/grid/krylov.hpp"
 #include "msm/grid/node_vectors.hpp"
+#include "msm/grid/spring_levels.hpp"
 #include "msm/pull.hpp"
 
 namespace springproof::msm::grid {
@@ -13,7 +13,7 @@ namespace springproof::msm::grid {
 class RealTimeSolver {
  public:
   /// @param vectors  of the motion, of the body; must outlive this
-  /// @param scale    of stiffness, as of the cycles that solve() is given: scale_of()
+  /// @param scale    of stiffness, as of the cycles that solve() is given
   /// @param damping  springs whose tangent at rest is damping by stiffness
   RealTimeSolver(const Body& body, const NodeVectors& vectors, double scale,
                  const std::optional<Body>& damping, int n_threads);
@@ -35,7 +35,7 @@ class RealTimeSolver {
   /// @return what it took, until the next call; its own solution is scaled
   const mechanics::grid::LinearSolutionIn<float>& solve(const Vector& at, Clamp clamp,
                                                         const Vector& right_side, double size, double forcing,
-                                                        int most_iterations, Multigrid& cycle,
+                                                        int most_iterations, SpringLevels& cycle,
                                                         Vector& solution);
 
  private:

@@ -1,6 +1,6 @@
 #include "msm/grid/rigidity.hpp"
 
-#include "cases/mesh/pieces.hpp"
+#include "cases/mesh/hex_mesh.hpp"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 #include "msm/grid/spring_field.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "mechanics/grid/cycle.hpp"
 #include "msm/grid/cell_tangent.hpp"
 
-#include <Eigen/LU>
 #include <string_view>
 #include <unordered_map>
 
@@ -63,7 +63,8 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
   const int planes = body.layout.nodes[2], n = planes < 8 ? 1 : 2 * std::max(1, planes / 16);
   const auto first_plane = [&](int slab) { return static_cast<int>(std::ptrdiff_t{slab} * planes / n); };
   for (int slab = 0; slab < n; ++slab) {
-    auto& spill = arrays_.emplace_back(Field<Real>::Zero(6 * body.layout.plane + body.layout.lead + 32));
+    auto& spill =
+        arrays_.emplace_back(Field<Real>::Zero(6 * body.layout.plane + body.layout.at(0, 0, -1) + 32));
     auto& scratch = arrays_.emplace_back(Field<Real>::Zero(scratch_size(body.layout)));
     slabs_.push_back({first_plane(slab), first_plane(slab + 1), spill.data(), scratch.data()});
   }
@@ -229,24 +230,15 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
         Eigen::Matrix3d block;
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b < 3; ++b) block(a, b) = inverse[layout.at(i, j, k, places[a][b])];
-        bool constrained[3];
+        bool is_free[3];
         for (int a = 0; a < 3; ++a) {
           if (added.size() > 0) block(a, a) += static_cast<double>(added[layout.at(i, j, k, a)]);
-          constrained[a] = is_constrained_[index(layout.at(i, j, k, a))] || !(block(a, a) > 0);
-          if (!constrained[a]) continue;
-          block.row(a).setZero();
-          block.col(a).setZero();
-          block(a, a) = 1;
+          is_free[a] = !is_constrained_[index(layout.at(i, j, k, a))] && block(a, a) > 0;
         }
-        Eigen::Matrix3d inverted = block.inverse();
-        // A node that hangs on too few springs has a singular block: its diagonal must do.
-        if (!(block.determinant() > 1e-9 * block.diagonal().prod()))
-          inverted = block.diagonal().cwiseInverse().asDiagonal();
-        for (int a = 0; a < 3; ++a) {
-          if (constrained[a]) inverted(a, a) = 0;
+        const Eigen::Matrix3d inverted = mechanics::grid::inverse_on_free(block, is_free, 1e-9);
+        for (int a = 0; a < 3; ++a)
           for (int b = a; b < 3; ++b)
             inverse[layout.at(i, j, k, places[a][b])] = static_cast<Real>(inverted(a, b));
-        }
       }
   });
   if (!body_.part) return;

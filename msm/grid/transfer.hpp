@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mechanics/grid/transfer.hpp"
 #include "msm/grid/body.hpp"
 
 namespace springproof::msm::grid {
@@ -24,13 +25,14 @@ class Transfer {
   const Body& fine_;
   const Body& coarse_;
   const Body& coarse_here_; ///< of a fine part: the part of the coarse body around it
-  bool is_coarsened_[3];    ///< along x, y, z
-  int shift_[3]; ///< node i of the coarse body here lies on node 2 i + shift (i + shift) of the fine one
   int n_threads_;
+  std::array<int, 3> factor_, shift_; ///< of the interpolation
+  mechanics::grid::Interpolation<Real> interpolation_;
   std::vector<char> has_cell_; ///< of every node of the fine body; empty: of all
-  mutable Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> rows_; ///< room: a row for every plane
 
   bool gathers() const { return &coarse_ != &coarse_here_; }
+  template<class Make>
+  void make_coarse(Field<Real>& coarse, const Make& make) const;
   void sample_here(const Field<Real>& fine, Field<Real>& coarse) const;
 };
 

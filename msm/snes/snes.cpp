@@ -21,6 +21,9 @@ namespace petsc = mechanics::petsc;
 
 namespace {
 
+/// Unknowns up to which MUMPS factorises; there both ways take about as long.
+constexpr int most_factorised_unknowns = 30000;
+
 /// A right side with a part in every mode.
 petsc::Vector random_like(const petsc::Vector& vector) {
   petsc::Vector right = petsc::like(vector);
@@ -34,7 +37,7 @@ petsc::Vector random_like(const petsc::Vector& vector) {
 }
 
 /// A lattice whose equilibrium at one load PETSc's SNES finds: Newton's method with a line search on the
-/// residual, MUMPS up to factorised_by_snes unknowns, conjugate gradients with algebraic multigrid (GAMG)
+/// residual, MUMPS up to most_factorised_unknowns, conjugate gradients with algebraic multigrid (GAMG)
 /// beyond. Vectors are the entries that a rank owns. The equations contain the supports.
 class SnesProblem : public petsc::DistributedProblem<> {
  public:
@@ -133,7 +136,7 @@ class SnesProblem : public petsc::DistributedProblem<> {
     const KSP linear = linear_solver();
     PetscInt n_unknowns = 0;
     check(MatGetSize(tangent_.get(), &n_unknowns, nullptr));
-    if (n_unknowns <= factorised_by_snes) {
+    if (n_unknowns <= most_factorised_unknowns) {
       check(KSPSetType(linear, KSPPREONLY));
       check(PCSetType(preconditioner(), PCCHOLESKY));
       // PETSc's CHOLMOD ends all on indefinite ones.

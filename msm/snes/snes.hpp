@@ -7,13 +7,10 @@
 
 namespace springproof::msm {
 
-/// Unknowns up to which PETSc's SNES factorises; there both ways take about as long.
-constexpr int factorised_by_snes = 30000;
-
 /// Static equilibrium of a scene's lattice over the ranks of a communicator. Where msm::Model would take its
 /// multigrid path, that path with the grid's nodes dealt out in bricks (deal_out.hpp): the same iterations on
-/// any number of ranks. Elsewhere by PETSc: SNES' Newton method with a line search on the imbalance,
-/// an assembled matrix of 3x3 blocks, and MUMPS up to factorised_by_snes unknowns; above them conjugate
+/// any number of ranks. Elsewhere by PETSc: SNES' Newton method with a line search on the imbalance, an
+/// assembled matrix of 3x3 blocks, and MUMPS up to 30,000 unknowns; above them conjugate
 /// gradients with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved where SNES
 /// fails. PETSC_OPTIONS reach SNES with the prefix msm_. Collective: points are dealt out to the ranks, each
 /// of which knows the whole scene; they share the answer (Solution::sharing).

@@ -1,6 +1,6 @@
 #include "compare/sweep/timed_cube.hpp"
-#include "msm/grid/multigrid.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
+#include "msm/grid/spring_levels.hpp"
 #include "tests/bench/peak.hpp"
 
 #include <benchmark/benchmark.h>
@@ -61,8 +61,7 @@ BENCHMARK_TEMPLATE(grid_product, float, true)->Args({40, 1})->UseRealTime();
 
 void multigrid_cycle(benchmark::State& state) {
   const Body body = compare::timed_cube(static_cast<int>(state.range(0)));
-  const std::deque<Body> bodies = msm::grid::coarsenings(body);
-  msm::grid::Multigrid multigrid(bodies, static_cast<int>(state.range(1)));
+  msm::grid::SpringLevels multigrid(body, static_cast<int>(state.range(1)));
   Field<double> field = Field<double>::Zero(3 * body.layout.size), solution = field;
   multigrid.linearise(field);
   field[body.layout.at(1, 1, body.cells[2])] = 1;

@@ -1,7 +1,7 @@
 #include "msm/fields.hpp"
 
 #include "mechanics/field_sums.hpp"
-#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/cell_at_rest.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 

@@ -1,4 +1,4 @@
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 
 #include "tests/support/bodies.hpp"
 

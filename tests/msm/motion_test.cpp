@@ -1,8 +1,7 @@
-#include "msm/motion.hpp"
+#include "msm/moving_body.hpp"
 
 #include "cases/case/error.hpp"
 #include "msm/direct/direct_system.hpp"
-#include "msm/direct/moving_lattice.hpp"
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"

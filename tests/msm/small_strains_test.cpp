@@ -4,7 +4,7 @@
 
 #include "msm/design/design.hpp"
 #include "msm/model.hpp"
-#include "msm/motion.hpp"
+#include "msm/moving_body.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,5 @@
 #include "msm/spring_body.hpp"
 
-#include "msm/design/cut_cells.hpp"
 #include "msm/design/published.hpp"
 #include "msm/tangent.hpp"
 #include "tests/support/bodies.hpp"

@@ -3,7 +3,7 @@
 #include "compare/error_bars/measured_values.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/peers/external_side.hpp"
-#include "compare/sweep/plan.hpp"
+#include "compare/sweep/sweep.hpp"
 
 #include "tests/support/bodies.hpp"
 

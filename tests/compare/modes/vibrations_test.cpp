@@ -3,7 +3,7 @@
 #include "compare/solve/springs.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/cell_mass.hpp"
-#include "msm/vibrating_lattice.hpp"
+#include "msm/moving_springs.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "cases/case/error.hpp"
 #include "mechanics/ranks/share_out.hpp"
 #include "msm/fields.hpp"
+#include "msm/grid/transfer.hpp"
 #include "msm/model.hpp"
 #include "msm/snes/deal_out.hpp"
 #include "msm/snes/snes.hpp"
@@ -298,8 +299,7 @@ TEST_CASE_METHOD(WithMpi, "a grid too small to be dealt out is solved whole by e
 TEST_CASE_METHOD(WithMpi, "a cycle's messages are those that docs/developing/scale.md counts", "[ranks]") {
   CountingRanks::Calls calls;
   const Body here = counted(msm::deal_out_to(PETSC_COMM_WORLD)(uniform_body({40, 21, 33})), calls);
-  const std::deque<Body> bodies = msm::grid::coarsenings(here);
-  msm::grid::Multigrid multigrid(bodies, 1);
+  msm::grid::SpringLevels multigrid(here, 1);
   multigrid.linearise(0.05 * any_field(here, 1));
   const Field<double> right = any_field(here, 2);
   Field<double> found = right;

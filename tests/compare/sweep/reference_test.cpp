@@ -1,4 +1,4 @@
-#include "compare/sweep/reference.hpp"
+#include "compare/sweep/sweep.hpp"
 
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/hex_mesh.hpp"

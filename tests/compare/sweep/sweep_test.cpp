@@ -5,7 +5,6 @@
 #include "compare/solve/solvers.hpp"
 #include "compare/sweep/analysis.hpp"
 #include "compare/sweep/instructions.hpp"
-#include "compare/sweep/reference.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
 #include <algorithm>

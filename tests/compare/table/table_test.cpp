@@ -55,17 +55,6 @@ TEST_CASE("a table's columns are as wide as their widest text, numbers end at th
   CHECK(table.width() == 26);
 }
 
-TEST_CASE("a row with fewer texts than columns ends with a message of any width") {
-  compare::TextTable table({{"method"}, {"cells"}, {"error"}});
-  table.add({"springs", "2x2", "1.5"});
-  table.add({"other", "failed: no equilibrium"});
-  std::ostringstream out;
-  table.write(out);
-  CHECK(out.str() == "  method   cells  error\n"
-                     "  springs    2x2    1.5\n"
-                     "  other    failed: no equilibrium\n");
-}
-
 TEST_CASE("one row makes JSON, CSV and text, and a column finds its value by a key with dots") {
   const compare::Json rows{{{"name", "u"},
                             {"cells", {2, 4}},

@@ -1,6 +1,6 @@
 #include "mechanics/surface/embedded_surface.hpp"
 
-#include "cases/mesh/cells_at.hpp"
+#include "cases/mesh/cell_point.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

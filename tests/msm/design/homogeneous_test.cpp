@@ -1,6 +1,6 @@
 #include "msm/design/homogeneous.hpp"
 
-#include "msm/design/lattice_moduli.hpp"
+#include "msm/design/cell_at_rest.hpp"
 #include "msm/tangent.hpp"
 
 #include <Eigen/Eigenvalues>

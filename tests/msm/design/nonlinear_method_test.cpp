@@ -1,7 +1,7 @@
 #include "msm/design/nonlinear_method.hpp"
 
 #include "cases/case/error.hpp"
-#include "msm/lattice.hpp"
+#include "msm/spring_body.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,6 @@
-#include "msm/direct/moving_lattice.hpp"
+#include "msm/direct/direct_system.hpp"
 
 #include "mechanics/dynamics/time_integrator.hpp"
-#include "msm/direct/direct_system.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -1,0 +1,181 @@
+#include "msm/grid/spring_levels.hpp"
+
+#include "msm/grid/merged_levels.hpp"
+#include "msm/grid/transfer.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace springproof::msm::grid {
+
+using cases::index;
+using mechanics::grid::Chebyshev;
+
+namespace {
+
+constexpr double nearby = 1e-3;                  ///< of the shortest edge of a cell
+constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
+
+/// Calls action(stiffness) for all stiffnesses of a body.
+template<class AnyBody, class Action>
+void for_each_stiffness(AnyBody& body, const Action& action) {
+  for (auto& cell : body.springs) {
+    for (auto& edge : cell.edge) action(edge);
+    for (auto& diagonal : cell.face_diagonal) action(diagonal);
+    action(cell.internal_diagonal);
+    action(cell.volume);
+  }
+}
+
+/// A preconditioner may have any scale. This one keeps single precision in range, and changes no other digit.
+double scale_of(const Body& finest) {
+  double largest = 0; // of all ranks
+  for_each_stiffness(finest, [&](double k) { largest = std::max(largest, k); });
+  if (finest.part) largest = finest.part->ranks->largest(largest);
+  return std::ldexp(1, largest > 0 ? -std::ilogb(largest) : 0);
+}
+
+bool is_large(const Layout& layout) {
+  return std::ptrdiff_t{layout.nodes[0]} * layout.nodes[1] * layout.nodes[2] > n_coarsest_nodes;
+}
+
+bool is_merged(const Body& body) {
+  return !body.is_uniform() && !body.part;
+}
+
+/// A body and, where they are no merged cells, ever coarser ones; the last is no part.
+std::deque<Body> coarsenings(const Body& finest, double scale) {
+  std::deque<Body> bodies{finest};
+  while (!is_merged(finest) && (bodies.back().part || is_large(bodies.back().layout)))
+    if (std::optional<Body> coarse = coarsen(bodies.back()))
+      bodies.push_back(std::move(*coarse));
+    else
+      break;
+  for (Body& body : bodies) body = scaled(std::move(body), scale);
+  return bodies;
+}
+
+} // namespace
+
+Body scaled(Body body, double factor) {
+  for_each_stiffness(body, [&](double& k) { k *= factor; });
+  return body;
+}
+
+/// A lattice's clamped tangent.
+class SpringLevels::SpringLevel : public mechanics::grid::Level {
+ public:
+  SpringLevel(const Body& body, const SpringLevel* finer, int n_threads)
+      : Level(3 * body.layout.size, n_threads), displacement(Field<float>::Zero(3 * body.layout.size)),
+        body_(body), springs_(body, n_threads), finer_(finer) {
+    if (finer) transfer_.emplace(finer->body_, body, n_threads);
+  }
+
+  Field<float> displacement;
+  Field<float> diagonal; ///< besides that of the springs; of no size: none
+
+  void restrict_diagonal() {
+    diagonal.setZero(displacement.size());
+    transfer_->restrict(finer_->diagonal, diagonal);
+  }
+
+  void linearise() override {
+    if (finer_) transfer_->sample(finer_->displacement, displacement);
+    springs_.inverse_diagonal(Clamp::yes, displacement, inverse_diagonal_, diagonal);
+  }
+  void multiply(Field<float>& direction, Field<float>& product) const override {
+    springs_.product(Clamp::yes, displacement, direction, product);
+    if (diagonal.size() > 0) add_product(product, diagonal, direction, n_threads_);
+  }
+  double norm(const Field<float>& field) const override { return grid::norm(body_, field, n_threads_); }
+  void set_rough(Field<float>& rough) const override {
+    rough = random_field<float>(body_, 1, std::uniform_real_distribution<float>(-1, 1));
+  }
+  void complete(Field<float>& solution) const override { update_ghosts(body_, solution); }
+
+  /// Of the preconditioned matrix no eigenvalue is much less than the least share that the added diagonal has
+  /// in an inverse block.
+  bool needs_no_coarser(const Chebyshev& smoother) const override {
+    if (diagonal.size() == 0 || body_.part || is_merged(body_)) return false;
+    const auto inverse = inverse_diagonal_.head(diagonal.size()).array(); // xx, yy, zz
+    const float least =
+        (inverse > 0).select(diagonal.array() * inverse, std::numeric_limits<float>::infinity()).minCoeff();
+    return least * static_cast<float>(smoother.share) >= static_cast<float>(largest_eigenvalue_);
+  }
+
+  bool factorise() override {
+    Eigen::MatrixXd& matrix = factor_.begin(
+        displacement.size(), [&](std::ptrdiff_t entry) { return inverse_diagonal_[entry] > 0; });
+    solution_.setZero();
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+      float& entry = solution_[factor_.unknowns[index(column)]];
+      entry = 1;
+      multiply(solution_, product_);
+      entry = 0;
+      for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+        matrix(row, column) = static_cast<double>(product_[factor_.unknowns[index(row)]]);
+    }
+    factor_.factorise(decltype(factor_)::Indefinite::shift);
+    return true;
+  }
+  void solve_exactly() override { factor_.solve(residual_, solution_); }
+
+  void restrict_from(Field<float>& finer_residual) override {
+    transfer_->restrict(finer_residual, residual_);
+  }
+  void prolong_to(Field<float>& finer_correction) override {
+    transfer_->prolong(solution_, finer_correction);
+  }
+
+ private:
+  const Body& body_;
+  SpringField<float> springs_;
+  const SpringLevel* finer_;
+  std::optional<Transfer<float>> transfer_; ///< from the finer level and back
+  mechanics::grid::DenseFactor<double> factor_;
+};
+
+SpringLevels::SpringLevels(const Body& finest, int n_threads, const Chebyshev& smoother)
+    : n_threads_(n_threads), scale_(scale_of(finest)), bodies_(coarsenings(finest, scale_)),
+      cycle_({smoother, 1.15, 12}, n_threads) {
+  for (const Body& body : bodies_) {
+    auto level = std::make_unique<SpringLevel>(body, rediscretised_.empty() ? nullptr : rediscretised_.back(),
+                                               n_threads);
+    rediscretised_.push_back(level.get());
+    cycle_.levels.push_back(std::move(level));
+  }
+  const SpringLevel& first = *rediscretised_.front();
+  if (is_merged(finest) && is_large(finest.layout))
+    add_merged_levels(bodies_.front(), first.displacement, first.diagonal, n_threads, cycle_.levels);
+}
+
+void SpringLevels::set_diagonal(const Field<double>& diagonal) {
+  rediscretised_.front()->diagonal.resize(diagonal.size());
+  for_each_piece(diagonal.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    rediscretised_.front()->diagonal.segment(first, n) = diagonal.segment(first, n).cast<float>();
+  });
+  for (std::size_t l = 1; l < rediscretised_.size(); ++l) rediscretised_[l]->restrict_diagonal();
+  is_linearised_ = false;
+}
+
+void SpringLevels::linearise(const Field<double>& displacement) {
+  const Body& finest = bodies_.front();
+  // A preconditioner may be of a place nearby.
+  if (is_linearised_ &&
+      on_all_ranks(finest, (linearised_at_ - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
+                               nearby * finest.spacing.minCoeff()))
+    return;
+  linearised_at_ = displacement;
+  is_linearised_ = true;
+  for_each_piece(displacement.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+    rediscretised_.front()->displacement.segment(first, n) = displacement.segment(first, n).cast<float>();
+  });
+  cycle_.linearise();
+}
+
+void SpringLevels::apply(const Field<double>& right_side, Field<double>& solution) {
+  cycle_.apply(right_side, norm(bodies_.front(), right_side, n_threads_), solution);
+}
+
+} // namespace springproof::msm::grid
