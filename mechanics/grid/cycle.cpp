@@ -13,8 +13,10 @@ Eigen::Matrix3d inverse_on_free(Eigen::Matrix3d block, const bool (&is_free)[3],
     block.col(c).setZero();
     block(c, c) = 1;
   }
-  const bool is_definite = block(0, 0) > 0 && block(0, 0) * block(1, 1) > block(0, 1) * block(1, 0) &&
-                           block.determinant() > singular_below * block.diagonal().prod();
+  // Blocks of log_strain are not symmetric. Judged by their lower triangle, which LLT reads, they are taken
+  // as definite less often: by their minors, cycles of unstable states took twice the iterations.
+  const bool is_definite = block.determinant() > singular_below * block.diagonal().prod() &&
+                           Eigen::LLT<Eigen::Matrix3d>(block).info() == Eigen::Success;
   Eigen::Matrix3d inverse;
   if (is_definite)
     inverse = block.inverse();
