@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case/enumeration.hpp"
+#include "cases/case/spring_law.hpp"
 #include "mechanics/numbers.hpp"
 
 /// Laws of springs and of volume terms, written once for one number and for packs of them: Real is the number
@@ -13,8 +13,8 @@
 /// Functions come from Math: Exact is for one number, the kernels have faster ones.
 namespace springproof::msm {
 
-/// The laws of springs that there are. One may have a parameter of every spring: the exponent of power_log.
-SPRINGPROOF_ENUMERATION(LawKind, hooke, power_log)
+/// The laws of springs that there are. A law may have a parameter for each spring: power_log's exponent.
+using LawKind = cases::SpringLaw;
 
 /// Whether what is negative in a tangent is left out: the transverse stiffness of a compressed spring, and
 /// the other one where a power-log spring has passed its largest tension.

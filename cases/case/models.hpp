@@ -3,6 +3,7 @@
 #include "cases/case/designs.hpp"
 #include "cases/case/dynamics.hpp"
 #include "cases/case/error.hpp"
+#include "cases/case/spring_law.hpp"
 
 #include <array>
 #include <optional>
@@ -49,12 +50,6 @@ SPRINGPROOF_ENUMERATION(
     fire,          ///< damped inertial relaxation (Bitzek et al. 2006)
     lbfgs,         ///< limited-memory quasi-Newton
     snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
-)
-
-/// How a spring's tension follows its stretch q.
-SPRINGPROOF_ENUMERATION(SpringLaw,
-                        hooke,    ///< k l0 (q - 1), and a volume term of pressure k_v (J - 1)
-                        power_log ///< k l0 q^p ln q, and k_v ln J
 )
 
 /// How often force scaling moves the points, whether that is enough or not: some steps of the load, and
