@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 /// A cell as its first vertex sees it, at rest and displaced: far from the origin positions have lost digits.
 struct SeenCell {
   CellPositions rest, motion, now; ///< mm
-  /// @param displacement  of the nodes from first_node on
+  /// @param displacement  one per node from first_node on
   SeenCell(const cases::HexMesh& mesh, std::size_t cell, const Points& displacement, std::size_t first_node) {
     const std::array<int, 8> nodes = mesh.cells[cell];
     const auto moved = [&](int node) -> const Vector3d& { return displacement[index(node) - first_node]; };

@@ -85,7 +85,7 @@ TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const
 
 namespace {
 
-/// From point i to point j, by positions or by displacements.
+/// Returns a function for the vector from point i to point j, by positions or by displacements.
 auto between(const Points& positions) {
   return [&](int i, int j) -> Vector3d { return positions[index(j)] - positions[index(i)]; };
 }
@@ -207,7 +207,7 @@ double small_motion_energy(const Lattice& lattice, const Points& motion) {
     sum += 0.5 * cell.stiffness / cell.rest_volume * change * change;
   }
   for (const Tetrahedron& t : lattice.tetrahedra) {
-    EdgeValues changes; // of squared lengths, to first order
+    EdgeValues changes; // changes of squared lengths, to first order
     for (std::size_t e = 0; e < 6; ++e) {
       const int a = t.nodes[index(tetrahedron_edges[e][0])], b = t.nodes[index(tetrahedron_edges[e][1])];
       changes[static_cast<Eigen::Index>(e)] =

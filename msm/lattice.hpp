@@ -63,7 +63,7 @@ struct VolumeCell {
   double rest_volume;       ///< mm³
   bool is_logarithmic = false;
 
-  /// Of the cell at these positions.
+  /// Returns the cell's law at these positions.
   VolumeLaw law(const CellPositions& x) const;
 };
 
@@ -74,7 +74,7 @@ struct Tetrahedron {
   EdgeValues rest_lengths; ///< mm
 };
 
-/// Of an isotropic material with Lame's constants, MPa.
+/// Makes a tetrahedron of an isotropic material with Lame's constants, MPa.
 Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu);
 
 /// A mass-spring body at rest: its points, links, tetrahedra and volume terms. Links are sorted by (i, j) and
@@ -110,7 +110,7 @@ double energy(const Lattice& lattice, const Points& positions);
 
 /// What a small motion from rest stores to second order, N mm: half the quadratic form of the tangent at
 /// rest, as a sum in which nothing cancels where no stiffness is negative. A mechanism's motion stores 1e-32
-/// of stiffness times motion squared, the tangent times the motion leaves 1e-16.
+/// times stiffness times motion squared; by the tangent it would be 1e-16.
 /// @param motion  mm, one per point
 double small_motion_energy(const Lattice& lattice, const Points& motion);
 

@@ -19,8 +19,8 @@ constexpr std::size_t multigrid_from = 500;
 
 struct ModelOptions {
   Path path = Path::automatic;
-  int n_threads = 1;           ///< of the multigrid path; results do not depend on it
-  grid::DealOut deal_out = {}; ///< to the ranks, on the multigrid path; then solve() is collective
+  int n_threads = 1;           ///< used by the multigrid path; results do not depend on it
+  grid::DealOut deal_out = {}; ///< division among ranks, on the multigrid path; then solve() is collective
   std::shared_ptr<const cases::Sharing> sharing = {}; ///< the ranks that get the answer together, then
 };
 
@@ -49,9 +49,9 @@ class Model {
   cases::Solution solve_on_path(mechanics::EquilibriumSettings settings, const Points& start);
 
   cases::Solver solver_;
-  std::optional<cases::RelaxationCounts> relaxation_; ///< of force scaling that is not to end in equilibrium
-  double largest_turn_;                               ///< of the supports, degrees
-  int least_steps_;                                   ///< of the load
+  std::optional<cases::RelaxationCounts> relaxation_; ///< set if force scaling gets a number of iterations
+  double largest_turn_;                               ///< largest of the supports, degrees
+  int least_steps_;                                   ///< least number of load steps
   int n_threads_;
   std::shared_ptr<const cases::Sharing> sharing_;
   std::optional<SpringBody> fallback_; ///< for the direct path, should multigrid fail

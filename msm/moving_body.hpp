@@ -13,7 +13,7 @@ namespace springproof::msm {
 /// mechanics::TimeIntegrator of motion().
 class MovingBody {
  public:
-  /// On the path that a Model of the springs would take; of the options, on which threads.
+  /// Takes the path that a Model of the springs would take, on the threads that the options give.
   MovingBody(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options = {});
   MovingBody(const MovingBody&) = delete; // its parts refer to each other
   MovingBody& operator=(const MovingBody&) = delete;
@@ -22,10 +22,10 @@ class MovingBody {
   const Problem& problem() const { return problem_; }
   bool is_on_grid() const { return grid_.has_value(); }
 
-  /// Between the motion's vectors and one vector (mm, mm/s or N) per node of the scene's mesh.
+  /// Converts between the motion's vectors and one vector (mm, mm/s or N) per node of the scene's mesh.
   Vector to_vector(const Points& points) const;
   Points to_points(const Vector& vector) const;
-  /// The same of one node.
+  /// Returns one node's vector.
   Eigen::Vector3d at_node(const Vector& vector, int node) const;
   /// Takes hold of the weighted mean of some nodes, see MovingSprings::hold().
   /// @param stiffness  N/mm
@@ -37,7 +37,7 @@ class MovingBody {
   std::optional<grid::NodeVectors> vectors_; ///< on the grid
   std::unique_ptr<SpringSystem> statics_;
   std::unique_ptr<MovingSprings> motion_;
-  std::vector<std::array<Eigen::Index, 3>> entries_; ///< of each node in a vector of the motion; -1: none
+  std::vector<std::array<Eigen::Index, 3>> entries_; ///< each node's places in a motion's vector; -1: none
 
   Eigen::Index size() const { return vectors_ ? vectors_->size() : statics_->load().size(); }
   void find_entries();

@@ -85,7 +85,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
   void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override;
-  /// Against the forces of the motion, what pulls now and has pulled, and reactions where supports move.
+  /// Residual over the largest of the motion's forces, all pulls so far, and reactions where supports move.
   Size size(const Vector& residual, const Vector& at) override {
     double scale = std::max(terms_->scale, largest_pull_);
     if (pull_) scale = std::max(scale, pull_->size(at));
@@ -116,10 +116,10 @@ class MovingSprings : public mechanics::DynamicProblem {
   const std::optional<Pull>& pull() const { return pull_; }
   /// What was known of the one before is no longer so.
   virtual void has_pull_changed() {}
-  /// Of mass M + damping C, without damping by stiffness.
+  /// Diagonal of mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }
 
-  /// Of the springs alone: minus their forces, and their energy.
+  /// The springs' part alone: minus their forces, and their energy.
   virtual void spring_residual(const Vector& at, mechanics::Expect expect, Vector& residual) {
     springs_.residual(at, 0, expect, residual);
   }

@@ -10,7 +10,7 @@ namespace springproof::msm {
 
 namespace {
 
-/// @param factor  of a motion, from the load factor or the time
+/// @param factor  returns a motion's factor from the load factor or the time
 std::function<const std::vector<cases::NodeVector>&(double)>
 moving_supports(const cases::Scene& scene, double (*factor)(const cases::Moved& motion, double at)) {
   if (scene.moved.empty()) return {};

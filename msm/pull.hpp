@@ -19,7 +19,7 @@ class Pull {
   struct Entry {
     Eigen::Index at; ///< in a vector
     double weight;
-    bool is_free; ///< of its degree of freedom; what is constrained counts for the place and gets no force
+    bool is_free; ///< whether a force acts on it; what is constrained counts for the place alone
   };
   using Entries = std::array<std::vector<Entry>, 3>; ///< by component
 
@@ -41,7 +41,7 @@ class Pull {
   double energy(const Vector& displacement) const {
     return stiffness_ / 2 * (target_ - place(displacement)).squaredNorm();
   }
-  /// to += force(u) . weights, N
+  /// Adds to `to`: to += force(u) . weights, N
   void add_force(const Vector& displacement, Vector& to) const { add(force(displacement), to); }
   /// Norm of these forces, N.
   double size(const Vector& displacement) const;
@@ -51,7 +51,7 @@ class Pull {
     add(stiffness_ * place(direction), to);
   }
 
-  /// to += force on free degrees of freedom, by the weights.
+  /// Adds the force on free degrees of freedom to `to`, by the weights.
   template<class Real>
   void add(const Eigen::Vector3d& force, VectorIn<Real>& to) const;
 
@@ -70,7 +70,7 @@ template<class Real>
 class WithPull {
  public:
   /// @param invert  (right side, solution) by A, which is symmetric and positive definite
-  /// @param size    of a vector
+  /// @param size    size of a vector
   void prepare(const Pull& pull, Eigen::Index size,
                const std::function<void(const VectorIn<Real>&, VectorIn<Real>&)>& invert);
   /// Whether the pull makes its place more than twice as stiff; what it does else, conjugate gradients find.
@@ -80,7 +80,7 @@ class WithPull {
 
  private:
   std::array<VectorIn<Real>, 3> columns_;             ///< Y
-  Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero(); ///< of 1/k + W^T Y
+  Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero(); ///< inverse of 1/k + W^T Y
   bool matters_ = false;
   VectorIn<Real> unit_;
 };

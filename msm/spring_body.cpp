@@ -88,7 +88,7 @@ SpringBody scaled_body(const std::vector<CellStiffness>& cells, std::size_t n_ce
 
 SpringBody scaled_body(BodyTerms terms, std::size_t n_cells, const Factor& factor) {
   const std::vector<CellTerms> kinds = std::exchange(terms.kinds, {});
-  std::map<std::pair<int, double>, int> known; // of a kind of cells and its factor
+  std::map<std::pair<int, double>, int> known; // new kind by kind of cells and factor
   std::vector<int> kind_of_cell;
   for (std::size_t c = 0; c < n_cells; ++c) {
     const int kind = terms.kind_of_cell.empty() ? 0 : terms.kind_of_cell[c];

@@ -42,7 +42,7 @@ SPRINGPROOF_ENUMERATION(Boundary,
 /// What the cells of a body consist of.
 struct BodyTerms {
   std::vector<CellTerms> kinds;
-  std::vector<int> kind_of_cell{}; ///< of every cell, an index of kinds; empty: all are of the first
+  std::vector<int> kind_of_cell{}; ///< index of kinds, one per cell; empty: all are of the first
   Boundary boundary = Boundary::shared;
   std::vector<int>
       planes_of_node{}; ///< bits of the planes of symmetry that a node is on; empty: there are none

@@ -46,8 +46,8 @@ void visit_tangent_blocks(const Lattice& lattice, const Points& positions, Trans
   }
 }
 
-/// The sparse tangent stiffness of a lattice on its free degrees of freedom. The pattern, and the place in it
-/// of every contribution, are found once.
+/// The sparse tangent stiffness of a lattice on its free degrees of freedom. The pattern, and every
+/// contribution's place in it, are found once.
 class Tangent {
  public:
   using Matrix = Eigen::SparseMatrix<double>;

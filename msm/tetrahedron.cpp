@@ -89,7 +89,7 @@ TetrahedronPositions biquadratic_forces(const TetrahedronPositions& x, const Edg
 TetrahedronMatrix biquadratic_tangent(const TetrahedronPositions& x, const EdgeValues& rest_lengths,
                                       const EdgeMatrix& stiffness, TransverseTerm term) {
   const EdgeValues tension = stiffness * squared_length_changes(x, rest_lengths);
-  Eigen::Matrix<double, 12, 6> gradients = Eigen::Matrix<double, 12, 6>::Zero(); // of Delta_e
+  Eigen::Matrix<double, 12, 6> gradients = Eigen::Matrix<double, 12, 6>::Zero(); // gradients of Delta_e
   TetrahedronMatrix tangent = TetrahedronMatrix::Zero();
   for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
     gradients.block<3, 1>(3 * a, e) = -2 * d;

@@ -59,7 +59,7 @@ py::array_t<Number> rows(const Vectors& vectors) {
 
 /// The numbers of a solution where they are: an array that cannot be written to, and keeps the solution
 /// alive.
-/// @param shape  of doubles that lie one after the other
+/// @param shape  dimensions of the doubles, which lie one after the other
 template<class Value>
 py::array view(const py::object& owner, const std::vector<Value>& values, std::vector<py::ssize_t> shape) {
   static_assert(sizeof(Value) % sizeof(double) == 0);
@@ -164,7 +164,7 @@ void check_signals() {
   if (PyErr_CheckSignals() != 0) throw Interrupted{};
 }
 
-/// Between iterations, which may be many a millisecond.
+/// Checks signals every 100 ms: between iterations, which may be many a millisecond.
 void check_signals_now_and_then() {
   thread_local auto last = std::chrono::steady_clock::now();
   const auto now = std::chrono::steady_clock::now();

@@ -108,7 +108,7 @@ std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
   if (!o.curve_strain.empty() || !o.curve_stress.empty() || !o.curve_unit.empty())
     throw cases::InputError("command line: --strain, --stress and --unit are of the columns of --curve");
   if (o.yeoh.empty()) return std::nullopt;
-  const double thesis_end = 0.4; // of its Ogden reference
+  const double thesis_end = 0.4; // end of its Ogden reference
   return msm::sample(msm::yeoh_law(o.yeoh), other_poissons_ratio(o).value_or(0.5),
                      {0, o.largest_strain.value_or(thesis_end)});
 }

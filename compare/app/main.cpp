@@ -43,7 +43,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
     message = error.what();
   } catch (const std::bad_alloc&) {
     message = "springproof: not enough memory";
-  } catch (const cases::SolveError& error) { // of a design; those of cases are rows
+  } catch (const cases::SolveError& error) { // a design failed; failed cases are rows
     message = error.what();
     status = failed_solve;
   } catch (const std::system_error& error) { // a folder that cannot be read, a process that cannot be started

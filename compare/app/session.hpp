@@ -10,7 +10,7 @@ namespace springproof::compare {
 /// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
 void reserve_standard_streams();
 
-/// Under an MPI launcher starts MPI. A process alone has it started with the first solver that needs it
+/// Starts MPI under an MPI launcher. A process alone starts it with the first solver that needs it
 /// (compare/solve/solvers.hpp), which most commands do without.
 void start_ranks();
 

@@ -28,7 +28,7 @@ struct StressOptions {
   bool json = false;
 };
 
-/// @param name  of a hard case, or a path
+/// @param name  a hard case's name, or a path
 std::string file_of(const std::string& name) {
   if (fs::path(name).extension() == ".toml") return name;
   const std::map<std::string, std::string> hard = case_files_in("hard");

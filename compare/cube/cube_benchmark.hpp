@@ -32,7 +32,7 @@ inline constexpr std::array<CubeTest, 6> cube_tests{{{"tensile", "small"},
                                                      {"shear", "large"},
                                                      {"torsion", "large"}}};
 
-/// A test's case for another material and other cells.  @param edge  of a cell, mm, > 0
+/// A test's case for another material and other cells.  @param edge  a cell's edge, mm, > 0
 cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge);
 
 /// A measure of a test, or the test's failure (no error_percent).
@@ -45,8 +45,8 @@ struct CubeError {
 
 /// Errors of springs on the cube under one set of loads.
 struct LoadSetErrors {
-  std::optional<double> worst, mean;  ///< of |error|, percent, volumes apart; absent when a test failed
-  std::optional<double> worst_volume; ///< the same of volumes
+  std::optional<double> worst, mean;  ///< |error|, percent, volumes apart; absent when a test failed
+  std::optional<double> worst_volume; ///< worst |error| of volumes, percent
   bool is_stable = true;              ///< every test converged to a stable equilibrium without inverted cells
   std::vector<CubeError> measures{};
   std::size_t worst_test = 0; ///< index in cube_tests
@@ -55,7 +55,7 @@ struct LoadSetErrors {
 
 struct CubeErrors {
   LoadSetErrors small, large;
-  /// Over both; absent when a test failed.
+  /// Worst of both load sets; absent when a test failed.
   std::optional<double> worst() const {
     return small.worst && large.worst ? std::max(small.worst, large.worst) : std::nullopt;
   }
@@ -63,7 +63,7 @@ struct CubeErrors {
     return small.worst && large.worst ? std::max(small.worst_volume, large.worst_volume) : std::nullopt;
   }
   bool is_stable() const { return small.is_stable && large.is_stable; }
-  /// By the worst error over both load sets; of equal ones the first is recommended.
+  /// Ranks by the worst error over both load sets; the first of equal ones is recommended.
   Standing standing() const { return {is_stable() ? worst() : std::nullopt}; }
 };
 
@@ -75,7 +75,7 @@ struct DesignAttempt {
   std::string name;
   std::optional<msm::DesignResult> design;
   std::string refusal{};                          ///< why there is no design
-  std::optional<msm::StabilityRange> stability{}; ///< of a cubical cell's lattice
+  std::optional<msm::StabilityRange> stability{}; ///< stable range of a cubical cell's lattice
   std::optional<CubeErrors> cube{};               ///< when measured
   cases::Msm options{};                           ///< what was asked for
 };

@@ -32,7 +32,7 @@ double contribution(const msm::CellStiffness& part, double lateral_strain, doubl
 struct HomogeneousTest {
   std::string file;
   cases::LoadPath path;
-  int row, column; ///< of the nominal stress
+  int row, column; ///< entry of the nominal stress
   std::vector<double> strains;
 };
 

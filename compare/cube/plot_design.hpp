@@ -14,7 +14,7 @@ namespace springproof::compare {
 void plot_linear_method(const std::string& folder, cases::Element element);
 
 /// Figures 5.4, 5.6 and 5.7: stress and lateral strain of a pulled cell and of its reference.
-/// @param name  of the files    @param edge  L0, mm
+/// @param name  the files' name    @param edge  L0, mm
 void plot_uniaxial(const std::string& folder, const std::string& name, const msm::CellStiffness& design,
                    double edge, const msm::UniaxialCurve& reference);
 
@@ -48,7 +48,7 @@ struct NamedSprings {
 /// How the infinite lattices of designs follow a material: nominal stress over the material's Young's modulus
 /// in uniaxial tests with free sides (logarithmic strains from -0.3 to 0.3) and under simple shear (amounts
 /// to 0.6). Where a lattice's sides find no equilibrium its line ends.
-/// @param edge  of the designs' cell, mm
+/// @param edge  edge of the designs' cell, mm
 void plot_stress_strain(const std::string& folder, const cases::Material& material,
                         const std::vector<NamedSprings>& designs, double edge);
 

@@ -98,7 +98,7 @@ Json cube_to_json(const CubeErrors& cube) {
           {"large", errors_to_json(cube.large)}, {"measures", measures}};
 }
 
-/// In place of the moduli that a cubic lattice has.
+/// Writes a lattice's moduli by its fibre, where a cubic lattice's would stand.
 void write_fibre_lattice(std::ostream& out, const msm::NearestModuli& lattice) {
   const mechanics::TransverseModuli& c = lattice.moduli;
   const cases::TransverselyIsotropic m = mechanics::engineering_constants(c);

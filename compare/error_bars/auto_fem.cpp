@@ -17,11 +17,11 @@ namespace springproof::compare {
 
 namespace {
 
-/// Budget of a mesh that is refined to by itself.
+/// Budget of one automatically refined mesh.
 constexpr double most_unknowns = 1.5e6, most_seconds = 60;
 constexpr double seconds_an_iteration =
-    1e-6;                           ///< of one unknown on grids; what is hard to solve takes more of them
-constexpr double default_width = 1; ///< percent: of an error that nobody has an expectation of
+    1e-6; ///< cost of one unknown on grids; what is hard to solve takes more iterations
+constexpr double default_width = 1; ///< percent: width assumed for an error without an expectation
 
 /// The expectations that ask something of the finite elements, with the measure of each.
 std::vector<std::pair<cases::Expectation, cases::Measure>> gates_of(const cases::Case& definition) {
@@ -163,7 +163,7 @@ RefinedMeshes solve_meshes(const cases::Scene& scene, const FemAnswer& own, int 
 }
 
 /// Why a finer mesh is not solved without being asked for; empty when it is.
-/// @param last  on the mesh of twice the width
+/// @param last  answer on the mesh of twice the width
 std::string why_not_finer(const cases::Scene& finer, const cases::Solution& last) {
   const Estimate next = estimate_fem(size_of(finer));
   const double by_iterations =
@@ -179,7 +179,7 @@ std::string why_not_finer(const cases::Scene& finer, const cases::Solution& last
       next.unknowns, seconds, next.megabytes);
 }
 
-/// As many meshes as it takes to know the reference well enough, or as the budget pays for.
+/// Refines until the reference is known well enough, or the budget is spent.
 /// @param told  gets a line on what was done
 RefinedMeshes refine_until_known(const cases::Scene& scene, const FemAnswer& own, const KeptMeshes& kept,
                                  std::vector<std::string>& told) {

@@ -31,7 +31,7 @@ void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, con
       is_field_norm(measure.kind) ? part : part * std::abs(1 + *value.error_percent / 100);
 }
 
-/// By how much the finite elements' value changes on the way to the results' mesh and back.
+/// Adds how much the finite elements' value changes on the way to the results' mesh and back.
 void add_interpolation_error(MeasuredValue& value, const cases::Measure& measure, const cases::Scene& scene,
                              const Answers& answers) {
   const cases::Solution &fem = answers.fem.solution, &back = answers.interpolated->fem_and_back.solution;
@@ -47,7 +47,7 @@ void add_interpolation_error(MeasuredValue& value, const cases::Measure& measure
     value.interpolation_error_percent = std::abs(*percent);
 }
 
-/// Of the surface that a dynamic case names, over the time of the written bodies.
+/// Measures the surface that a dynamic case names, over the time of the written bodies.
 MeasuredValue surface_over_time(const cases::Scene& scene, const Answers& answers) {
   MeasuredValue value{cases::surface_measure, "mm", {}, {}, {}};
   const auto motion = surface_motion(scene, answers);
@@ -81,7 +81,7 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
       value.error_same_mesh_percent =
           measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
     value.error_percent = value.error_same_mesh_percent;
-    // Of a motion's norm the limit is a number, and the error would be of the whole course.
+    // The limit of a motion's norm is one number, but the error would be the whole course's.
     const bool is_studied = study && !is_trajectory_norm(measure);
     const StudiedMeasure* studied = is_studied ? find_named(study->measures, measure.name) : nullptr;
     if (studied && studied->reference) {

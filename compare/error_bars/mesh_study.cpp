@@ -16,9 +16,9 @@ using VectorField = std::vector<Eigen::Vector3d>;
 constexpr double mesh_ratio = 2;
 constexpr double with_order = 1.25, without_order = 3; ///< safety factors on what is left to the limit
 constexpr double highest_power = 4;  ///< mesh_ratio to the order 2 of trilinear elements: more is an accident
-constexpr double same_order = 0.3;   ///< in how far the orders of two steps may differ
-constexpr double rounding = 1e-9;    ///< of a value, that a solve leaves undecided
-constexpr double above_formal = 0.3; ///< of an observed order: more is an accident
+constexpr double same_order = 0.3;   ///< largest difference of the orders of two steps
+constexpr double rounding = 1e-9;    ///< part of a value that a solve leaves undecided
+constexpr double above_formal = 0.3; ///< excess of an observed order; more is an accident
 
 /// a + factor (a - b)
 VectorField beyond(const VectorField& a, double factor, const VectorField& b) {
@@ -34,7 +34,7 @@ VectorField difference(double factor, const VectorField& a, const VectorField& b
   return result;
 }
 
-/// By which power of the mesh ratio the differences of four values shrink is the same in both steps.
+/// Whether the differences of four values shrink by the same power of the mesh ratio in both steps.
 bool is_confirmed(double power, double power_before) {
   return power_before > 1 && std::abs(std::log2(power / power_before)) < same_order;
 }
@@ -96,8 +96,7 @@ std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to
   if (!std::isfinite(last)) return "a value is not finite";
   if (std::abs(last) <= least) return Limit{value(0), least, "the two finest meshes agree"};
   if (n == 2) return Limit{value(0), without_order * std::abs(last), "two meshes, which show no order"};
-  const double power =
-      change(1) / last; // of the mesh ratio, to the order; negative when the values oscillate
+  const double power = change(1) / last; // mesh ratio to the order; negative when the values oscillate
   if (!(std::abs(power) > 1))
     return fmt::format("the values do not draw nearer: {:.6g}, {:.6g}, {:.6g} from coarse to fine", value(2),
                        value(1), value(0));

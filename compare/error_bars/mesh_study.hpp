@@ -23,11 +23,11 @@ using MeshVerdict = std::variant<MeshLimit, std::string>;
 
 /// Judges the three finest values of a sequence.
 /// @param coarse_to_fine  three or more values, each mesh refined from the one before
-/// @param ratio           of mesh widths, > 1
+/// @param ratio           ratio of mesh widths, > 1
 /// @return a reason instead of a limit if a value is not finite, if the values oscillate or do not draw
 /// nearer to each other, if they agree to `resolved` of their size (there is nothing left to extrapolate), or
-/// if the finest is zero Source: P. J. Roache, Perspective: a method for uniform reporting of grid refinement
-/// studies, J. Fluids Eng. 116 (1994).
+/// if the finest is zero. Source: P. J. Roache, Perspective: a method for uniform reporting of grid
+/// refinement studies, J. Fluids Eng. 116 (1994).
 MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio, double resolved = 1e-9);
 
 /// Error bar of a value on any of the meshes: 1.25 |(f - f0)/f| x 100, which on the finest is the grid
@@ -77,7 +77,7 @@ find_limit(const std::vector<const std::vector<Eigen::Vector3d>*>& coarse_to_fin
 struct StudiedMeasure {
   std::string name;
   std::vector<double> values;     ///< from coarse to fine, in the measure's unit
-  std::optional<MeshLimit> limit; ///< of the three finest meshes; absent when no order is to be seen
+  std::optional<MeshLimit> limit; ///< limit of the three finest meshes; absent when no order is seen
   /// Error bar of the finite elements' value on the case's own mesh; absent with the order.
   std::optional<double> discretisation_error_percent;
   std::string reason;               ///< why no order is to be seen; empty when one is
@@ -91,7 +91,7 @@ struct MeshStudy {
   std::vector<std::size_t> unknowns;
   std::vector<StudiedMeasure>
       measures; ///< all of the case's, in its order; without values when nothing was solved
-  std::optional<FieldLimit> field{}; ///< of the displacement, for measures that are norms of it
+  std::optional<FieldLimit> field{}; ///< limit of the displacement, for measures that are norms of it
 };
 
 /// What the answers on refined meshes tell of the finite elements' own error, measure by measure.

@@ -12,7 +12,7 @@ namespace springproof::compare {
 struct HalvedStep {
   double value, with_half; ///< in the measure's unit
   double extrapolated;     ///< Richardson's, by the order p of the study: f0 = f2 + (f2 - f1)/(2^p - 1)
-  std::optional<double> error_percent; ///< of `value` against that; none where it is 0 but for rounding
+  std::optional<double> error_percent; ///< `value` against that; none where it is 0 but for rounding
 };
 
 struct TimeError {
@@ -22,8 +22,8 @@ struct TimeError {
 };
 
 struct TimeStudy {
-  /// Of the scheme; 1 where a load jumps on the way: a step that begins or ends at the jump, or holds it, has
-  /// the load of one side alone for a part of the step, which moves the jump by a part of the step.
+  /// Order of the scheme; 1 where a load jumps on the way: a step that meets the jump has one side's load for
+  /// a part of the step, which moves the jump by that part.
   int order = 1;
   bool has_jumps = false;
   std::vector<TimeError> errors;       ///< one per measure
@@ -31,7 +31,7 @@ struct TimeStudy {
 };
 
 /// Solves a dynamic case once more with half its step. Collective over MPI_COMM_WORLD.
-/// @param answers  to the case as it is
+/// @param answers  those to the case as it is
 /// @throws InputError if the case has no [dynamics]
 TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
                      SolveFem solve_fem);

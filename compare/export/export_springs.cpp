@@ -16,7 +16,7 @@ namespace {
 using cases::index;
 using Eigen::Vector3d;
 
-/// As many digits as bring the number back, and no more.
+/// Returns the fewest digits that bring the number back.
 std::string exact(double number) {
   return fmt::format("{}", number);
 }

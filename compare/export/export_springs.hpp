@@ -27,9 +27,9 @@ msm::Problem exported_problem(const cases::Scene& scene);
 /// @throws SolveError where a motion begins in an equilibrium that is not found
 std::optional<ExportedMotion> exported_motion(const cases::Scene& scene);
 
-/// @param name  of the case
-/// @throws InputError if the target cannot express the springs or their motion, with everything that it
-/// cannot; of a motion the targets for files know nothing, and say so
+/// @param name  the case's name
+/// @throws InputError if the target cannot express the springs or their motion, listing all that it cannot;
+/// targets for files take any motion, and say what they leave out
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
                        const std::optional<ExportedMotion>& motion = {});
 
@@ -43,16 +43,16 @@ std::vector<std::string> export_springs(const std::string& folder, ExportTarget 
                                         const std::string& name, const msm::Problem& problem,
                                         const std::optional<ExportedMotion>& motion = {});
 
-/// Of every link the kind of spring that it is in the mesh's cells: 1 an edge, 2 a face diagonal, 3 an
-/// internal diagonal; 0 for a link of a network that is none of these.
+/// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
+/// diagonal; 0 for a link of a network that is none of these.
 std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links);
 
-/// What there is of a motion that SOFA's components do not do as our steps do.
+/// What a motion has that SOFA's components do not do as our steps do.
 std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion);
 
 /// Writes springs as a SOFA scene in mm, mN, kg and s: FOLDER/scene.py, a program that is the same for every
 /// case, and its data FOLDER/scene.json, each whole or not at all.
-/// @param name    of the case   @param motion  null: the equilibrium under the full load
+/// @param name    the case's name   @param motion  null: the equilibrium under the full load
 /// @return what was written, and what differs in SOFA, a line each
 std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
                                           const msm::Problem& problem, const ExportedMotion* motion);

@@ -18,7 +18,7 @@ import json
 import math
 import os
 
-TOLERANCE = 1e-8  # of a residual, relative to the scene's own forces
+TOLERANCE = 1e-8  # residual relative to the scene's own forces
 PLUGINS = ["Sofa.Component.Constraint.Projective", "Sofa.Component.LinearSolver.Direct", "Sofa.Component.Mass",
            "Sofa.Component.MechanicalLoad", "Sofa.Component.ODESolver.Backward", "Sofa.Component.SolidMechanics.Spring",
            "Sofa.Component.StateContainer", "Sofa.Component.Topology.Container.Dynamic", "Sofa.Component.Visual"]
@@ -136,7 +136,7 @@ def createScene(rootNode):
         body.addObject("EdgeSetTopologyContainer", name="topology", position=model["positions"],
                        edges=[spring[:2] for spring in model["springs"]])
         body.addObject("DiagonalMass", name="masses", template="Vec3d", topology="@topology", vertexMass=motion["masses"])
-    # Of each spring its two nodes, stiffness, damping and rest length.
+    # A spring: its two nodes, stiffness, damping and rest length.
     springs = " ".join(f"{a} {b} {stiffness!r} 0 {rest_length!r}" for a, b, stiffness, rest_length in model["springs"])
     body.addObject("SpringForceField", name="springs", template="Vec3d", spring=springs)
     for n, support in enumerate(model["supports"]):

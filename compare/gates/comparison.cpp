@@ -71,13 +71,13 @@ std::optional<double> value_of(const cases::Expectation& expected, const Measure
   return std::nullopt;
 }
 
-/// Of those that there are.
+/// Adds those that are there; nothing if none is.
 std::optional<double> sum(const std::optional<double>& a, const std::optional<double>& b) {
   return a && b ? *a + *b : a ? a : b;
 }
 
-/// Of the value, in the gate's unit. From an error bar of d percent of the finite elements' value f: d f/100
-/// of f itself.
+/// Returns the uncertainty of the value, in the gate's unit. An error bar of d percent on the finite
+/// elements' value f is d f/100.
 std::optional<double> uncertainty(const cases::Expectation& expected, const MeasuredValue& measured,
                                   const StudiedMeasure* study) {
   switch (expected.quantity) {

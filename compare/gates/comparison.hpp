@@ -12,24 +12,24 @@ struct Gate {
   cases::Expectation expectation;
   std::optional<double> value;
   std::string missed{}; ///< why it is not met; empty when it is
-  std::string unit{};   ///< of the interval and the value: "%", "mm", "deg", "mm3"
+  std::string unit{};   ///< unit of interval and value: "%", "mm", "deg", "mm3"
   /// Half the width of the reference's own error bar from its mesh study, in the unit. A gate against a
   /// converged reference is met when all of value -+ uncertainty is inside; for others it is shown alone.
-  /// Absent where there is none, and for the springs' own value, which has no reference. Of results that were
-  /// interpolated it has what that may add, and every gate must be met by all of value -+ uncertainty.
+  /// Absent where there is none, and for the springs' own value, which has no reference. It includes what
+  /// interpolation of results may add, and then every gate must be met by all of value -+ uncertainty.
   std::optional<double> uncertainty{};
   std::string uncertain = "reference"; ///< what the uncertainty is of
   bool is_undecided = false;           ///< not met, because the interval's end lies within the uncertainty
   std::string warning{}; ///< such as that the interval is narrower than the error bar; empty: none
   std::string cause{};   ///< why a measure that is there has no value; empty when it has one
-  /// Without a value because a side that it needs was not asked for: neither met nor missed. `gate` is not
-  /// met by it.
+  /// True when a side that it needs was not asked for: it has no value and is neither met nor missed. `gate`
+  /// is not met by it.
   bool is_left_out = false;
   bool met() const { return missed.empty(); }
 };
 
-/// By what was measured alone. Of a converged reference the finite elements' value is their limit.
-/// @param measures  of the same case
+/// Judges by what was measured alone. The finite elements' value of a converged reference is their limit.
+/// @param measures  measures of the same case
 Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
 
 /// Judges every expectation of a case by what was measured.
@@ -46,7 +46,7 @@ struct Comparison {
   std::vector<Gate> gates;                     ///< one per expectation
   std::optional<MeshStudy> mesh_study;         ///< absent when the case has accuracy = "none"
   std::vector<LandmarkDistance> landmarks;     ///< one per landmark
-  std::optional<SurfaceMotion> surface_motion; ///< of a dynamic case with a [surface]
+  std::optional<SurfaceMotion> surface_motion; ///< present for a dynamic case with a [surface]
 
   /// What a converged side must not be unless its case accepts that: with inverted cells, or in an unstable
   /// equilibrium.

@@ -80,7 +80,7 @@ std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads) {
     Question job{scene, {expected.side}};
     job.request.n_threads = n_threads;
     cases::Case& definition = job.scene.definition;
-    definition.name += " " + expected.model; // of what is kept
+    definition.name += " " + expected.model; // names the kept answer
     if (expected.design) {
       definition.msm = {};
       definition.msm.design = *expected.design;

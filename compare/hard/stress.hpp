@@ -28,7 +28,7 @@ struct StressResult {
 };
 
 /// A question for each model that a hard case expects something of, named after case and model.
-/// @param n_threads  of the springs' multigrid path
+/// @param n_threads  used by the springs' multigrid path
 /// @throws InputError when no scene can be made of the case
 std::vector<Question> jobs_for(const cases::Case& hard_case, int n_threads);
 

@@ -10,16 +10,16 @@ const send = (message) => {
 let description = null, surface = null, frame = null, view = null;
 const seen = {
   frames: 0,
-  pictures: 0, // of the frames, those that were drawn: one that looks like the last is not
+  pictures: 0, // frames that were drawn: one that looks like the last is not
   since: performance.now(),
   rate: 0, // pictures a second
   asked_at: 0,
-  answer_ms: 0,   // from a question to its frame
-  latency_ms: [], // from the pointer's move to the picture of a step that has it, of the last ones
+  answer_ms: 0,   // time from a question to its frame
+  latency_ms: [], // times from the pointer's move to the picture of a step that has it, the last ones
   on_page_ms: [], // the same to the page's next refresh, which shows the picture
   bytes: 0
 };                // for the panel and for tests
-const least_between_ms = 10; // of questions, and of moves: the server cuts off who says more than 300 a second
+const least_between_ms = 10; // interval of questions, and of moves: the server cuts off above 300 a second
 
 // A pull goes in the plane of the screen through the place where it began.
 const pull = {
@@ -104,7 +104,7 @@ function draw_newest() {
   show_numbers();
 }
 
-const numbers = new Map(); // of the panel: texts by their names
+const numbers = new Map(); // the panel's texts by their names
 function show_number(name, value) {
   if (!numbers.has(name)) {
     const term = document.createElement("dt"), text = document.createElement("dd");

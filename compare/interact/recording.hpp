@@ -20,7 +20,7 @@ struct Hold {
   std::vector<Eigen::Vector3d> force;
 };
 
-/// @param text  CSV     @param path  for messages     @param step, end  of the case, s
+/// @param text  CSV     @param path  named in messages     @param step, end  the case's, s
 /// @return at least one, in the order of their steps
 /// @throws cases::InputError with the line, if it is no recording of the case's step, or ends after the case
 std::vector<Hold> read_recording(const std::string& text, const std::string& path, double step, double end);

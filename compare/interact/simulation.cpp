@@ -191,7 +191,7 @@ void Simulation::step() {
     step_ms_[static_cast<std::size_t>(summary_.n_steps) % most_times] = taken;
   summary_.largest_ms = std::max(summary_.largest_ms, taken);
   ++summary_.n_steps;
-  if (body_.n_steps() <= last_step_) recording_.clear(); // of the motion since its last start
+  if (body_.n_steps() <= last_step_) recording_.clear(); // holds the motion since its last start
   last_step_ = body_.n_steps();
   if (const auto held = body_.held(); held && !body_.force().isZero(0)) {
     ++summary_.n_pulled;
@@ -200,7 +200,7 @@ void Simulation::step() {
 }
 
 std::shared_ptr<const std::string> Simulation::frame() {
-  constexpr std::size_t shown = 500; // of the last steps: their median and 99th percentile
+  constexpr std::size_t shown = 500; // number of last steps whose median and 99th percentile are shown
   const std::size_t n = std::min(shown, step_ms_.size());
   std::vector<double> last;
   for (std::size_t i = 0; i < n; ++i)

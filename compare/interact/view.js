@@ -60,11 +60,11 @@ class View {
     this.fine = new DrawnSurface(fine);
     this.coarse = coarse ? new DrawnSurface(coarse) : this.fine;
     this.drawn = this.fine;
-    this.resolution = 1;  // of the picture, as a part of the screen's
-    this.drawn_ms = 0;    // a picture takes, a running mean
+    this.resolution = 1;  // pixels of the picture, as a part of the screen's
+    this.drawn_ms = 0;    // time that a picture takes, a running mean
     this.is_full = true;  // the picture is of all triangles and pixels
     this.is_turned = true;
-    this.part = {x: 0, y: 0, width: 0, height: 0}; // of the stage, that the picture covers, CSS pixels
+    this.part = {x: 0, y: 0, width: 0, height: 0}; // area of the stage that the picture covers, CSS pixels
     this.changed_at = performance.now();
     this.shown = new Float32Array(3 * fine.n_nodes);
     this.pixel = new Uint8Array(4);
@@ -120,7 +120,7 @@ class View {
     if (!rests) this.choose_resolution(taken);
     return true;
   }
-  has_moved(displacement) { // by half a pixel
+  has_moved(displacement) { // whether by more than half a pixel
     const far = 2 * this.camera.position.distanceTo(this.controls.target) *
         Math.tan(0.5 * THREE.Math.DEG2RAD * this.camera.fov);
     const least = 0.5 * far / Math.max(1, stage.clientHeight), shown = this.shown;
@@ -181,7 +181,7 @@ class View {
     };
     hold(surface.surface.positions);
     if (this.spring.visible) hold(this.spring.geometry.attributes.position.array);
-    const with_room = (part) => { // of a part of the body's size
+    const with_room = (part) => { // widens by 8 pixels and a part of the body's size
       const room = 8 + part * Math.max(upper[0] - lower[0], upper[1] - lower[1]);
       const x = Math.max(0, Math.floor(lower[0] - room)), y = Math.max(0, Math.floor(lower[1] - room));
       return {x, y, width: Math.min(width, Math.ceil(upper[0] + room)) - x, height: Math.min(height, Math.ceil(upper[1] + room)) - y};

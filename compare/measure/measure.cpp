@@ -22,7 +22,7 @@ namespace {
 
 using Points = std::vector<Vector3d>;
 
-constexpr double relative_zero = 1e-8; ///< of a size, and less: a solve leaves 1e-9 of its forces
+constexpr double relative_zero = 1e-8; ///< part of a size that is 0; a solve leaves 1e-9 of its forces
 
 double component_of(const Vector3d& vector, cases::Component component) {
   return component == cases::Component::norm ? vector.norm() : vector[static_cast<int>(component)];
@@ -83,7 +83,7 @@ class NodeMeasure {
 
   bool is_angle() const { return segment_.has_value(); }
 
-  /// @param displacement  of a node by its number, mm
+  /// @param displacement  returns a node's displacement by its number, mm
   template<class Displacement>
   double at(const Displacement& displacement) const {
     Points moved;
@@ -130,7 +130,7 @@ Numbers sum_of_ranks(Numbers here, const cases::Solution& solution) {
 double at_point(const measures::OfCells& measure, const cases::Scene& scene, const cases::Solution& solution,
                 const std::vector<cases::SymmetricTensor>& of_cells) {
   const cases::Range here = cases::share_here(scene.mesh, solution.sharing.get()).cells;
-  std::array<double, 7> sums{}; // of the tensors, and the number of them
+  std::array<double, 7> sums{}; // the tensors' components, and their number
   for (const std::size_t cell : cases::cells_at(scene.mesh, measure.point, here)) {
     for (std::size_t i = 0; i < 6; ++i) sums[i] += of_cells[cell - here.begin][i];
     ++sums[6];
@@ -195,8 +195,8 @@ double volume(const cases::Solution& solution) {
   return solution.sharing ? solution.sharing->sum(here) : here;
 }
 
-/// Up to which size the values that a measure has at single times are zero, whatever number of their course
-/// the case asks for.
+/// Largest size at which a measure's value at a single time counts as zero, whatever number of its course the
+/// case asks for.
 struct ZeroOfValues {
   const cases::Scene& scene;
   const cases::Solution& solution;
@@ -279,7 +279,7 @@ double field_norm(const measures::Kind& kind, const cases::HexMesh& mesh, const 
                   const cases::Sharing* sharing) {
   if (std::holds_alternative<measures::DisplacementFieldL2>(kind))
     return root_mean_square(mesh, field, sharing);
-  double largest = 0; // of none
+  double largest = 0; // stays 0 for an empty field
   if (!field.empty()) {
     const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
     largest = vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();

@@ -22,7 +22,7 @@ double evaluate(const cases::Measure& measure, const cases::Scene& scene, const 
 /// fields.
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution);
 /// A measure of a motion at the start and after every step, in the unit of its values, with its zero.
-/// @param solution  with its trajectory; a measure of which is_field_norm() holds is of the end alone
+/// @param solution  has its trajectory; a measure for which is_field_norm() holds is taken at the end alone
 TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
                      const cases::Solution& solution);
 
@@ -37,7 +37,7 @@ std::string why_without_value(const cases::Measure& measure, const cases::Scene&
                               const cases::Solution& solution);
 
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
-/// @param kind  of which is_field_norm() holds   @param field  a vector per node that is here
+/// @param kind  one for which is_field_norm() holds   @param field  a vector per node that is here
 /// @param sharing  the ranks that share the field; null: all of it is here
 double field_norm(const cases::measures::Kind& kind, const cases::HexMesh& mesh,
                   const std::vector<Eigen::Vector3d>& field, const cases::Sharing* sharing = nullptr);
@@ -62,14 +62,14 @@ bool is_trajectory_norm(const cases::Measure& measure);
 /// "mm", "deg", "mm3", "N", "N mm", "MPa", or "1" of a strain; of numbers over time also "s", "Hz", "%".
 std::string unit_of(const cases::Measure& measure);
 
-/// Up to which size a displacement is zero but for rounding, mm: 1e-8 of the body's largest one, of a motion
-/// of the largest at any time that it has kept. A solve leaves 1e-9 of its forces.
+/// Largest size at which a displacement counts as zero, mm: 1e-8 of the body's largest, for a motion of the
+/// largest at any time kept. A solve leaves 1e-9 of its forces.
 double zero_of_displacements(const cases::Scene& scene, const cases::Solution& solution);
 
-/// Up to which size a value of a measure is zero but for rounding, in its unit: that of displacements in the
-/// finite elements' solution, for an angle over the body's size, 1e-8 of the size for a coordinate, of the
-/// sum of all nodes' reactions for a reaction, of the body's largest for stress and strain. A time, a
-/// frequency and a ratio have none.
+/// Largest size at which a measure's value counts as zero, in its unit. Displacements have that of the finite
+/// elements' solution, angles the same over the body's size, coordinates 1e-8 of the size, reactions 1e-8 of
+/// the sum of all nodes' reactions, stress and strain 1e-8 of the body's largest. A time, a frequency and a
+/// ratio have none.
 double zero_of(const cases::Measure& measure, const cases::Scene& scene, const cases::Solution& fem);
 
 /// r = (msm - fem)/fem x 100 %, as in the thesis; nothing when fem is zero, or next to msm, or either is not

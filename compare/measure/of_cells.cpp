@@ -103,8 +103,8 @@ double largest_curvature(const cases::measures::Curvature& measure, const cases:
   double size = 0;
   for (const int node : nodes)
     size = std::max(size, scene.mesh.nodes[cases::index(node)].cwiseAbs().maxCoeff());
-  const double rounding = 1e-9 * size;                        // of rest positions, far below a cell
-  std::map<std::array<long long, 2>, std::vector<int>> lines; // by the other two coordinates at rest
+  const double rounding = 1e-9 * size;                        // error of rest positions, far below a cell
+  std::map<std::array<long long, 2>, std::vector<int>> lines; // keys: the other two coordinates at rest
   for (const int node : nodes) {
     const Vector3d rest = scene.mesh.nodes[cases::index(node)];
     const auto key = [&](int a) { return std::llround(rest[a] / (rounding > 0 ? 1e3 * rounding : 1)); };

@@ -19,7 +19,7 @@ double tensor_norm(const cases::SymmetricTensor& tensor);
 
 /// A statistic of a component of the cells' tensors, over the cells that have a face in the measure's region,
 /// or over all; means are weighted by the cells' volume at rest.
-/// @param of_cells  of the cells that are here
+/// @param of_cells  tensors of the cells that are here
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
                  const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells);
 

@@ -18,7 +18,7 @@ Extreme vertex(const TimeSeries& series, std::size_t i) {
   const double slope_before = (series.value[i - 1] - value) / before,
                slope_after = (series.value[i + 1] - value) / after;
   const double curvature =
-      (slope_after - slope_before) / (after - before); // of curvature s² + slope s + value
+      (slope_after - slope_before) / (after - before); // parabola: curvature s² + slope s + value
   const double slope = slope_before - curvature * before;
   if (curvature == 0) return {t, value};
   const double at = std::clamp(-slope / (2 * curvature), before, after);
@@ -60,14 +60,14 @@ std::size_t furthest(const TimeSeries& series) {
   return static_cast<std::size_t>(at - series.value.begin());
 }
 
-/// Between two steps too, unless it is at an end.
+/// Finds the peak, between two steps too unless it is at an end.
 Extreme peak_of(const TimeSeries& series) {
   const std::size_t i = furthest(series);
   if (i == 0 || i + 1 == series.value.size()) return {series.time[i], series.value[i]};
   return vertex(series, i);
 }
 
-/// Up to here a way is rounding, of what moved by so much: a solve leaves 1e-9 of its forces.
+/// Longest way that is rounding: 1e-9 of the longest of all, as a solve leaves 1e-9 of its forces.
 double rounding_of(const TimeSeries& series) {
   return std::max(series.zero, 1e-9 * std::abs(series.value[furthest(series)] - series.value.front()));
 }
@@ -120,9 +120,9 @@ std::optional<Swings> swings_of(const TimeSeries& series) {
   const double step =
       (series.time.back() - series.time.front()) / static_cast<double>(series.time.size() - 1);
   if (half_period < 2 * step) return std::nullopt;
-  const double decrement = -line_through(ways).slope; // of half a swing: pi zeta / sqrt(1 - zeta²)
+  const double decrement = -line_through(ways).slope; // decay in half a swing: pi zeta / sqrt(1 - zeta²)
   const double ratio = decrement / M_PI;
-  const double left = std::exp(-decrement); // of a swing's size half a period later, on the other side
+  const double left = std::exp(-decrement); // size ratio of successive extremes, on opposite sides
   const double last = all.back().value, before = all[all.size() - 2].value;
   return Swings{0.5 / half_period, ratio / std::hypot(1, ratio), (last + left * before) / (1 + left)};
 }

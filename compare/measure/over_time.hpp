@@ -46,7 +46,7 @@ std::optional<Swings> swings_of(const TimeSeries& series);
 /// A number of a series, finite and in the unit of unit_over_time(), or why it has none: frequencies of what
 /// does not swing, an overshoot of what settles where it began, the time of a peak of what does not move,
 /// anything of values that are not finite.
-/// @param series  of at least one value
+/// @param series  has at least one value
 std::variant<double, std::string> number_over_time(cases::OverTime what, const TimeSeries& series);
 
 /// The same; nothing without a number.
@@ -58,14 +58,14 @@ std::optional<double> value_over_time(cases::OverTime what, const TimeSeries& se
 std::optional<double> trajectory_error_percent(const TimeSeries& reference, const TimeSeries& other);
 
 /// Its unit: that of the measure's values, or a time's, a frequency's, a ratio's.
-/// @param unit  of the measure's values
+/// @param unit  unit of the measure's values
 std::string unit_over_time(cases::OverTime what, const std::string& unit);
 
 /// What the implicit Euler method adds to the damping of a measure that swings.
 struct NumericalDamping {
   double frequency; ///< Hz, of the swings of the measure
   double ratio;     ///< damping ratio that the step gives them
-  double measured;  ///< of the swings as they are: the body's damping and the step's
+  double measured;  ///< damping ratio of the swings as they are: the body's and the step's
   bool exceeds_body() const { return ratio > measured - ratio; }
 };
 /// @return nothing for another scheme, and for a measure that does not swing

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t n_triangles = 5; // of a landmark, as in the thesis
+constexpr std::size_t n_triangles = 5; // number per landmark, as in the thesis
 
 /// The surface at rest, and as it has been moved: mm, one place per vertex; empty: that answer is missing.
 struct Surfaces {
@@ -43,7 +43,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// From the springs' surface at these triangles to another one.
+/// Casts rays from the springs' surface at these triangles to another surface.
 RayLengths ray_lengths(const Surfaces& surfaces, const std::vector<std::size_t>& from,
                        const std::vector<Vector3d>& to) {
   const auto& triangles = surfaces.embedded.rest.triangles;
@@ -86,7 +86,7 @@ std::string why_not(const Answers& answers) {
   return "";
 }
 
-/// Of the springs in equilibrium, where that is another answer; empty otherwise.
+/// The springs' displacement in equilibrium, where their answer is another one; empty otherwise.
 std::vector<Vector3d> equilibrium_of(const cases::Solution& springs) {
   if (!springs.from_equilibrium || springs.sharing) return {};
   return springs.from_equilibrium->displacement;

@@ -7,7 +7,7 @@
 /// How far the surfaces of both models are apart: at landmarks, and while they move.
 namespace springproof::compare {
 
-/// Of the rays that met the other surface.
+/// Lengths of the rays that met the other surface.
 struct RayLengths {
   int n_rays = 0;
   std::optional<double> mean, deviation; ///< mm; nothing where no ray, or but one, met it
@@ -17,19 +17,19 @@ struct RayLengths {
 struct LandmarkDistance {
   std::string name;
   std::optional<double>
-      from_point;    ///< mm: of the point from the nearest triangle's barycentre, in the body at rest
-  RayLengths to_fem; ///< to the finite elements' surface
+      from_point;              ///< mm: distance to the nearest triangle's barycentre, in the body at rest
+  RayLengths to_fem;           ///< rays to the finite elements' surface
   std::optional<double> moved; ///< mm: mean displacement of the barycentres in the finite elements
-  /// Of springs after a number of iterations: to the surface of the same springs in equilibrium
+  /// Rays to the same springs' surface in equilibrium, where they were stopped after some iterations.
   std::optional<RayLengths> to_equilibrium;
-  std::string missing{}; ///< why there is nothing of the finite elements
+  std::string missing{}; ///< why the finite elements have nothing
 };
 
-/// Of every landmark of a case, in its order: from the barycentres of the five triangles that are nearest to
-/// it at rest, of the surface as the springs have moved it, along the triangles' normals to the nearest
-/// place, on either side, of the surface as the other answer has moved it. The deviation is that of a
-/// sample (n - 1). The surface is the scene's, or the outer one of the body's cells. A dynamic case's are of
-/// its end. Source: thesis section 6.1.4.3 and table 6.1.
+/// Finds the distances at every landmark of a case, in its order. Rays start on the surface as the springs
+/// have moved it, at the barycentres of the five triangles nearest to the landmark at rest. Along the
+/// triangles' normals, to either side, they end at the nearest place of the other answer's surface. The
+/// deviation is a sample's (n - 1). The surface is the scene's, or the outer one of the body's cells. A
+/// dynamic case is measured at its end. Source: thesis section 6.1.4.3 and table 6.1.
 std::vector<LandmarkDistance> landmark_distances(const cases::Scene& scene, const Answers& answers);
 
 /// The surface that a case names, or else the outer one of its cells, bound to the cells.
@@ -46,7 +46,7 @@ struct SurfaceMotion {
   std::optional<double> error_percent; ///< root mean square of difference over time, over that of fem
 };
 
-/// Of the surface that a dynamic case names ([surface]), at the times of its written bodies, with
+/// Follows the surface that a dynamic case names ([surface]), at the times of its written bodies, with
 /// dynamics.write_every; vertices count alike. Nothing where the case names no surface, or a model did not
 /// move to the end; no error where the finite elements' surface rests but for rounding.
 /// @throws cases::InputError if the surface cannot be bound to the cells

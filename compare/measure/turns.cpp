@@ -45,7 +45,7 @@ class TurnedNodes {
                               cases::cell_vertices(mesh, cell, displacement, first_node), centre);
     return now * at_rest.inverse() * segment.along;
   }
-  /// In (-180, 180].
+  /// Angle in (-180, 180].
   static double degrees_between(const TurnedSegment& segment, const Vector3d& turned) {
     const double x = segment.along[segment.from], y = segment.along[segment.towards];
     const double to_x = turned[segment.from], to_y = turned[segment.towards];
@@ -59,7 +59,7 @@ class TurnedNodes {
   }
   bool has_begun() const { return has_begun_; }
 
-  /// Of the nodes that were reached, through the smallest differences first.
+  /// Counts the turns of all nodes within reach, through the smallest differences first.
   void count_all() {
     while (const auto step = take_smallest()) {
       const auto [from, to] = *step;

@@ -24,7 +24,7 @@ struct TurnedSegment {
 /// theirs; without such nodes at those that are held in one of the plane's axes. Of a body that nothing holds
 /// there, and of one whose cells turn by a quarter at most, the angle is in [-180, 180].
 /// @param displacement  mm, one per node that is here   @param sharing  as of cases::Solution; collective
-/// @param factor        of a motion, now
+/// @param factor        returns a motion's current factor
 double count_turns(double degrees, const TurnedSegment& segment, const cases::Scene& scene,
                    const std::vector<Eigen::Vector3d>& displacement, const cases::Sharing* sharing,
                    const std::function<double(const cases::Moved&)>& factor);

@@ -9,10 +9,10 @@ namespace springproof::compare {
 
 namespace {
 
-constexpr double same_subspace = 1e-6; // on the cosine of the largest angle
+constexpr double same_subspace = 1e-6; // tolerance on the cosine of the largest angle
 
-/// @param product  of one's transposed basis and the other's: the cosines of their angles are its singular
-/// values
+/// @param product  one's transposed basis times the other's; its singular values are the cosines of their
+/// angles
 bool are_the_same(const Eigen::MatrixXd& product) {
   return product.rows() == product.cols() &&
          Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff() > 1 - same_subspace;

@@ -16,10 +16,10 @@ namespace springproof::compare {
 
 namespace {
 
-/// Of omega² over the mean diagonal of K over that of M: rounding leaves 1e-16 of what should be 0, and a
-/// beam of a thousand thick cells has 1e-9.
+/// Largest omega², over the mean diagonal of K over that of M, that counts as zero: rounding leaves 1e-16,
+/// and a beam of a thousand thick cells has 1e-9.
 constexpr double no_stiffness = 1e-12;
-constexpr double least_overlap = 0.5; ///< of modes that are called one; those of a body are near 1
+constexpr double least_overlap = 0.5; ///< least overlap of modes that are called one; a body's are near 1
 
 double hertz_of(double omega_squared) {
   return std::sqrt(omega_squared) / (2 * M_PI);

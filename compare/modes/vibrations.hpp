@@ -15,7 +15,7 @@ namespace springproof::compare {
 /// Frequencies in ascending order, and their shapes on the nodes of the body's mesh.
 struct Vibrations {
   Eigen::VectorXd hertz;
-  /// Per frequency a column of 3*node + component, 0 on supports; orthonormal in the masses of mode_masses().
+  /// One column per frequency: 3*node + component, 0 on supports, orthonormal in the masses of mode_masses().
   Eigen::MatrixXd shapes;
   int n_rigid = 0; ///< motions without stiffness, which are left out
 };
@@ -27,7 +27,7 @@ constexpr double same_frequency = 1e-3;
 /// The modes of a space of the finite elements, and the springs' that overlap it most.
 struct MatchedModes {
   double fem_hz; ///< mean of the space
-  int dimension; ///< of the space
+  int dimension; ///< dimension of the space
   /// Mean of the springs' modes, as many at least; none when none of theirs is alike (an overlap below 0.5).
   std::optional<double> msm_hz;
   /// Cosine of the largest angle between the two spaces, in the masses of mode_masses(): 1 for the same
@@ -37,7 +37,7 @@ struct MatchedModes {
   int fem_mode, msm_mode;              ///< the first ones' places among the frequencies
 };
 
-/// Of a case's bodies. Every design is held against the same finite elements.
+/// Vibrations of a design's springs. Every design is held against the same finite elements.
 struct DesignVibrations {
   std::string design;
   Vibrations msm;
@@ -45,27 +45,27 @@ struct DesignVibrations {
   std::string refusal;             ///< why there are none; empty when there are
 };
 struct VibrationStudy {
-  std::string name; ///< of the case
+  std::string name; ///< name of the case
   Vibrations fem;
   std::vector<DesignVibrations> designs;
 };
 
-/// Per degree of freedom of the body's mesh, t: what shapes are weighted with, the springs' point masses of
+/// Masses, t, that weight shapes, one per degree of freedom of the body's mesh: the springs' point masses of
 /// equal shares of cells.
 Eigen::VectorXd mode_masses(const cases::Scene& scene);
 
 /// The lowest vibrations of a body.
-/// @param n_modes  with stiffness; fewer where the body has no more
+/// @param n_modes  number of modes with stiffness; fewer where the body has no more
 /// @throws SolveError if SLEPc does not converge, or if the body is unstable at rest
 Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::VectorXd& masses, int n_modes);
 
-/// @param n_modes  of the finite elements that are matched
+/// @param n_modes  number of the finite elements' modes that are matched
 std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& msm,
                                       const Eigen::VectorXd& masses, int n_modes);
 
 /// Both models of a scene whose materials have densities.
-/// @param designs  of springs; empty: the case's own. One that cannot serve the case is refused by itself
-/// @throws InputError; SolveError of the finite elements
+/// @param designs  spring designs; empty: the case's own. One that cannot serve the case is refused by itself
+/// @throws InputError; SolveError where the finite elements fail
 VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,
                                 int n_modes);
 

@@ -24,14 +24,14 @@ struct DotDiagram {
 void plot_dot_diagrams(const std::string& folder, const std::string& name,
                        const std::vector<DotDiagram>& panels);
 
-/// Into a folder: the dot diagram of thesis appendix A (dot_diagram.csv, .svg, .png), coupling.csv, the
-/// shapes of all eigenspaces of both cells (fem_modes.vtu, msm_modes.vtu) and as picture sheets
+/// Writes into a folder the dot diagram of thesis appendix A (dot_diagram.csv, .svg, .png), coupling.csv, and
+/// the shapes of all eigenspaces of both cells (fem_modes.vtu, msm_modes.vtu), also as picture sheets
 /// (fem_modes.svg, ... ; thesis figures 4.9 and 4.10).
-/// @param vertices  of the cell, mm
+/// @param vertices  vertices of the cell, mm
 void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis& analysis,
                              const msm::CellVertices& vertices);
 
-/// Into a folder: the body's modes side by side, body_modes.csv and body_modes.vtu, and their plot.
+/// Writes into a folder the body's modes side by side: body_modes.csv and body_modes.vtu, and their plot.
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
                             const cases::HexMesh& mesh);
 

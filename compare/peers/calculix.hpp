@@ -29,7 +29,7 @@ std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n
 
 /// All nodes after every step of a linear motion from rest: *DYNAMIC at the case's own step, with alpha = 0,
 /// which is newmark (1/4, 1/2); loads by their histories.
-/// @param scene  without a reason_without_calculix(), of a density
+/// @param scene  one without a reason_without_calculix(), of a density
 /// @return nothing when there is no `ccx`   @throws SolveError when it stops
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene);
 

@@ -74,7 +74,7 @@ int n_mpi_ranks() {
 }
 
 int n_mpi_ranks_here() {
-  for (const char* name : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}) // of Open MPI, of MPICH
+  for (const char* name : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}) // Open MPI, MPICH
     if (const char* n = std::getenv(name); n && std::atoi(n) > 0)
       return std::min(std::atoi(n), n_mpi_ranks());
   return n_mpi_ranks();

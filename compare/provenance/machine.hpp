@@ -17,8 +17,8 @@ std::string cases_folder();
 
 /// This process's number in MPI's world; 0 for a process alone, which need not have started MPI.
 int mpi_rank();
-int n_mpi_ranks(); ///< of MPI's world; 1 for a process alone
-/// Of MPI's world those on this machine, as the launcher tells; all, if it does not.
+int n_mpi_ranks(); ///< size of MPI's world; 1 for a process alone
+/// Number of MPI's ranks on this machine, as the launcher tells; all ranks, if it does not.
 int n_mpi_ranks_here();
 
 /// The machine and build that a timing depends on.

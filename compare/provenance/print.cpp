@@ -10,9 +10,9 @@ namespace {
 /// Ranges of code points, first and last.
 constexpr std::pair<char32_t, char32_t> not_shown[] = {
     {0x00, 0x08},     {0x0a, 0x1f},     {0x7f, 0x9f},     // control characters but the tab
-    {0x061c, 0x061c}, {0x200e, 0x200f}, {0x202a, 0x202e}, // which turn the direction of a line
-    {0x2066, 0x2069}, {0x2028, 0x2029},                   // and which end a line
-    {0xfffe, 0xffff}};                                    // of which XML 1.0 has none
+    {0x061c, 0x061c}, {0x200e, 0x200f}, {0x202a, 0x202e}, // changes of a line's direction
+    {0x2066, 0x2069}, {0x2028, 0x2029},                   // more of them, and ends of lines
+    {0xfffe, 0xffff}};                                    // not in XML 1.0
 
 bool is_shown(char32_t c) {
   return std::none_of(std::begin(not_shown), std::end(not_shown),

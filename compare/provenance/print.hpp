@@ -11,8 +11,8 @@
 namespace springproof::compare {
 
 /// The text as a part of one line: control characters, what breaks lines or turns their direction, characters
-/// that XML cannot hold and bytes that are no UTF-8 stand as escapes (\n, \x1b, \u202e); so does a character
-/// of what servers take for a command: a colon that begins the text, and the second of "##". Tabs stay.
+/// that XML cannot hold and bytes that are no UTF-8 stand as escapes (\n, \x1b, \u202e); so do characters
+/// that servers take for commands: a colon that begins the text, and the second of "##". Tabs stay.
 std::string one_line(const std::string& text);
 
 template<class Value>

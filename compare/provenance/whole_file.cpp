@@ -56,7 +56,7 @@ void try_to_write(const std::string& place, const std::string& path) {
   fs::remove(place, ignored);
 }
 
-/// Of the file that is to be replaced; what is refused is left as it is.
+/// Copies owner and mode from the file that is to be replaced; what is refused stays as it is.
 void keep_owner_and_mode(const fs::path& target, const fs::path& place) {
   struct stat old {};
   if (lstat(target.c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
@@ -73,7 +73,7 @@ bool is_in_the_way(const fs::directory_entry& entry, bool is_in_subfolder) {
          (is_in_subfolder || of_results.count(entry.path().extension().string()) > 0);
 }
 
-/// @param is_subfolder  of the folder of `--out`: must be no link
+/// @param is_subfolder  whether it lies in `--out`'s folder: then it must be no link
 void claim(const std::string& folder, bool is_subfolder) {
   if (folder.empty() || mpi_rank() != 0) return;
   std::error_code error;
@@ -101,7 +101,7 @@ void make_file(const std::string& path, const std::function<void(const std::stri
   const fs::path target(path), place = path + unfinished;
   std::error_code error, ignored;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), ignored);
-  fs::remove(place, ignored); // of a run that was killed
+  fs::remove(place, ignored); // leftover of a killed run
   try {
     make(place);
     keep_owner_and_mode(target, place);

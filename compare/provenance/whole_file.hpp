@@ -24,7 +24,7 @@ void make_file(const std::string& path, const std::function<void(const std::stri
 /// they are.
 void write_named_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
-/// Before the work whose results are to be written there.
+/// Checks that a file can be written, before the work whose results go there.
 /// @param path  as for write_named_file(); empty: none
 /// @throws InputError if it cannot be written
 void check_named_file(const std::string& path);

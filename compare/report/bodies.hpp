@@ -20,7 +20,7 @@ struct BodyView {
 };
 
 /// A case's own view. A side that failed is left out, with the reason.
-/// @param overlay  of both sides
+/// @param overlay  overlay of both sides
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay);
 
 /// The views' geometry for the page's script: {"bodies": [{"unit_mm", "rest": [x, y, z, ...], "faces": [a, b,

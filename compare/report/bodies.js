@@ -238,7 +238,7 @@ class View extends TurnedPicture {
     this.figure.querySelector(".scale").textContent = `displacements × ${this.scale.toFixed(1)}`;
     const legend = this.figure.querySelector(".error-legend");
     if (legend) legend.hidden = !this.has_skin;
-    const box = new THREE.Box3(); // of the deformed body and the body at rest
+    const box = new THREE.Box3(); // the deformed body and the body at rest
     for (const side of [this.fem, this.springs]) if (side) {
       box.union(new THREE.Box3().setFromBufferAttribute(side.positions));
       box.union(new THREE.Box3().setFromArray(side.rest));

@@ -26,11 +26,11 @@ std::string embedded(const nlohmann::ordered_json& document);
 std::string picture(const std::string& folder, const std::string& name, const std::string& caption);
 
 /// Writes a page that needs no other file and no network, whole or not at all.
-/// @param title     of the browser's window
+/// @param title     title of the browser's window
 /// @param data      what the sections of page.js are made from: "heading" and "subheading", "times" ({phase,
 ///                  seconds}), and what each section reads; one without data is left out. Versions and
 ///                  licences are added here.
-/// @param pictures  of picture(), one after the other
+/// @param pictures  results of picture(), one after the other
 /// @throws InputError if something cannot be read or written
 void write_page(const std::string& file, const std::string& title, nlohmann::ordered_json data,
                 const std::string& pictures = "");
@@ -39,8 +39,8 @@ void write_page(const std::string& file, const std::string& title, nlohmann::ord
 /// measures with their uncertainty, what the springs are, both bodies, designs when they were ranked,
 /// commands and versions. Beside it CASE_bodies/bodies.png and .svg, the bodies drawn. All of the answers
 /// must be here.
-/// @param ranking   of the same case; null: none
-/// @param commands  that make the page, as typed
+/// @param ranking   ranking of the same case; null: none
+/// @param commands  those that make the page, as typed
 /// @throws InputError if something cannot be read or written
 void write_case_page(const std::string& folder, const Comparison& comparison, const Ranking* ranking,
                      const std::vector<std::string>& commands);

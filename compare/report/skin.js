@@ -26,7 +26,7 @@ function skin_distances({ fem, springs }) {
   return distances;
 }
 
-// From where the landmarks are seen, a little from above and aside; without them as bodies are.
+// Place that the landmarks are seen from, a little above and aside; without landmarks that of the bodies.
 function skin_eye(centre) {
   const eye = new THREE.Vector3();
   for (const { point } of skin_record.marks) eye.add(new THREE.Vector3(...point).sub(centre).normalize());
@@ -96,7 +96,7 @@ function landmarks() {
   const found = one_case && one_case.landmarks;
   if (!found) return null;
   const length = (value) => cell(missing(value) ? "–" : general(value, 3));
-  const both = found.some((one) => one.to_equilibrium); // of springs after a number of iterations
+  const both = found.some((one) => one.to_equilibrium); // springs that stopped after a number of iterations
   const own = (one) => both ? [length(one.to_equilibrium?.mean), length(one.to_equilibrium?.deviation)] : [];
   return [table("landmark-table", "Springs' surface to the finite elements', mm", row([text_head("landmark"), head("mean"), head("deviation"),
     head("rays"), head("moved by (finite elements)"), ...(both ? [head("to the springs' equilibrium"), head("deviation")] : [])]),

@@ -64,7 +64,7 @@ function sheet({ table: id, name, subject }) {
       p.finding && [". ", words(p.finding)]], c.command), is_nearest ? "nearest" : undefined);
   };
   const label = (p) => (p.test === "cell" ? words(p.measure) : words(`${p.test.replace(/_(?=\d)/, " ")} ${p.measure}`));
-  // Of one column: a row per measure. Of several: a column each, and below each other what belongs to a measure.
+  // One column gives a row per measure. Several stand side by side; what belongs to a measure is stacked.
   const flat = () => table(id, title, row([make("td"), columns[0][1].computed_by.map((c) => head(words(c.reference))), head("published"),
     head("difference")]), body(measures.map(([, p]) => row([row_head(label(p)), p.computed_by.map((c) => computed(p, c)),
     published_cell(p), difference_cell(p)]))));

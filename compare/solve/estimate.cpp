@@ -138,7 +138,7 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
   } else {
     return std::nullopt;
   }
-  body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // of a cube
+  body.n_nodes = std::pow(std::cbrt(body.n_cells) + 1, 3); // the count of a cube
   return body;
 } catch (const cases::InputError&) { // make_scene() refuses it in its turn
   return std::nullopt;

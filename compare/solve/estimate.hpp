@@ -55,7 +55,7 @@ RanksOfMachine ranks_of_machine();
 double megabytes_within(const MemoryLimit& limit, const Estimate& model,
                         const RanksOfMachine& ranks = ranks_of_machine());
 
-/// @param file  of the case
+/// @param file  file of the case
 /// @throws InputError if a model needs more memory than there is, with what it needs, the limit and a remedy
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit);
 

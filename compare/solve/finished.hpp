@@ -32,7 +32,7 @@ std::string read_kept(const std::string& path, const std::string& identity);
 class FinishedCases {
  public:
   /// Claims the folder. Every rank calls it.
-  /// @param folder  of `--out`; empty: nothing is kept, nothing found
+  /// @param folder  value of `--out`; empty: nothing is kept, nothing found
   /// @throws InputError if the folder cannot be written, or two cases have one name and so one file
   FinishedCases(const std::string& folder, const std::vector<Question>& questions,
                 FileNames names = FileNames::of_cases);

@@ -13,7 +13,7 @@ std::string digest(const std::string& bytes);
 /// The content of a kept file.  @param identity  digest of all that the result depends on
 std::string kept_text(const std::string& identity, const std::string& result);
 
-/// @param text  of a kept file
+/// @param text  content of a kept file
 /// @return the result; empty if it is that of another question
 /// @throws std::runtime_error if the text is of another format, or damaged
 std::string result_in(const std::string& text, const std::string& identity);

@@ -50,7 +50,7 @@ class ProgressLine {
   /// A piece of what is expected, done already.
   void skip(double estimated_seconds);
 
-  /// @param name  of the piece: shown   @param note  a line that stays, in front of it; empty: none
+  /// @param name  shown name of the piece   @param note  a line that stays, in front of it; empty: none
   void begin(const std::string& name, double estimated_seconds, const std::string& note = "");
   /// Takes the line away if nothing else is being done, and others may print.
   void finish(const std::string& name);

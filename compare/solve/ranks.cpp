@@ -43,7 +43,7 @@ cases::Solution without_values(cases::Solution& solution) {
 }
 
 /// Gives every rank its share of the values.
-/// @param whole  on rank 0; on the others nothing   @param here  has no values before
+/// @param whole  rank 0's; nothing on the others   @param here  has no values before
 void deal_out(const cases::Solution& whole, const cases::HexMesh& mesh, cases::Solution& here) {
   here.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
   const cases::Sharing& sharing = *here.sharing;

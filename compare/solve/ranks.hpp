@@ -17,7 +17,7 @@ bool on_all_ranks(bool here);
 /// @throws InputError on every rank, with the reason of the first that it failed on
 void run_on_all_ranks(const std::function<void()>& action);
 
-/// @param what   of the ranks' cases, for a message   @param text  of this rank
+/// @param what   names the text in a message   @param text  text of this rank
 /// @throws InputError on every rank unless the text is the same on all
 void check_same_on_ranks(const std::string& what, const std::string& text);
 

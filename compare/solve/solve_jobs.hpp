@@ -10,7 +10,7 @@
 namespace springproof::compare {
 
 /// Reads every case and its mesh.
-/// @param settings  of `--set`   @throws InputError
+/// @param settings  values of `--set`   @throws InputError
 std::vector<Question> read_questions(const std::vector<std::string>& case_files,
                                      const std::vector<std::string>& settings, const Request& request);
 

@@ -28,7 +28,7 @@ struct Started {
   std::shared_ptr<void> libraries;
 };
 
-/// Without options that are not allowed: ranks must start before one can say what is wrong with them.
+/// Starts without options that are not allowed: ranks must start before one can say what is wrong with them.
 Started start() {
   constexpr double megabytes = 750; // 690 are taken until the first solve
   if (const std::string reason = why_not_to_start(megabytes); !reason.empty())

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// @param exponents  of another cell of the same material, which are this one's too: no second fit
+/// @param exponents  exponents of another cell of the same material, valid for this one too: no second fit
 msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
                               const std::optional<msm::Exponents>& exponents = {}) {
   const cases::Material material =
@@ -220,7 +220,7 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& sp
 
 namespace {
 
-/// In one sentence.
+/// Describes the distance in one sentence.
 std::string describe_distance(const cases::Solution& solution) {
   const cases::FromEquilibrium& from = *solution.from_equilibrium;
   const std::string state = fmt::format("{} after {} iterations: residual {:.2e}, ",

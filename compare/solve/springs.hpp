@@ -44,7 +44,7 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& sp
 
 /// Designs the springs of a scene and solves them in this process, which needs no finite elements: those of a
 /// hard case stiffer where it says so and from where it starts, those of a dynamic case through its time.
-/// @param n_threads  of the multigrid path    @param design  absent: the caller is not told
+/// @param n_threads  used by the multigrid path    @param design  absent: the caller is not told
 /// @throws InputError when no springs can be designed
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design);
 

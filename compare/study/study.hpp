@@ -13,8 +13,8 @@ struct Trial {
   std::string refusal{}; ///< why it does not apply to the case
   std::string failure{}; ///< why there is no equilibrium under the whole load, or no error
   std::string springs{}; ///< as springs_text() has them
-  std::optional<double> worst{}, worst_volume{}; ///< of |error|, percent; of all but volumes, where there are
-                                                 ///< others, and of volumes
+  std::optional<double> worst{}, worst_volume{}; ///< largest |error|, percent, of measures (but volumes,
+                                                 ///< where there are others) and of volumes
   std::string worst_at{};                        ///< the measure
   std::optional<double> worst_bar{};             ///< points: what the reference's uncertainty leaves of worst
   bool is_stable = false;                        ///< see the function
@@ -22,7 +22,7 @@ struct Trial {
   double milliseconds = 0;        ///< design, setup and solve
   std::optional<double> milliseconds_a_step{}; ///< for a motion
   std::vector<MeasuredValue> measures{};
-  std::vector<Gate> gates{}; ///< of the case's expectations; empty when it was refused
+  std::vector<Gate> gates{}; ///< one per expectation of the case; empty when it was refused
   bool is_sound = false;     ///< Comparison::is_sound(); false when it was refused
 
   /// Whether the lattice is known to have the material's moduli.
@@ -36,8 +36,8 @@ std::optional<double> milliseconds_a_step(const Answer& answer);
 Trial trial_of(const Comparison& comparison);
 
 /// Holds springs against finite elements that were solved apart from them.
-/// @param scene  of the springs    @param fem, springs  answers of which those sides are taken; all of them
-/// must be here
+/// @param scene  scene of the springs    @param fem, springs  answers, of which the side of that name is
+/// taken; all of them must be here
 Comparison compare_sides(cases::Scene scene, const Answers& fem, const Answers& springs);
 
 /// Solves a scene's springs in this process and holds them against its finite elements.
@@ -45,7 +45,7 @@ Comparison compare_sides(cases::Scene scene, const Answers& fem, const Answers& 
 Comparison try_springs(const cases::Scene& scene, const Answers& fem);
 
 /// Solves the finite elements that springs are held against. Collective over MPI_COMM_WORLD.
-/// @param meshes  of the finite elements' limit, as in Request    @return all of them on every rank
+/// @param meshes  meshes for the finite elements' limit, as in Request    @return all of them on every rank
 Answers solve_reference(const cases::Scene& scene, int meshes = 0);
 
 /// Whether springs converged to a stable equilibrium without inverted cells; a motion's end need not be
@@ -74,7 +74,7 @@ struct Ranking {
   cases::Fem resolved;          ///< [fem] of the reference
   Answer fem;                   ///< without its fields
   std::vector<Trial> designs{}; ///< by worst error, then those that failed, then those refused
-  std::vector<Gate> gates{};    ///< of the case's expectations, by the case's own design; where that is not
+  std::vector<Gate> gates{};    ///< the case's expectations, by the case's own design; where that is not
                                 ///< among the designs, what is expected of springs is not judged
   bool is_case_sound = true;    ///< Comparison::is_sound() of the finite elements and the case's own design;
                                 ///< where that is not among the designs, of the finite elements
@@ -89,7 +89,7 @@ struct Ranking {
 /// Solves the finite elements of a scene once, and its springs by every design. The case's own design keeps
 /// the case's settings, others have their defaults. Collective over MPI_COMM_WORLD; springs are solved on
 /// rank 0, the ranking of the other ranks has no designs.
-/// @param meshes  of the finite elements' limit, as in Request
+/// @param meshes  meshes for the finite elements' limit, as in Request
 /// @throws InputError when the case has no measure
 Ranking rank_designs(const cases::Scene& scene, const std::vector<cases::Design>& designs, int meshes = 0);
 

@@ -12,7 +12,7 @@ struct WorstError {
   int n = 0;
   double total = 0;
   std::optional<double> worst{};
-  std::size_t place = 0; ///< of the worst, as its caller counts
+  std::size_t place = 0; ///< place of the worst, as its caller counts
 
   /// @param error  finite    @return whether it is the worst so far; of equal ones the first
   bool add(double error, std::size_t at = 0) {

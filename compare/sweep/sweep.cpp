@@ -65,7 +65,7 @@ void solve_springs(VariantRun& run, const cases::Scene& scene, double tolerance,
     solve_timed(run.again, run.again_seconds, [&] { return model.solve(settings, before); });
 }
 
-/// Under the smaller load, where the equilibrium has to be stable.
+/// Solves under the smaller load, where the equilibrium has to be stable.
 Answer springs_before(const cases::Scene& scene, double tolerance) {
   mechanics::EquilibriumSettings settings;
   settings.tolerance = tolerance;

@@ -37,7 +37,7 @@ struct Reference {
 /// stands, and its uncertainty is three times the difference to the next mesh: an order of 1 is assumed, with
 /// the safety factor that Roache (1994) asks for then.
 /// @param definition    its body is a box
-/// @param cells         of three grids, each of twice the cells before
+/// @param cells         cells of three grids, each with twice those of the one before
 /// @param displacement  mm, on the nodes of each
 /// @throws InputError if the case's measures have no nodes on the middle grid
 Reference make_reference(const cases::Case& definition, const std::array<std::array<int, 3>, 3>& cells,
@@ -223,7 +223,7 @@ Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules
 /// against the extrapolated reference. A variant that fails is a row with its reason. A quick sweep, and any
 /// under MPI, runs in this process, and then memory is not told (collective; rank 0 alone has the springs'
 /// rows).
-/// @param sweep    of make_sweep()
+/// @param sweep    made by make_sweep()
 /// @param program  whose hidden command `worker` serves
 /// @param on_row   called with the sweep as it is after every variant
 Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row);

@@ -24,7 +24,7 @@ void plot_sweep(const std::string& folder, const Sweep& sweep);
 
 /// What a sweep found, on one screen: the fastest of springs and finite elements at several errors, the most
 /// accurate in real time, speed against error, and what was not solved. All rows are in the files.
-/// @param folder  of `--out`, where they are; empty: none was given, and what to type is told
+/// @param folder  value of `--out`, where the files are; empty: none was given, and what to type is told
 void write_sweep_screen(std::ostream& out, const Sweep& sweep, const std::string& folder);
 
 } // namespace springproof::compare

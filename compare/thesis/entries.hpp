@@ -51,9 +51,9 @@ void explain(std::vector<TableEntry>& entries);
 /// How many published figures of one kind are met within a bound, in points of percent or the kind's unit.
 struct Within {
   double bound;
-  int declared;   ///< by the declared reference
-  int other_only; ///< by another reference, and not by the declared one
-  int neither;    ///< by none, those without a value among them
+  int declared;   ///< met by the declared reference
+  int other_only; ///< met by another reference, and not by the declared one
+  int neither;    ///< met by none, those without a value among them
 };
 
 struct SummaryGroup {

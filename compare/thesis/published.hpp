@@ -23,8 +23,8 @@ struct PublishedFigure {
   double design_poissons_ratio;
   std::string load_set; ///< "small" or "large"; empty for the bar and the cell
   std::string test;     ///< "tensile", "shear", "torsion", "bar_1x1x4" ..., "cell"
-  /// "L_1" ... "beta_2", "volume", "deflection"; of a cell "edge", "face_diagonal", "internal_diagonal" (k'
-  /// of eq. 4.21), "fem_eigenvalue_2", "msm_multiplicity_1" (numbered from 1), "h"
+  /// "L_1" ... "beta_2", "volume", "deflection"; a cell's "edge", "face_diagonal", "internal_diagonal"
+  /// (k', eq. 4.21), "fem_eigenvalue_2", "msm_multiplicity_1" (numbered from 1), "h"
   std::string measure;
   std::string unit; ///< "%" for an error, "mm3" for the volume of the springs' body, "N/mm", or "1"
   double value;
@@ -80,13 +80,13 @@ struct JobPair {
   SolveJob fem, msm;
 };
 
-/// Against a reference, with the springs of the thesis: the published ones (the bar's case files scale them
+/// Jobs against a reference, with the thesis's springs: the published ones (the bar's case files scale them
 /// to their cells), else those of its method.
 JobPair thesis_jobs(const PublishedFigure& figure, const FemChoice& reference);
-/// Against the declared reference.
+/// The same against the declared reference.
 JobPair thesis_jobs(const PublishedFigure& figure);
 
-/// Against the declared reference, with springs that a method designs from the figure's own material,
+/// Jobs against the declared reference, with springs that a method designs from the figure's own material,
 /// whatever the thesis designed from.
 JobPair designed_jobs(const PublishedFigure& figure, const std::string& design);
 

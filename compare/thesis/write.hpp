@@ -15,7 +15,7 @@ namespace springproof::compare {
 void write_tables_text(std::ostream& out, const ThesisResults& results);
 
 /// Tells where the audit of each figure is.
-/// @param folder  of `--out`; empty: none was given, and what to type is told
+/// @param folder  value of `--out`; empty: none was given, and what to type is told
 void write_where_text(std::ostream& out, const ThesisResults& results, const std::string& folder);
 
 /// Published values by what became of them. One that failed has no value against some reference.

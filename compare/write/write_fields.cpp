@@ -154,7 +154,7 @@ void write_list(std::ostream& out, const Files& files, const cases::GridFields& 
   out << "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-/// @param displacement  of all nodes; empty: there are no springs to draw
+/// @param displacement  one per node of all; empty: there are no springs to draw
 void write_springs(const Files& files, const Comparison& comparison,
                    const std::vector<Eigen::Vector3d>& displacement) {
   std::error_code not_there;

@@ -9,18 +9,18 @@
 /// Files for ParaView: fields on the body's mesh, and springs as lines.
 namespace springproof::compare {
 
-/// Both models on the body's mesh at rest, so that "warp by vector" overlays them. Of each side that
-/// converged, `fem_` and `msm_`:
+/// Both models on the body's mesh at rest, so that "warp by vector" overlays them. Each side that
+/// converged has, as `fem_` and `msm_`:
 ///   at nodes  displacement (mm), reaction (N);
 ///   in cells  cell_volume (mm³), inverted (0 or 1), stress (Cauchy, MPa), von_mises (MPa), strain
 ///             (logarithmic), strain_energy_density (N mm per mm³ at rest).
-/// From both: difference (vector, springs less finite elements, mm), error (its length, mm), relative_error
-/// (over the finite elements' largest displacement) and von_mises_difference (MPa). Of the case:
+/// Both give difference (vector, springs less finite elements, mm), error (its length, mm), relative_error
+/// (over the finite elements' largest displacement) and von_mises_difference (MPa), the case gives
 /// applied_force (N, at nodes, full load; not where a load follows a history), material (number of the cell's
 /// [[region_material]], 0: the body's own). Stress, strain and reactions are there when the solutions have
 /// fields, stress and energy when their springs belong to cells.
 ///
-/// Where ranks share the answers, of the nodes and cells that are here; the names are the same on every rank.
+/// Ranks that share the answers have the nodes and cells that are here; the names are the same on every rank.
 /// Collective.
 cases::GridFields grid_fields_of(const Comparison& comparison);
 
@@ -71,10 +71,10 @@ bool has_drawn_springs(const Comparison& comparison);
 
 /// Springs as lines of a VTK unstructured grid (.vtu, doubles, raw binary): stretch (deformed over rest
 /// length), tension (N, below 0 when pressed), stiffness at rest (N/mm), rest_length (mm), and at points
-/// msm_displacement (mm). Springs of one law that cells share are one line; so are the edges that tetrahedra
-/// of biquadratic springs share, whose tension also follows the other edges of the tetrahedron.
-/// @param comparison    of which has_drawn_springs() holds
-/// @param displacement  of the springs, mm, of all nodes, whoever shares them
+/// msm_displacement (mm). Springs of one law that cells share are one line; so are edges that biquadratic
+/// tetrahedra share, whose tension also follows the other edges of the tetrahedron.
+/// @param comparison    one for which has_drawn_springs() holds
+/// @param displacement  displacement of the springs, mm, on all nodes, whoever shares them
 void write_springs_vtu(std::ostream& out, const Comparison& comparison,
                        const std::vector<Eigen::Vector3d>& displacement);
 

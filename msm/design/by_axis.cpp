@@ -25,11 +25,11 @@ Mandel elasticity(const ModuliVector& c) {
   return result;
 }
 
-/// A lattice whose face diagonals or edges carry nothing has waves without energy: what each kind carries at
-/// least, as a part of c44.
+/// Least part of c44 that each kind of spring carries: a lattice whose face diagonals or edges carry nothing
+/// has waves without energy.
 constexpr double least_part = 0.05;
 
-/// Of a box the energies of uniform strains leave one of the seven stiffnesses free.
+/// Weight of the split: energies of uniform strains leave one of a box's seven stiffnesses free.
 constexpr double split_weight = 0.01;
 
 /// Mean edges along the cell's own axes, mm.
@@ -83,7 +83,7 @@ Elasticity elasticity_by_axis(const AxisStiffness& k, const CellVertices& vertic
   return cell_elasticity({terms_by_axis(k.springs, k.volume)}, vertices);
 }
 
-/// In an orthonormal basis of the strains: Mandel's.
+/// Returns an elasticity in Mandel's orthonormal basis of the strains.
 Elasticity in_mandel(Elasticity c) {
   c.bottomRows<3>() *= std::sqrt(2.);
   c.rightCols<3>() *= std::sqrt(2.);
@@ -164,7 +164,7 @@ std::optional<AxisStiffness> by_axis_where_needed(const CellStiffness& four, con
 }
 
 NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& m) {
-  ModuliVector material, relation; // of a lattice: relation . moduli = 0
+  ModuliVector material, relation; // a lattice has relation . moduli = 0
   material << m.c11, m.c12, m.c13, m.c33, m.c44, m.c66;
   relation << 0, 1, -1, 0, 1, -1;
   const Mandel root = Eigen::SelfAdjointEigenSolver<Mandel>(elasticity(material)).operatorInverseSqrt();

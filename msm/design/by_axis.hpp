@@ -21,9 +21,9 @@ struct NearestModuli {
   double misfit;   ///< largest relative error of the energy of any strain
 };
 
-/// Least distance, in closed form: 0 for a material with the relation. The relative norm keeps Young's moduli
-/// of a material that hardly changes its volume, where the plain one would give them away for the bulk
-/// modulus.
+/// Finds the nearest moduli in closed form; their distance is 0 for a material with the relation. The
+/// relative norm keeps a nearly incompressible material's Young's moduli, which the plain one would give away
+/// for the bulk modulus.
 NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& material);
 
 /// The springs of a lattice of these moduli. Along the fibre (3) and across it (1, 2), with totals between

@@ -31,8 +31,8 @@ Elasticity affine_elasticity(const CellMatrix& matrix, const CellVertices& verti
   return strains.transpose() * matrix * strains / cases::cell_volume(vertices);
 }
 
-/// By axis: E along x, y, z, G between them (yz, xz, xy), nu as the strain along the second axis where the
-/// first is stretched: xy, xz, yx, yz, zx, zy.
+/// Constants by axis: E along x, y, z, G between them (yz, xz, xy), nu as the strain along the second axis
+/// where the first is stretched: xy, xz, yx, yz, zx, zy.
 struct Constants {
   std::array<double, 3> youngs_modulus, shear_modulus;
   std::array<double, 6> poissons_ratio;

@@ -9,7 +9,7 @@
 /// trusted.
 namespace springproof::msm {
 
-using CellVertices = CellPositions; ///< of a cell at rest
+using CellVertices = CellPositions; ///< vertices of a cell at rest
 /// Degree of freedom 3*vertex + component, vertex v = i + 2j + 4k.
 using CellMatrix = Eigen::Matrix<double, 24, 24>;
 
@@ -76,9 +76,9 @@ std::vector<std::string> examine(const CellTerms& terms, const CellVertices& ver
 
 /// How far a lattice's small-strain moduli are from its material's.
 struct ModuliMisfit {
-  /// Of the engineering constants by axis: |E_lattice/E - 1|, |G_lattice/G - 1|, and what the lateral strain
-  /// of a uniaxial test errs by as a part of its axial strain, |nu_lattice - nu|. Infinite when some strain
-  /// has no energy.
+  /// Largest error of the engineering constants by axis: |E_lattice/E - 1|, |G_lattice/G - 1|, and
+  /// |nu_lattice - nu|, the error of a uniaxial test's lateral strain as a part of its axial strain. Infinite
+  /// when some strain has no energy.
   double largest;
   std::string text; ///< both sets of constants, in a sentence
 };

@@ -6,8 +6,8 @@
 
 #include <optional>
 
-/// Design: from a material to the stiffnesses of one cell. A method is a function and its line in the table
-/// of design.cpp, and a row of cases/case/designs.cpp, which says what it is and what it takes.
+/// Design: from a material to the stiffnesses of one cell. A method is a function, its line in design.cpp's
+/// table, and a row of cases/case/designs.cpp, which says what it is and what it takes.
 namespace springproof::msm {
 
 /// Input of a design method.
@@ -21,15 +21,15 @@ struct DesignRequest {
 };
 
 struct DesignResult {
-  CellStiffness stiffness{};        ///< of the request's cell
+  CellStiffness stiffness{};        ///< stiffnesses of the request's cell
   std::optional<double> residual{}; ///< the method's objective at its minimum; absent for a closed form
   LatticeModuli moduli{};
   std::vector<std::string> warnings{}; ///< why the design should not be trusted; empty for a sound one
   /// Cells of `stiffness`, or of terms: one kind for every cell, or two mirror images. design_for() of
   /// compare/solve says what every cell of a mesh has, or the scene's network.
   SpringBody springs{};
-  std::optional<NearestModuli> by_fibre{}; ///< of the transverse design, in place of the moduli's means
-  /// Of the lattice's moduli; absent beside by_fibre and where a curve stands for the material. From
+  std::optional<NearestModuli> by_fibre{}; ///< given by the transverse design, in place of the moduli's means
+  /// Misfit of the lattice's moduli; absent beside by_fibre and where a curve stands for the material. From
   /// told_moduli_misfit on its text is one of the warnings.
   std::optional<ModuliMisfit> misfit{};
 
@@ -49,8 +49,8 @@ void set_law(cases::Msm& options, const std::optional<Exponents>& exponents);
 /// The designs that are made from such a material, isotropic or not, in the order of cases::all_designs().
 std::vector<cases::Design> methods(const cases::Material& material);
 
-/// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to a strain
-/// of 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.
+/// The curves that the nonlinear method fits: the request's own, else the material's law (Ogden to strain
+/// 0.4, linear elastic as s = E e to 0.1) with e_x = -nu e_z; 20 values from 0, as in the thesis.
 /// @throws InputError unless 0 < nu <= 0.5
 /// @param largest_strain  instead of those ends
 UniaxialCurve uniaxial_reference(const DesignRequest& request,

@@ -19,9 +19,9 @@ Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, cons
 /// Simple shear of xz by an amount.
 Eigen::Matrix3d simple_shear(double amount);
 
-/// Over wave vectors q of the first Brillouin zone, the smallest eigenvalue of the dynamical matrix D(q)
-/// divided by |q h|², N/mm. Positive: no small displacement of the infinite lattice, of any wavelength,
-/// lowers its energy.
+/// Smallest eigenvalue of the dynamical matrix D(q) divided by |q h|², N/mm, over wave vectors q of the first
+/// Brillouin zone. Positive: no small displacement of the infinite lattice, of any wavelength, lowers its
+/// energy.
 double smallest_wave_stiffness(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
 
 /// How far a homogeneous lattice can be deformed before some wave loses its stiffness.

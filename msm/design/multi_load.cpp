@@ -94,7 +94,7 @@ void check(const MultiLoadSettings& settings) {
 /// Stresses of springs held against a material's over the states of several paths.
 class Fit {
  public:
-  /// @param name  begins messages    @param part  of the stresses that counts
+  /// @param name  begins messages    @param part  part of the stresses that counts
   Fit(const std::string& name, const cases::Material& material, double edge,
       const MultiLoadSettings& settings, Part part, bool fits_volume)
       : name_(name), edge_(edge), part_(part), unit_(small_strain_material(material).youngs_modulus * edge),
@@ -169,12 +169,12 @@ class Fit {
  private:
   struct Path {
     std::vector<MaterialState> states;
-    double size_squared, weight; ///< of the material's stresses
+    double size_squared, weight; ///< squared norm of the material's stresses; the path's weight
   };
   std::string name_;
   double edge_;
   Part part_;
-  double unit_; ///< of stiffnesses, N/mm
+  double unit_; ///< unit of stiffnesses, N/mm
   Eigen::MatrixXd to_stiffness_;
   std::vector<Path> paths_;
 };
@@ -202,8 +202,8 @@ struct PowerLogError {
 
 struct FittedExponents {
   Exponents exponents;
-  Eigen::VectorXd unknowns; ///< of the fit; none where stiffnesses are held
-  double objective;         ///< of the fit, with the squares of exponent_prior (p - start)
+  Eigen::VectorXd unknowns; ///< solution of the fit; none where stiffnesses are held
+  double objective;         ///< minimum of the fit, with the squares of exponent_prior (p - start)
 };
 
 /// @param start  one exponent for all kinds, near which they are held

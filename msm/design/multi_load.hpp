@@ -33,7 +33,7 @@ struct MultiLoadSettings {
   double incompressible_lambda; ///< MPa: Lame's constant that an incompressible material's volume term gives
                                 ///< the lattice
   std::optional<double> split = std::nullopt; ///< t = (4K_d/3)/(K_f + 4K_d/3), held; nothing: fitted
-  std::optional<Exponents> exponents{};       ///< of power-log springs, held; nothing: Hooke's
+  std::optional<Exponents> exponents{};       ///< held exponents of power-log springs; nothing: Hooke's
 };
 
 struct MultiLoadFit {
@@ -45,7 +45,7 @@ struct MultiLoadFit {
 };
 
 /// Minimises sum of weight * error² over stiffnesses >= 0.
-/// @param edge  of the cubical cell, mm
+/// @param edge  edge of the cubical cell, mm
 /// @throws InputError for settings without a meaning
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings);
@@ -62,7 +62,7 @@ MultiLoadFit multi_load_with_exponents(const cases::Material& material, double e
 /// c of a material's uniaxial test with free sides: nominal stress = E (e + c e² + ...), e = l - 1. With
 /// logarithmic strain c = -(1/2 + 2 nu); for Ogden, a = (sum mu_i alpha_i)/(sum mu_i),
 ///   c = -3/2 + a (1 + nu)²/9 + (1 - 2 nu)²/3.
-/// @param poissons_ratio  of small strains, at most 0.5: the material's, or what stands for incompressible
+/// @param poissons_ratio  small-strain ratio, <= 0.5: the material's, or what stands for incompressible
 double second_order_coefficient(const cases::Material& material, double poissons_ratio);
 
 /// The one p for all springs with which the hybrid lattice has this c along its axes.

@@ -17,7 +17,7 @@ Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
 struct NonlinearFit {
   CellStiffness stiffness;
   double objective;                      ///< phi at the minimum
-  std::vector<CellStiffness> minimisers; ///< of every start; equal when the minimiser is unique
+  std::vector<CellStiffness> minimisers; ///< one per start; equal when the minimiser is unique
 };
 
 /// The nonlinear method: the k >= 0 that minimise phi, by Ceres's trust region from several starts.

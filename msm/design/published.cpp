@@ -24,7 +24,7 @@ void add_spring(CellTerms& terms, int v, int w, double stiffness) {
 }
 
 /// Both kinds, with the springs of every tetrahedron's edges.
-/// @param stiffness  of a tetrahedron's edge, N/mm, by its volume (mm³) and length (mm)
+/// @param stiffness  returns an edge's, N/mm, from the tetrahedron's volume (mm³) and the edge's length (mm)
 template<class Stiffness>
 std::vector<CellTerms> springs_of_tetrahedra(const CellPositions& cell, const Stiffness& stiffness) {
   std::vector<CellTerms> kinds(2);

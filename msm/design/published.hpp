@@ -2,10 +2,10 @@
 
 #include "msm/spring_body.hpp"
 
-/// Springs that others published. Of cubical cells: points of the family of k_e, k_f, k_d and k_v, in which
-/// an interior edge has 4 k_e, an interior face diagonal 2 k_f. @param edge  of the cell, mm, > 0
+/// Springs that others published. Those of cubical cells belong to the family of k_e, k_f, k_d and k_v, where
+/// an interior edge has 4 k_e, an interior face diagonal 2 k_f. @param edge  the cell's edge, mm, > 0
 ///
-/// Of cells cut into five tetrahedra: one at each of four corners, and one between them. In a grid the cut is
+/// Other cells are cut into five tetrahedra: one at each of four corners, one between them. The cut is
 /// mirrored from cell to cell, so that neighbours agree on the diagonal of their common face: cell (i, j, k)
 /// has the kind (i + j + k) % 2. Every cell keeps 12 edges and 6 of its 12 face diagonals.
 namespace springproof::msm {
@@ -22,7 +22,7 @@ CellStiffness ladd_kinney(double youngs_modulus, double edge);
 CellStiffness baudet(double youngs_modulus, double poissons_ratio, double edge);
 
 /// Springs of one stiffness inside the body: edges, face and internal diagonals alike.
-/// @param stiffness  of every spring, N/mm
+/// @param stiffness  stiffness of every spring, N/mm
 CellStiffness uniform_springs(double stiffness);
 
 /// The stiffness, N/mm, with which a large lattice of such springs has Young's modulus E along its axes:
@@ -34,7 +34,7 @@ double uniform_stiffness(double youngs_modulus, double edge);
 std::array<std::array<int, 4>, 5> five_tetrahedra(int kind);
 
 /// Every edge of a tetrahedron of volume V and edge length l adds E V/l².
-/// @param vertices  of the cell, mm    @param youngs_modulus  MPa    @return both kinds
+/// @param vertices  vertices of the cell, mm    @param youngs_modulus  MPa    @return both kinds
 /// Source: Van Gelder 1998, "Approximate simulation of elastic membranes by triangulated spring meshes", in
 /// three dimensions.
 std::vector<CellTerms> van_gelder(const CellPositions& vertices, double youngs_modulus);

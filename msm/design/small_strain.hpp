@@ -33,7 +33,7 @@ CellStiffness pseudo_stiffness(const CellStiffness& stiffness, double youngs_mod
 /// the axes and shear modulus between them:
 ///   C12 = C44 = G,  C11 = ((E - G) + sqrt((E + G)² + 8 G²))/2,  which is C11 - 2 C12²/(C11 + C12) = E
 ///   solved.
-/// In a cube of edge h it is met: 4 K_d/3 = t G h,  K_f = (1 - t) G h,  K_e = C11 h - 2 K_f - 4 K_d/3 with
+/// A cube of edge h meets it: 4 K_d/3 = t G h,  K_f = (1 - t) G h,  K_e = C11 h - 2 K_f - 4 K_d/3 with
 /// the assembled K_e = 4 k_e, K_f = 2 k_f, K_d = k_d. Poisson's ratio follows: C12/(C11 + C12).
 /// @param youngs_modulus  E, MPa, > 0    @param shear_modulus  G, MPa, > 0
 /// @param split     t, in [0, 1]: the internal diagonals' share of the shear stiffness

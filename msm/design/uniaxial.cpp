@@ -37,7 +37,7 @@ double logarithmic(double strain, CurveStrain kind, const std::string& place) {
       largest));
 }
 
-/// As UniaxialCurve has them: strain, stress, lateral strain.
+/// Converts a row to what UniaxialCurve has: strain, stress, lateral strain.
 std::array<double, 3> converted(const std::vector<double>& row, const CurveColumns& columns,
                                 const std::string& place) {
   constexpr double megapascals[] = {1e-6, 1e-3, 1};

@@ -49,15 +49,15 @@ SPRINGPROOF_ENUMERATION(CurveUnit, Pa, kPa, MPa)
 struct CurveColumns {
   CurveStrain strain = CurveStrain::logarithmic; ///< along the axis, and lateral
   CurveStress stress = CurveStress::cauchy;
-  CurveUnit unit = CurveUnit::MPa; ///< of the stresses
-  /// In place of lateral strains. Absent: they are in the third column, or else the material is
+  CurveUnit unit = CurveUnit::MPa; ///< unit of the stresses
+  /// Replaces lateral strains. Absent: they are in the third column, or else the material is
   /// incompressible.
   std::optional<double> poissons_ratio{};
 };
 
 /// A measured curve: columns strain, stress [, lateral strain], commas or blanks; lines that begin with #
 /// and a heading (the first line alone may be one) are skipped.
-/// @param text  the file's content   @param name  of the file, for messages
+/// @param text  the file's content   @param name  name of the file, for messages
 /// @throws InputError with the line: no numbers, a missing column, strains that do not increase or that are
 /// beyond e^2, nothing but zeros
 UniaxialCurve read_curve(const std::string& text, const std::string& name, const CurveColumns& columns = {});

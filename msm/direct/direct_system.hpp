@@ -12,12 +12,12 @@ namespace springproof::msm {
 std::unique_ptr<SpringSystem> make_direct_system(const Problem& problem);
 
 /// The motion of any lattice: the tangent of a step assembled and factorised by CHOLMOD.
-/// @param problem  of make_moving_problem(), with its lattice; must outlive what is returned, as must springs
+/// @param problem  made by make_moving_problem(), with its lattice; must outlive the result, as must springs
 /// @param springs  make_direct_system(problem)
 std::unique_ptr<MovingSprings> make_moving_lattice(const Problem& problem, SpringSystem& springs,
                                                    const Inertia& inertia);
 
-/// Between vectors of a direct system and one displacement (mm) per point.
+/// Converts between vectors of a direct system and one displacement (mm) per point.
 Points to_points(const Problem& problem, const Vector& free);
 Vector to_vector(const Problem& problem, const Points& points);
 

@@ -23,7 +23,7 @@ mechanics::Equilibrium relax(mechanics::NonlinearProblem& problem, const mechani
 /// more iterations follow the last one. So moves San-Vicente's Maxiplan (thesis section 6.1.4.2: 10 steps of
 /// 30, then 2,000). alpha is the inverse of the largest eigenvalue of the tangent at the start.
 /// @param settings  tolerance and should_stop count
-/// @return with the residual that is left
+/// @return the solution, with the residual that is left
 /// @throws cases::SolveError when a force is not finite, or it was stopped
 mechanics::Equilibrium relax_for(mechanics::NonlinearProblem& problem, const mechanics::Vector& start,
                                  const cases::RelaxationCounts& counts,

@@ -14,9 +14,9 @@ namespace petsc = mechanics::petsc;
 
 namespace {
 
-/// Of a brick along an axis that is split: then a coarser brick has one at least.
+/// Least nodes of a brick along an axis that is split: then a coarser brick has one at least.
 constexpr int least_nodes = 2;
-/// Of a body that is dealt out: below, a cycle on all of it takes less than the messages of its sweeps.
+/// Least nodes of a body that is dealt out: a smaller one's cycle takes less than the messages of its sweeps.
 constexpr std::ptrdiff_t least_nodes_in_all = 1000;
 
 using Places = std::array<int, 3>;

@@ -94,7 +94,7 @@ petsc::Matrix LatticePart::make_matrix() const {
   petsc::Matrix matrix = create(MATAIJ); // GAMG's coarsening wants it, with its block size
   const petsc::Matrix sparsity = create(MATPREALLOCATOR);
   check(MatSetUp(sparsity.get()));
-  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero(); // of points that no spring holds
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero(); // block of points that no spring holds
   for (PetscInt p = first_; p < first_ + n_own_; ++p)
     check(MatSetValuesBlocked(sparsity.get(), 1, &p, 1, &p, none.data(), ADD_VALUES));
   add_tangent(lattice_.rest, sparsity.get());

@@ -16,15 +16,15 @@ class LatticePart {
   std::size_t n_unknowns() const { return msm::n_unknowns(problem_); } ///< over all ranks
 
   mechanics::petsc::Vector make_vector() const;
-  /// With the sparsity of the tangent, and all of the diagonal.
+  /// Makes a matrix with the sparsity of the tangent, and all of the diagonal.
   mechanics::petsc::Matrix make_matrix() const;
 
   /// This rank's entries of values of all points.
   Vector own(const Points& values) const;
-  /// Of the points that this rank owns to those that it shows of the answer.
+  /// Turns values of the points that this rank owns into those of the points that it shows of the answer.
   Points deal(const Vector& own, const cases::Sharing* sharing) const;
 
-  /// Between PETSc's vectors and mechanics' vectors.
+  /// Copies between PETSc's vectors and mechanics' vectors.
   void put(Vec vector, const Vector& own) const;
   Vector own(Vec vector) const;
 
@@ -56,7 +56,7 @@ class LatticePart {
   void add_tangent(const Points& positions, Mat matrix) const;
   Points local_displacement(Vec displacement) const;
   Points supports(double load_factor) const;
-  double at(const Points& of_supports, PetscInt entry) const; ///< of constrained, owned entries
+  double at(const Points& of_supports, PetscInt entry) const; ///< entry: constrained, owned
   /// Calls action(entry) for constrained ones among the owned entries.
   template<class Action>
   void for_each_constrained(const Action& action) const {

@@ -104,8 +104,8 @@ class SnesProblem : public petsc::DistributedProblem<> {
     return {std::sqrt(dot(residual, residual)) / part_.reference_force()};
   }
 
-  /// By the factorisation's pivots, or by conjugate gradients for a random right side, which has a part in
-  /// every mode, meeting no negative curvature.
+  /// Judges by the factorisation's pivots, or by conjugate gradients for a random right side, which has a
+  /// part in every mode, meeting no negative curvature.
   std::optional<bool> is_stable(const Vector& at) override {
     part_.put(at_.get(), at);
     part_.tangent(at_.get(), tangent_.get());

@@ -12,8 +12,8 @@ namespace springproof::msm {
 /// any number of ranks. Elsewhere by PETSc: SNES' Newton method with a line search on the imbalance, an
 /// assembled matrix of 3x3 blocks, and MUMPS up to 30,000 unknowns; above them conjugate
 /// gradients with algebraic multigrid (GAMG) that knows the rigid motions. Load steps are halved where SNES
-/// fails. PETSC_OPTIONS reach SNES with the prefix msm_. Collective: points are dealt out to the ranks, each
-/// of which knows the whole scene; they share the answer (Solution::sharing).
+/// fails. PETSC_OPTIONS reach SNES with the prefix msm_. Collective: points are dealt out to the ranks, which
+/// all know the whole scene and share the answer (Solution::sharing).
 /// @param start      displacement (mm) to start from, one per node; empty: rest
 /// @throws cases::SolveError with the load reached when the load cannot be carried
 cases::Solution solve_by_snes(const cases::Scene& scene, const SpringBody& springs, MPI_Comm communicator,
