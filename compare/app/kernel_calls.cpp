@@ -2,8 +2,8 @@
 // cells. `springproof sweep --perf` has the instructions counted that run below springproof_counted_call.
 
 #include "compare/sweep/timed_cube.hpp"
-#include "msm/spring_body.hpp"
 #include "msm/grid/spring_levels.hpp"
+#include "msm/spring_body.hpp"
 
 #include <functional>
 #include <iostream>

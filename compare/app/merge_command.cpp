@@ -110,8 +110,7 @@ int solve_shard(const ShardOptions& options, const std::vector<Question>& all, F
 
 void add_merge_command(CLI::App& program, Action& chosen) {
   const auto [command, options] = add_command<MergeOptions>(
-      program, chosen, "merge", "one report and one exit status of the shards of gate or tables",
-      merge);
+      program, chosen, "merge", "one report and one exit status of the shards of gate or tables", merge);
   command->add_option("folder", options->folders, "of each shard's --out")->required();
   command->add_option("--out", options->out, "folder for the files of the whole command's --out");
   command->add_option("--junit", options->junit, "of gate: file for the verdicts as JUnit's XML");

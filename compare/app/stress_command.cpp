@@ -3,13 +3,13 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/error_bars/auto_fem.hpp"
+#include "compare/hard/stress.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/table/json.hpp"
-#include "compare/hard/stress.hpp"
 
 #include <filesystem>
 #include <iostream>

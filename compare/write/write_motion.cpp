@@ -103,9 +103,8 @@ std::optional<std::string> note_on_slowest(const char* side, const cases::Scene&
   return fmt::format(
       "{}: slowest vibration of {:.4g} Hz: omega h = {:.3g}, damping ratio {:.3g} of its own and {:.3g} "
       "of {}'s steps, period {:+.3g} %{}",
-      side, slowest->vibration.omega / (2 * M_PI), slowest->omega_h(),
-      slowest->vibration.damping_ratio, slowest->swings.damping_ratio, cases::name_of(scheme),
-      100 * (slowest->swings.period - 1), warning);
+      side, slowest->vibration.omega / (2 * M_PI), slowest->omega_h(), slowest->vibration.damping_ratio,
+      slowest->swings.damping_ratio, cases::name_of(scheme), 100 * (slowest->swings.period - 1), warning);
 }
 
 } // namespace

@@ -174,9 +174,9 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
   const auto dot = [&](const Field<double>& a, const Field<double>& b) { return grid::dot(space_, a, b); };
   const std::ptrdiff_t n_unknowns = 3 * space_.slab.n_planes_of_grid() * space_.layout.plane;
   const auto minimise = [&](int max_iterations) {
-    auto found = mechanics::grid::generalised_minimal_residual(times, precondition, right_side, target,
-                                                               max_iterations, restart_of(n_unknowns), dot,
-                                                               space_.n_threads);
+    auto found =
+        mechanics::grid::generalised_minimal_residual(times, precondition, right_side, target, max_iterations,
+                                                      restart_of(n_unknowns), dot, space_.n_threads);
     work_.linear_iterations += found.iterations;
     return found;
   };

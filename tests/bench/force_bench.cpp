@@ -1,6 +1,6 @@
 #include "compare/sweep/timed_cube.hpp"
-#include "msm/spring_body.hpp"
 #include "msm/grid/spring_levels.hpp"
+#include "msm/spring_body.hpp"
 #include "tests/bench/peak.hpp"
 
 #include <benchmark/benchmark.h>
