@@ -134,8 +134,10 @@ TEST_CASE("the multigrid cycle is symmetric and positive definite") {
 
 TEST_CASE("one multigrid cycle removes most of an error, of bodies with gaps that have mass too") {
   // N/mm; some stiffnesses of a node are 0.5
-  const auto& [body, mass] = GENERATE(
+  const std::tuple<Body, double> given = GENERATE(
       table<Body, double>({{clamped_body({16, 16, 16}), 0.}, {two_plates(), 0.1}, {two_plates(), 10.}}));
+  const Body& body = std::get<0>(given);
+  const double mass = std::get<1>(given);
   const bool is_smooth = mass > 0; // the coarse levels' to find
   const Field<double> rest = Field<double>::Zero(3 * body.layout.size);
   Field<double> diagonal = Field<double>::Constant(rest.size(), mass), motion = any_field(body, 1);
