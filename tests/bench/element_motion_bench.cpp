@@ -48,8 +48,8 @@ void start_mpi() {
   std::atexit([] { MPI_Finalize(); });
 }
 
-/// Range: cells along an edge, threads, step in ms, -log10 of the tolerance. Times a whole motion;
-/// a step's time includes its share of the model's set-up.
+/// Range: cells along an edge, threads, step in ms, -log10 of the tolerance. Times a whole motion
+/// without the model's construction; a step's time is the mean over the motion.
 void elements(benchmark::State& state, cases::Formulation formulation, cases::Element element) {
   start_mpi();
   const cases::Scene scene = pulled_cube(static_cast<int>(state.range(0)), formulation, element,

@@ -33,7 +33,7 @@ struct Moving {
   Moving(const Moving&) = delete; // the others refer to its problem
 };
 
-/// Supports that hold all nodes at one height.
+/// A problem whose nodes are held up to a height.
 msm::Problem held_at(const cases::HexMesh& mesh, double height) {
   msm::Problem problem{mesh, {}, {}, std::vector<bool>(3 * mesh.nodes.size()), {}};
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
