@@ -16,8 +16,8 @@ namespace {
 
 constexpr int n_steps = 50;
 
-/// A cube of n^3 cells of 1 mm, of water as stiff as E = 0.3 MPa, nu = 0.35 says, held below, its top pulled
-/// to and fro at 2 Hz by (0.01, 0, 0.02) N a node: as the springs' cube. Implicit Euler.
+/// A cube of n^3 cells of 1 mm with E = 0.3 MPa, nu = 0.35 and the density of water, held below. Forces of
+/// (0.01, 0, 0.02) N a node swing its top at 2 Hz, as in the springs' cube. Implicit Euler.
 cases::Scene pulled_cube(int n, cases::Formulation formulation, cases::Element element, double step) {
   cases::Case definition;
   definition.name = "cube";
@@ -39,7 +39,7 @@ cases::Scene pulled_cube(int n, cases::Formulation formulation, cases::Element e
   return cases::make_scene(definition);
 }
 
-/// Its functions want it, on one rank too.
+/// Initialises MPI, which the finite elements need on one rank too.
 void start_mpi() {
   int is_started = 0;
   MPI_Initialized(&is_started);
@@ -48,8 +48,8 @@ void start_mpi() {
   std::atexit([] { MPI_Finalize(); });
 }
 
-/// Range: cells along an edge, threads, step in ms, -log10 of the tolerance. A whole motion but for the
-/// model's making, which a step's time has its part of.
+/// Range: cells along an edge, threads, step in ms, -log10 of the tolerance. Times a whole motion
+/// without the model's construction; a step's time is the mean over the motion.
 void elements(benchmark::State& state, cases::Formulation formulation, cases::Element element) {
   start_mpi();
   const cases::Scene scene = pulled_cube(static_cast<int>(state.range(0)), formulation, element,

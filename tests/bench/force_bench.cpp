@@ -70,7 +70,7 @@ void multigrid_cycle(benchmark::State& state) {
 }
 BENCHMARK(multigrid_cycle)->Args({40, 1})->Args({40, 2})->UseRealTime();
 
-/// The same force by the list of springs.
+/// Times the same force, computed from the list of springs.
 void list_force(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   const msm::Lattice lattice = msm::make_lattice(cases::make_box_mesh({n * 1.0, n * 1.0, n * 1.0}, {n, n, n}),

@@ -33,7 +33,7 @@ struct Moving {
   Moving(const Moving&) = delete; // the others refer to its problem
 };
 
-/// What is at one height: its nodes are held.
+/// A problem whose nodes are held up to a height.
 msm::Problem held_at(const cases::HexMesh& mesh, double height) {
   msm::Problem problem{mesh, {}, {}, std::vector<bool>(3 * mesh.nodes.size()), {}};
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
@@ -100,8 +100,8 @@ msm::CellStiffness of_edge(msm::CellStiffness k, double edge) {
 }
 
 /// An ellipsoid of cubes of 20 mm with 708 masses, 1.3 kg in all, and 6,998 springs, held below; two loads
-/// pull a place of its surface, one hither and thither and one around: 40 mm at most. Range: threads, -log10
-/// of the tolerance, 0 for real time.
+/// pull a place of its surface, one hither and thither and one around: 40 mm at most.
+/// Range: threads, -log10 of the tolerance (0: real time).
 void interactive(benchmark::State& state, const msm::CellStiffness& cell) {
   cases::Grid grid;
   grid.cells = {11, 8, 7};

@@ -12,7 +12,7 @@ from cholesky import Cholesky
 from laws import LAWS
 from problems import AXES, patch_rectangle
 
-GRADING = 0.15  # of successive layers' distances from a line towards which the mesh is graded
+GRADING = 0.15  # ratio of successive layers' distances from a line towards which the mesh is graded
 
 
 def lobatto(p):
@@ -68,7 +68,7 @@ class Grid:
         self.used, conn = np.unique(full, return_inverse=True)
         self.conn = conn.reshape(full.shape)
         index = np.stack(np.unravel_index(self.used, counts), -1)
-        self.points = np.stack([self.positions[d][index[:, d]] for d in range(3)], -1)  # of reference
+        self.points = np.stack([self.positions[d][index[:, d]] for d in range(3)], -1)  # reference coordinates
         self.is_inner = np.all((np.stack([i, j, k], -1).reshape(-1, 3) > 0) & (np.stack([i, j, k], -1).reshape(-1, 3) < p), -1)
 
     def map(self, points):
@@ -297,7 +297,7 @@ class Body:
         matrix.sort_indices()
         del rows, columns, entries
         result = change.copy()
-        for shift in (0, 1e-4, 1e-3, 1e-2, 0.1, 1):  # on the way to equilibrium a tangent may be indefinite
+        for shift in (0, 1e-4, 1e-3, 1e-2, 0.1, 1):  # a tangent on the way to equilibrium may be indefinite
             if shift:
                 matrix = matrix + diags(shift * np.abs(matrix.diagonal()), format="csc")
                 matrix.sort_indices()
@@ -329,7 +329,7 @@ class Body:
                 if not np.isfinite(off):
                     raise ArithmeticError("Newton's method left the domain of the law")
                 if iteration and not np.any(change):
-                    # Of a linear body, what is left is rounding.
+                    # A linear body's residual is rounding by now.
                     if self.laws[0].linear or off < (1e-9 if step == steps else 1e-4) or last < 1e-10 * np.abs(u).max():
                         break
                 correction = self.newton_step(u, residual, change).reshape(-1, 3)

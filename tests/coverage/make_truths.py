@@ -28,7 +28,7 @@ from elements import Body
 from laws import LAWS
 from problems import PROBLEMS, box, elastic, face, moved, ogden, problem, reaction, traction, u
 
-# With more layers the tangent of some Ogden bodies becomes indefinite at clamped edges.
+# The tangent of some Ogden bodies becomes indefinite at clamped edges with more layers.
 LINEAR_LEVELS, FINITE_LEVELS = [(3, 1), (4, 2), (5, 2)], [(3, 1), (4, 1), (5, 1)]
 COLUMNS = ["case", "measure", "unit", "truth", "uncertainty", "how"]
 

@@ -354,7 +354,7 @@ def same(attempt, chance):
     attempts_same.compare(attempt, chance)
 
 
-KINDS = {keys: 24, files: 28, options: 12, names: 8, limits: 5, links: 8, folders: 3, geometries: 3, environment: 2, same: 7}  # of a hundred
+KINDS = {keys: 24, files: 28, options: 12, names: 8, limits: 5, links: 8, folders: 3, geometries: 3, environment: 2, same: 7}  # weights, a hundred in all
 
 
 def main():

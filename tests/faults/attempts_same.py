@@ -3,10 +3,10 @@
 import itertools
 import json
 
-CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]  # of gmsh's hexahedron
+CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]  # gmsh's hexahedron
 VERTICES = list(itertools.product((0, 1), repeat=3))
-NEAR = 1e-6  # of the largest displacement; Newton's method ends at 1e-8 and better of the load
-NONLINEAR = 1e-3  # of the springs under twice a load of strains of some 1e-5
+NEAR = 1e-6  # relative to the largest displacement; Newton's method ends at 1e-8 of the load or better
+NONLINEAR = 1e-3  # relative: what doubling a load of strains of some 1e-5 shows of the springs' nonlinearity
 
 
 def face(axis, is_upper):

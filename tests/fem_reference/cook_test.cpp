@@ -57,8 +57,8 @@ double tip_deflection(int n, double bulk_modulus, Element element) {
   return solution.displacement[static_cast<std::size_t>(cases::select_node(scene.mesh, tip))].y();
 }
 
-/// @param n  of the first mesh; each has twice as many as the one before
-/// @param printed  mm     @param digit  the last one printed
+/// @param n  cells along an edge of the first mesh; each further mesh has twice as many
+/// @param printed  mm     @param digit  unit of the last digit printed, mm
 void deflects(Element element, int n, const std::vector<double>& printed, double digit) {
   for (std::size_t i = 0; i < printed.size(); ++i, n *= 2) {
     const double computed = tip_deflection(n, 0.91542, element);
@@ -92,7 +92,7 @@ TEST_CASE(
   const double converged = tip_deflection(16, bulk_modulus, Element::q2_p1);
   const struct {
     Element element;
-    double least, most; // of the converged deflection
+    double least, most; // relative to the converged deflection
   } rows[] = {{Element::q1, 0.0, 0.6},
               {Element::q1_bbar, 0.95, 1.02},
               {Element::q1_p0, 0.95, 1.02},

@@ -78,7 +78,7 @@ TEST_CASE("B-bar leaves the deviatoric stiffness alone and softens a bending mod
     return bending.dot(fem_reference::element_stiffness(cube, m, element) * bending);
   };
   CHECK(energy(stiff_volume, Element::q1) > 500 * energy(stiff_volume, Element::q1_bbar));
-  // At zero bulk modulus there is no volumetric energy for B-bar to change.
+  // There is no volumetric energy for B-bar to change at zero bulk modulus.
   const double deviatoric = energy({1, -0.999999999}, Element::q1);
   CHECK(energy({1, -0.999999999}, Element::q1_bbar) == Approx(deviatoric).epsilon(1e-8)); // kappa/mu = 1e-9
 }

@@ -54,7 +54,7 @@ struct OneCell {
     }
     return u;
   }
-  /// At the pressures that balance the cell's volume, found by Newton's method at fixed displacement.
+  /// Evaluates at the pressures that balance the cell's volume, by Newton's method at fixed displacement.
   const CellResult& balanced(const Eigen::VectorXd& u) {
     for (int i = 0; i < 30; ++i) {
       const CellResult& r = kernel->evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),

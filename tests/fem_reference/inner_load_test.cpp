@@ -79,6 +79,6 @@ TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a
 
 TEST_CASE("a load on what is no face of the elements is no answer") {
   cases::Scene scene = cases::make_scene(bar(cases::Element::q1, 0, pull));
-  scene.loads.front().selection.faces.front() = {0, 1, 21, 20}; // across a cell
+  scene.loads.front().selection.faces.front() = {0, 1, 21, 20}; // a face across a cell
   CHECK_THROWS_AS(fem_reference::Model(scene, MPI_COMM_WORLD, Backend::assembled), cases::SolveError);
 }

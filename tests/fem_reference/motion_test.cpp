@@ -101,7 +101,7 @@ TEST_CASE("finite elements that nothing holds fall as the parabola says, and kee
       const cases::Solution motion = fem_reference::follow(
           weighed(definition, -Vector3d::UnitZ(), steps(cases::Scheme::newmark, 0.001, 0.05)));
       for (const Vector3d& moved : motion.displacement)
-        CHECK((moved - Vector3d(0, 0, -gravity * 0.05 * 0.05 / 2)).norm() < 1e-6); // of 12 mm
+        CHECK((moved - Vector3d(0, 0, -gravity * 0.05 * 0.05 / 2)).norm() < 1e-6); // the bar falls by 12 mm
     }
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a support that moves takes damped finite elements along", "[verificat
       const cases::Solution motion = fem_reference::follow(
           weighed(definition, Vector3d::Zero(), steps(cases::Scheme::implicit_euler, 0.05, 10)));
       for (const Vector3d& u : motion.displacement) CHECK((u - moved.displacement).norm() <= 1e-6);
-      // On the way half of it has come after half of the ramp, and the tip has stayed behind.
+      // Half of it has come after half of the ramp, and the tip has stayed behind.
       const Vector3d tip = motion.trajectory->displacement[1];
       CHECK(tip.x() > 0);
       CHECK(tip.x() < 0.5);

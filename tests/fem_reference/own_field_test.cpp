@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using fem_reference::Backend;
 using fem_reference::Model;
 
-// Of the same kind were looked for: the springs' volumes (msm::measure_cells(), of the deformed nodes),
+// Other places checked for this defect: the springs' volumes (msm::measure_cells() takes the deformed nodes),
 // CalculiX's and other programs' results (the same now, calculix_test.cpp), the volume over time (the same
 // functions as at the end), stress and strain of cells (their means over the rest or deformed cell, as
 // documented), landmarks and surfaces (carried by the body's own cells in both models, as documented).
@@ -109,9 +109,9 @@ TEST_CASE("the norms of one quadratic element are its field's and not its corner
 namespace {
 
 /// Root of the mean of |u|² over the block of cells of 1 mm, by the exact mass matrix of 1-D elements.
-/// @param degree  2: of all nodes of quadratic elements; 1: of their corners alone
+/// @param degree  2: quadratic elements with all their nodes; 1: trilinear ones on their corners alone
 double norm_of_nodes(const std::vector<fem_reference::NodeDisplacement>& nodes, int degree) {
-  std::map<std::array<int, 3>, Vector3d> at; // by places in half cells
+  std::map<std::array<int, 3>, Vector3d> at; // displacements by place in half cells
   for (const auto& node : nodes) {
     const Vector3d place = (2 * node.rest).array().round();
     at[{int(place.x()), int(place.y()), int(place.z())}] = node.displacement;

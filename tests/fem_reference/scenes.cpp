@@ -103,7 +103,7 @@ cases::Scene distorted_box(int cells, Surface surface, const cases::Material& ma
     Vector3d& x = scene.mesh.nodes.stored()[n];
     on_surface[n] = x.minCoeff() < 1e-12 || x.maxCoeff() > 1 - 1e-12;
     if (on_surface[n]) continue;
-    const auto k = static_cast<double>(n); // as good as random, and the same on every machine
+    const auto k = static_cast<double>(n); // pseudo-random, the same on every machine
     x += 0.2 / cells * Vector3d(std::sin(12.9 * k), std::sin(78.2 * k), std::sin(37.7 * k));
   }
   if (surface == Surface::free) return scene;

@@ -29,7 +29,7 @@ cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases:
 
 cases::LinearElastic thesis_elastic(double poissons_ratio = 0.35);
 cases::Ogden thesis_ogden();
-/// Three times as stiff along its fibre.  @param fibre  of any length
+/// A material three times as stiff along its fibre.  @param fibre  a vector of any length
 cases::TransverselyIsotropic fibrous(const Eigen::Vector3d& fibre);
 
 /// The two measures of a test, by their definition in the thesis: heights (mm), tilts or twists (degrees).

@@ -52,7 +52,7 @@ TEST_CASE("distorted hexahedra with a fibre askew hold an affine displacement an
   CAPTURE(cases::name_of(element), cases::name_of(formulation));
   CHECK(solved.largest_error(field) <= 1e-10);
 
-  // In a homogeneous state the forces on a face of area 1 are the column of P of its normal.
+  // The forces on a face of area 1 in a homogeneous state are the column of P of its normal.
   const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradient;
   const auto law = formulation == cases::Formulation::small_strain
                        ? point_laws::point_law<fem_reference::TransverseSmallStrain>(material)
@@ -113,7 +113,7 @@ TEST_CASE("a body turned with its fibre and its surface's motion answers with th
   double largest = 0;
   for (std::size_t n = 0; n < u.size(); ++n) largest = larger(largest, (q * u[n] - v[n]).norm());
   CAPTURE(cases::name_of(formulation), cases::name_of(element));
-  CHECK(largest <= 1e-9); // of 0.1 mm: tolerance of either solve
+  CHECK(largest <= 1e-9); // displacements are 0.1 mm: tolerance of either solve
 }
 
 TEST_CASE("a grid of a transversely isotropic material is assembled, and refused to the grid's backend") {

@@ -49,7 +49,7 @@ inline std::string with_line_doubled(const std::string& text, Random& random) {
   return joined(lines);
 }
 
-/// One of the text's numbers by one that somebody did not think of.
+/// Replaces one of the text's numbers by one that somebody did not think of.
 inline std::string with_number_replaced(std::string text, Random& random) {
   static const std::array<const char*, 16> others{"0",
                                                   "-1",

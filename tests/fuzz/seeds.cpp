@@ -36,7 +36,7 @@ cases::Surface boundary(const cases::HexMesh& mesh) {
   return surface;
 }
 
-/// For the box that the fuzzers match displacements with.
+/// Points and fields on the box that the fuzzers match displacements with.
 cases::PointCloud cloud() {
   cases::PointCloud cloud;
   cloud.points = cases::make_box_mesh({2, 2, 2}, {2, 2, 2}).nodes.to_vector();
@@ -58,7 +58,7 @@ cases::CellCloud cells() {
   return cells;
 }
 
-/// To a question on a mesh of one cell.
+/// Answers for a mesh of one cell.
 compare::Answers answers() {
   compare::Answers answers;
   answers.choices = {"formulation: small_strain"};

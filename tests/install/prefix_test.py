@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as name:
     check(len(table) == 6 and all(0 < float(word) < 60 for line in table[1:] for word in line[1:]), f"compare_designs.txt: {table}")
     check((work / "compare_designs.svg").read_text().rstrip().endswith("</svg>"), "compare_designs.svg is not whole")
 
-    # Without VTK's module, as `./do tables` builds: text, and one message where files are asked for.
+    # A build without VTK's module, as `./do tables` makes: text, and one message where files are asked for.
     module = prefix / "lib/springproof/springproof_vtk.so"
     module.rename(scratch / module.name)
     block = prefix / "share/doc/springproof/examples/library/block.toml"

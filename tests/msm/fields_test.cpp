@@ -172,7 +172,7 @@ TEST_CASE("the reaction of the clamped face is the applied load, whichever path 
     CHECK((sum(fields.reaction) + load).norm() <= tolerance * load.norm());
     const msm::Lattice lattice = msm::make_lattice(scene.mesh, {bodies::hybrid_cell});
     CHECK(sum(fields.strain_energy) == Approx(msm::energy_at(lattice, solution.displacement)).epsilon(1e-12));
-    const msm::Points internal = msm::internal_force_at(lattice, solution.displacement); // on the points
+    const msm::Points internal = msm::internal_force_at(lattice, solution.displacement); // forces on points
     Vector3d moment = Vector3d::Zero();
     for (std::size_t n = 0; n < internal.size(); ++n) {
       const Vector3d x = scene.mesh.nodes[n] + solution.displacement[n];

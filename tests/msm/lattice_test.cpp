@@ -24,7 +24,7 @@ double between(const Lattice& lattice, const Vector3d& a, const Vector3d& b) {
   return 0;
 }
 
-/// Of Hooke's springs, and of power-log ones of three exponents.
+/// A lattice of Hooke's springs, or of power-log springs with three exponents.
 Lattice any_lattice() {
   return bodies::masked_lattice(GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
                                          std::optional(msm::Exponents{-1.3, -2, 4.3})));

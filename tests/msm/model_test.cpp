@@ -93,7 +93,7 @@ TEST_CASE("a lattice of negative springs is unstable at rest") {
   CHECK(error.load_reached() == 0);
 }
 
-// Of the same kind were looked for: the grid's path (never says unstable), vibrations ("unstable at rest"
+// Other places checked for this defect: the grid's path (never says unstable), vibrations ("unstable at rest"
 // with the lowest omega² alone), volume terms and tetrahedra (named as such).
 TEST_CASE(
     "what makes a lattice unstable at rest is said: negative springs, or springs that are pressed together") {
@@ -140,7 +140,7 @@ TEST_CASE(
     for (const double stiffness : {0., 1e-320, 1e-300}) {
       CAPTURE(stiffness, path == msm::Path::direct);
       mechanics::EquilibriumSettings settings;
-      settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report; // as hard cases do
+      settings.lowest_eigenvalue = mechanics::LowestEigenvalue::report; // hard cases do so too
       msm::Model model(box_scene({10, 10, 10}, bodies::tensile(0.01)), {bodies::cell(stiffness, 0, 0)},
                        {path, 1});
       try {

@@ -52,7 +52,7 @@ cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSe
   return msm::follow(scene, springs_of_all, {msm::Path::direct, 1, {}, {}}, settings);
 }
 
-/// Of the static scene.
+/// Equilibrium of the static scene.
 cases::Solution equilibrium(cases::Scene scene) {
   scene.definition.dynamics.reset();
   return msm::Model(scene, springs_of_all, {msm::Path::direct}).solve();

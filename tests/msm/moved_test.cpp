@@ -160,7 +160,7 @@ TEST_CASE("a solve that is told to stop ends at once, with the load it has reach
     CHECK(asked == 6);
     CHECK(error.so_far().newton_iterations == 5);
     CHECK(error.load_reached() < 1);
-    CHECK(error.residual() <= 1e-9); // of the last equilibrium
+    CHECK(error.residual() <= 1e-9); // the last equilibrium's
     CHECK(error.outcome() == cases::Outcome::unknown);
   }
   settings.should_stop = {};

@@ -66,7 +66,7 @@ inline cases::Scene block(const cases::Dynamics& dynamics, const cases::Material
   return scene;
 }
 
-/// Its lower end is turned and moved along x.
+/// A block whose lower end is turned and moved along x.
 inline cases::Scene turned_block(const cases::Dynamics& dynamics, const cases::MaterialDynamics& material) {
   cases::Case definition = block_case(5);
   definition.fixed.clear();
@@ -104,7 +104,7 @@ struct Moving {
   Vector vector(const msm::Points& points) const {
     return vectors.from_field(msm::grid::to_field(problem, grid.body, points));
   }
-  /// As statics has it.
+  /// Returns the vector as a field in the layout of statics.
   Vector field(const Vector& vector) const {
     Vector room;
     return vectors.to_field(vector, room);
@@ -113,7 +113,7 @@ struct Moving {
     return msm::grid::to_points(problem, grid.body, field(vector));
   }
 
-  /// Of free entries, up to a size.
+  /// Random values between -size and size; constrained entries are zero.
   Vector random_motion(double size, unsigned seed) const {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> value(-size, size);

@@ -100,7 +100,7 @@ TEST_CASE("the forces of a pull are minus the gradient of its energy", "[unit]")
         (held.body.motion().energy(at + h * way, 0) - held.body.motion().energy(at - h * way, 0)) / (2 * h);
     const Vector residual = held.body.motion().residual(at, 0);
     CHECK(std::abs(residual.dot(way)) > 0.1);
-    CHECK(residual.dot(way) == Approx(-slope).epsilon(1e-6)); // of the differences
+    CHECK(residual.dot(way) == Approx(-slope).epsilon(1e-6)); // error of the differences
     held.body.motion().let_go();
     CHECK((held.body.motion().residual(at, 0) - residual).norm() > 0.1); // the pull was a part of it
   }

@@ -66,8 +66,8 @@ TEST_CASE("springs pulled by strains of 1e-12 to 1e-7 follow their lattice's mod
       for (const double strain : {1e-12, 1e-10, 5e-8, 1e-7}) {
         const Strains found = strains_under(strain / unit);
         CAPTURE(static_cast<int>(path), cell.exponents.has_value(), strain);
-        CHECK(found.off <= 2e-9);                                        // of the solver
-        CHECK(std::abs(found.along / strain - 1) <= 2e-9 + 10 * strain); // of geometry, of order strain
+        CHECK(found.off <= 2e-9);                                        // the solver's tolerance
+        CHECK(std::abs(found.along / strain - 1) <= 2e-9 + 10 * strain); // and geometry, to order strain
         CHECK(std::abs(found.across / found.along - strains_under(1e-13).across / (1e-13 * unit)) <=
               2e-9 + 10 * strain);
       }
@@ -94,7 +94,7 @@ Eigen::Vector2d exact_strains(const msm::CellStiffness& cell, double traction) {
     const Eigen::Vector2d stretch = strain.array() + 1,
                           growth = strain.array() * (strain.array() + 2); // stretch^2 - 1
     Eigen::Vector2d force(0, -traction);
-    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); // at rest
+    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); // the stiffness at rest
     for (const auto& [count, k, squares] : springs) {
       const double rest = std::sqrt(squares.sum()), length = std::sqrt(squares.sum() + squares.dot(growth));
       const double longer = squares.dot(growth) / (length + rest);

@@ -18,7 +18,7 @@ constexpr double soft_lambda = 0.7, soft_mu = 0.3; // MPa
 const TetrahedronPositions slanted{Vector3d(0.1, 0, 0.2), Vector3d(1.3, 0.1, 0), Vector3d(0.2, 0.9, -0.1),
                                    Vector3d(0, 0.3, 1.1)};
 
-/// Stretched by a fifth, sheared and turned.
+/// The slanted tetrahedron, stretched by a fifth, sheared and turned.
 TetrahedronPositions deformed() {
   Eigen::Matrix3d f;
   f << 1.2, 0.3, -0.1, 0.05, 0.8, 0.2, 0.1, -0.15, 1.1;

@@ -84,7 +84,7 @@ def check_lifetimes():
     assert solution.case.measure(solution) == shown and solution.case.nodes.shape == (225, 3)
     del solution
     gc.collect()
-    trash = [np.full(n, np.nan) for n in range(1, 4000)]  # over whatever was freed
+    trash = [np.full(n, np.nan) for n in range(1, 4000)]  # overwrites whatever was freed
     for name, array in arrays.items():
         assert (array == copies[name]).all() and not array.flags.writeable, name
     del trash

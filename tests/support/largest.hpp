@@ -18,8 +18,8 @@ double largest_entry(const Eigen::MatrixBase<Derived>& matrix) {
   return matrix.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>();
 }
 
-/// Largest norm of the differences of two lists, the second of which is that part of the first which begins
-/// at a place; NaN if a number is.
+/// Largest norm of the differences between a list and a part of it, b, which begins at `first`; NaN if a
+/// number is.
 template<class Value, class Norm>
 double largest_difference(const std::vector<Value>& a, const std::vector<Value>& b, std::size_t first,
                           const Norm& norm) {
@@ -36,7 +36,7 @@ double largest_difference(const std::vector<Value>& a, const std::vector<Value>&
   return largest_difference(a, b, 0, norm);
 }
 
-/// What is here of a solution, if all of it is not, among that of one rank alone.
+/// Range of the nodes and cells of a shared solution that are here; empty if nothing is shared.
 inline cases::Share part_of(const cases::Solution& alone, const cases::Solution& shared) {
   if (shared.sharing) return shared.sharing->here();
   if (alone.displacement.size() != shared.displacement.size() ||
@@ -53,7 +53,7 @@ inline double largest_displacement(const cases::Solution& of) {
 }
 
 /// Largest difference of two displacements of one body, mm; NaN if a number is.
-/// @param b  ranks may share it: then of the nodes that are here
+/// @param b  if ranks share it, the nodes that are here are compared
 inline double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   return largest_difference(a.displacement, b.displacement, part_of(a, b).nodes.begin,
                             [](const auto& u) { return u.norm(); });
@@ -61,7 +61,7 @@ inline double largest_difference(const cases::Solution& a, const cases::Solution
 
 /// Largest difference of a field's values over the field's largest, of the worst field; NaN if a number is,
 /// and where a field is zero.
-/// @param here  what b is of, where ranks share it (part_of()); a is of the whole body
+/// @param here  b's part of the body, where ranks share it (part_of()); a has the whole body
 inline double largest_difference(const cases::Fields& a, const cases::Fields& b,
                                  const cases::Share& here = {}) {
   double worst = 0;
@@ -86,7 +86,7 @@ inline double largest_difference(const cases::Fields& a, const cases::Fields& b,
 }
 
 /// Largest difference of a cell's volume in two solutions of one body, mm³; NaN if a number is.
-/// @param b  ranks may share it: then of the cells that are here
+/// @param b  if ranks share it, the cells that are here are compared
 inline double largest_volume_difference(const cases::Solution& a, const cases::Solution& b) {
   return largest_difference(a.cell_volume, b.cell_volume, part_of(a, b).cells.begin,
                             [](double v) { return std::abs(v); });

@@ -4,7 +4,7 @@
 #include <string>
 #include <sys/resource.h>
 
-/// While it lives, the process can take so many more bytes of address space and no more.
+/// Limits the process to so many more bytes of address space, as long as the object lives.
 class LittleMemory {
  public:
   explicit LittleMemory(std::size_t more_bytes) {

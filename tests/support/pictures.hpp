@@ -41,7 +41,7 @@ std::string bytes_of_picture(bool swapped = false) {
   return bytes;
 }
 
-/// Of int16, 352 bytes.
+/// Header (352 bytes) of a NIfTI file of int16.
 inline std::string nifti(std::array<std::int16_t, 3> sizes, float slope = 1, float intercept = 0) {
   std::string header(352, '\0');
   const auto put = [&](std::size_t at, auto value) { std::memcpy(&header[at], &value, sizeof value); };
@@ -116,7 +116,7 @@ inline void check_is_picture(const std::string& path) {
   CHECK(mesh.cells.size() == 9 * 6 * 6);
   CHECK(std::count(mesh.group_of_cell.begin(), mesh.group_of_cell.end(), "bone") == 6 * 6 * 6);
   CHECK(centre_of(mesh, mesh.cells[0]) == Eigen::Vector3d(0.5, 0.5, 0.5));
-  CHECK(mesh.group_of_cell[6] == "fat"); // beyond the bone in x, as voxels are numbered
+  CHECK(mesh.group_of_cell[6] == "fat"); // fat is beyond the bone in x, as voxels are numbered
 }
 
 inline std::string refusal(const Labels& labels) {

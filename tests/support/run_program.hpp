@@ -15,11 +15,11 @@ struct ProgramRun {
   std::string out, error;
 };
 
-/// Goes to the project's folder, for paths as a user types them.
+/// Shell words that go to the project's folder, for paths as a user types them.
 inline const std::string in_source = "cd '" SPRINGPROOF_SOURCE_DIR "' && ";
 
 /// Runs build/springproof through the shell.
-/// @param words  as typed behind the program's name      @param before  shell commands in front of it
+/// @param words  text typed behind the program's name      @param before  shell commands in front of it
 inline ProgramRun run_program(const std::string& words, const std::string& before = "") {
   const TemporaryFolder folder;
   const std::string errors = (folder.path / "stderr").string();

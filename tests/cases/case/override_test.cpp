@@ -52,7 +52,7 @@ TEST_CASE("a key of the file that a setting leaves without a meaning is refused 
                  Catch::EndsWith("without what the file has there: --set 'msm={design = \"matched\"}'"));
   CHECK(read_text(given, {"msm={design = \"matched\"}"}).msm.design == Design::matched);
   CHECK(read_text(given, {"msm.design=given"}).msm.stiffness == std::array<double, 3>{1, 2, 3});
-  // Without a setting, or with the refused key as one, there is nothing to replace.
+  // There is nothing to replace without a setting, or with the refused key as one.
   CHECK(refusal(given, "fem.refine=0").find("--set") == std::string::npos);
   CHECK_THROWS_WITH(read_text(good_case, {"msm.design=matched", "msm.stiffness=[1, 2, 3]"}),
                     !Catch::Contains("--set"));

@@ -262,7 +262,7 @@ TEST_CASE("every case file of the project is read, and its regions exist") {
     if (entry.path().parent_path().filename() != "hard") {
       Case read;
       CHECK_NOTHROW(read = read_case(entry.path().string()));
-      const Labels* labels = std::get_if<Labels>(&read.body); // of a package that may not be installed
+      const Labels* labels = std::get_if<Labels>(&read.body); // their package may not be installed
       if (labels == nullptr || fs::exists(labels->file.path)) CHECK_NOTHROW(make_scene(read));
       continue;
     }
@@ -283,7 +283,7 @@ TEST_CASE("a key of very many dotted parts is refused with its line, however it 
   for (const std::string& line : {key + " = 1", "[" + key + "]", "x = {" + key + " = 1}"})
     CHECK_THROWS_WITH(read_case_text("schema = 1\n" + line + "\n", "a.toml"),
                       Catch::StartsWith("a.toml:2:1: has more than 100 points"));
-  std::string nested; // as deep as is allowed: inline tables in arrays, which may have several lines
+  std::string nested; // nested as deep as allowed: inline tables in arrays, which may have several lines
   const std::string part = key.substr(0, 199);
   for (int level = 0; level < 100; ++level) nested += (level == 0 ? "x" : "{" + part) + " = [\n";
   CHECK_THROWS_AS(read_case_text(nested, "a.toml"), InputError);

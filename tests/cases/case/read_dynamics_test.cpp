@@ -185,7 +185,7 @@ TEST_CASE("a mistake in a history is refused where it is made") {
 }
 
 TEST_CASE("a sine that the steps cannot see is refused beside the longest step that can") {
-  const std::string history = "[[0, 1], [0, 0]]"; // with steps of 0.01 s
+  const std::string history = "[[0, 1], [0, 0]]"; // the steps are 0.01 s
   CHECK(read_text(replaced(dynamic_case, history, "{ sine = 49 }")).loads[1].history.frequency == 49);
   const auto refused = mistakes_in(dynamic_case);
   refused(history, "{ sine = 50 }", 14, "dynamics", {"step is 0.01 s", "load[1].history", "50 Hz: 0.01 s"});

@@ -66,7 +66,7 @@ TEST_CASE("a region turns by 30 degrees at most in a step in time, or the step t
   // There and back within a step, which the ends of the step do not show.
   check_refused("{ ramp = [0, 0.1] }", "[[0, 0], [0.025, 1], [0.05, 0]]", {"by 300 degrees"});
   check_refused("{ ramp = [0, 0.1] }", "{ sine = 20 }", {"by 600 degrees", "at most 30"});
-  // Beyond the end nothing turns.
+  // Nothing turns beyond the end.
   CHECK(read_text(replaced(turned_bar, "{ ramp = [0, 0.1] }", "[[0, 0], [0.1, 0.1], [0.11, 50]]"))
             .moved.size() == 1);
   check_refused("{ ramp = [0, 0.1] }", "[[0, 0], [1e-9, 1]]", {"a slower history"});

@@ -13,7 +13,7 @@ TEST_CASE("a point is found in its cell, on a face in both, at a vertex in all, 
   CHECK(cells_at(mesh, {0.5, 0.5, 0.5}) == Cells{0});
   CHECK(cells_at(mesh, {1.2, 0.3, 1.9}) == Cells{5});
   CHECK(cells_at(mesh, {1, 0.3, 1.9}) == Cells{4, 5});
-  CHECK(cells_at(mesh, {1 + 1e-7, 0.3, 1.9}) == Cells{4, 5}); // within 1e-6 of the edge
+  CHECK(cells_at(mesh, {1 + 1e-7, 0.3, 1.9}) == Cells{4, 5}); // the edge is within 1e-6
   CHECK(cells_at(mesh, {1 + 1e-5, 0.3, 1.9}) == Cells{5});
   CHECK(cells_at(mesh, {1, 1, 1}).size() == 8);
   CHECK(cells_at(mesh, {2, 2, 2}) == Cells{7});

@@ -9,9 +9,9 @@ using namespace cases;
 using Catch::Contains;
 using Eigen::Vector3d;
 
-// Of the same kind were looked for: other sources of meshes (boxes, voxels, labels, cuts and their
-// refinements are grids, each of whose places has one node and one cell at most; find_grid() refuses slits
-// and doubles), group faces (refused unless they are a cell's), springs listed twice in a network
+// Other places checked for this defect: other sources of meshes (boxes, voxels, labels, cuts and their
+// refinements are grids, with one node and one cell at most in each place; find_grid() refuses slits and
+// doubles), group faces (refused unless they are a cell's), springs listed twice in a network
 // (network_test.cpp), triangles of a surface (voxels_test.cpp).
 
 namespace {
@@ -74,7 +74,7 @@ TEST_CASE("a cell beside four of half its edge is refused by its face and a node
                Contains(" lies on the face of nodes 2 4 8 6 of element 1, and is no vertex of it (5 nodes "
                         "are like that)"));
   }
-  HexMesh three; // in thirds, on an edge and in the face
+  HexMesh three; // nodes at thirds, on an edge and in the face
   add_box(three, {0, 0, 0}, 3);
   add_box(three, {3, 0, 0}, 1, {1, 3, 3});
   CHECK_THAT(reason(three), Contains("element 1") && Contains("(12 nodes are like that)"));
@@ -99,13 +99,13 @@ TEST_CASE(
   HexMesh twice = mesh;
   twice.cells.stored().push_back(mesh.cells[4]);
   CHECK_THAT(reason(twice), Contains("elements 5 and 13 are one hexahedron"));
-  std::array<int, 8> turned = mesh.cells[4]; // about z, the same cell
+  std::array<int, 8> turned = mesh.cells[4]; // the same cell, turned about z
   for (std::size_t v = 0; v < 8; ++v)
     turned[v] = mesh.cells[4][std::array<std::size_t, 8>{1, 3, 0, 2, 5, 7, 4, 6}[v]];
   twice.cells.stored().back() = turned;
   CHECK_THAT(reason(twice), Contains("elements 5 and 13 are one hexahedron"));
 
-  HexMesh other = mesh; // on the first cell's face x+, nodes beyond it of its own
+  HexMesh other = mesh; // a cell on the first cell's face x+, with its own nodes beyond it
   std::array<int, 8> beyond = mesh.cells[1];
   for (const std::size_t v : {1u, 3u, 5u, 7u}) {
     other.nodes.stored().push_back(mesh.nodes[index(beyond[v])] + Vector3d(0.3, 0.1, 0.1));
@@ -157,7 +157,7 @@ TEST_CASE("thin layers, graded, skewed and large meshes are sound") {
   HexMesh layers;
   add_box(layers, {0, 0, 0}, 1, {4, 4, 4});
   for (Vector3d& node : layers.nodes.stored()) {
-    node.z() = node.z() == 0 ? 0 : std::pow(1e-3, 4 - node.z()); // from 1e-9 to 1 mm high
+    node.z() = node.z() == 0 ? 0 : std::pow(1e-3, 4 - node.z()); // heights from 1e-9 to 1 mm
     node.x() += 0.7 * node.y();
   }
   CHECK(reason(layers).empty());

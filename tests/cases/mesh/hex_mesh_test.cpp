@@ -74,7 +74,7 @@ TEST_CASE(
   CHECK(ruled.nodes.values.empty());
   CHECK(ruled.cells.values.empty());
   CHECK(ruled.nodes.size() == stored.nodes.size());
-  CHECK(ruled.nodes.to_vector() == stored.nodes.values); // to the last bit
+  CHECK(ruled.nodes.to_vector() == stored.nodes.values); // equal to the last bit
   CHECK(ruled.cells.to_vector() == stored.cells.values);
   ruled.nodes.stored()[5].x() = 3;
   CHECK(ruled.nodes[5].x() == 3);

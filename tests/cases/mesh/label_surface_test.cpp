@@ -57,7 +57,7 @@ TEST_CASE("the contour of a body's picture is where the intensity is, not where 
     const TriangleMesh skin = label_surface(labels, {100, 0, 0});
     CHECK(n_open_edges(triangles_of(skin)) == 0);
     REQUIRE(skin.triangles.size() > 500);
-    // Along an edge of h = 2 mm the distance is linear but for its curvature, h²/(8 r).
+    // The distance is linear along an edge of h = 2 mm but for its curvature, h²/(8 r).
     for (const Vector3d& vertex : skin.vertices)
       REQUIRE(std::abs((vertex - ball_centre).norm() - ball_radius) < 4 / (8 * ball_radius));
   }

@@ -206,7 +206,7 @@ TEST_CASE("a piece of a labelled body is removed and the cut joined where its ri
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
     const Vector3d& node = scene.mesh.nodes[n];
     const bool is_bone = node.z() <= 1, is_side = node.x() == 5 || node.x() == 7;
-    CHECK(constrained[3 * n] == (is_bone || (is_side && node.z() == 2))); // at 3 cells are left over the cut
+    CHECK(constrained[3 * n] == (is_bone || (is_side && node.z() == 2))); // cells are left over the cut at 3
     CHECK(constrained[3 * n + 1] == is_bone);
     CHECK(constrained[3 * n + 2] == is_bone);
   }

@@ -20,7 +20,7 @@ HexMesh bar() {
 
 std::string bytes_with_length(std::uint64_t length) {
   std::string bytes = bytes_of_mesh(bar());
-  std::memcpy(bytes.data() + 1, &length, sizeof length); // of the nodes, after the byte order
+  std::memcpy(bytes.data() + 1, &length, sizeof length); // the nodes' length, after the byte order
   return bytes;
 }
 

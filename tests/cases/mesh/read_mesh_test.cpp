@@ -208,9 +208,8 @@ Physical Point("elsewhere") = {99};
                     Catch::Contains("'elsewhere' selects no node"));
 }
 
-// Of the same kind were looked for: names of classes of a labelled volume (unique, and no face's), of faces
-// beside groups (a group named "z+" wins), of materials' groups (of cells alone), and patches (a name of
-// their own).
+// Other names checked for this defect: classes of a labelled volume (unique, and no face's), faces beside
+// groups (a group named "z+" wins), materials' groups (cells alone), and patches (a name of their own).
 TEST_CASE(
     "a name of a volume and a surface, or of a curve beside a surface, is no region until its kind is told") {
   const HexMesh mesh = read_text_as_mesh("a.geo", R"(
@@ -259,7 +258,7 @@ TEST_CASE("a mesh that the models cannot use is refused with the reason") {
                 "falls into 2 pieces that share no node");
   check_refused("a.msh", msh(gmsh_cube, 3, {{1, 2, 3, 4}}), "");
   check_refused("a.msh", msh(gmsh_cube, 5, {one, one}), "elements 101 and 102 are one hexahedron");
-  Points halves = shifted(gmsh_cube, 1); // beside the first cell, below one half of its face
+  Points halves = shifted(gmsh_cube, 1); // a cell beside the first, below one half of its face
   for (auto& p : halves) p[2] /= 2;
   halves.erase(halves.begin() + 3), halves.erase(halves.begin()); // whose nodes 2 and 3 are there
   check_refused("a.msh", msh(gmsh_cube + halves, 5, {one, {2, 9, 10, 3, 11, 12, 13, 14}}),

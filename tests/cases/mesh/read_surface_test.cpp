@@ -54,7 +54,7 @@ TEST_CASE("the contour of a ball is closed, looks outwards and has its volume", 
   const TriangleMesh smooth = contour(ball(false), {0, 0, 0});
   CHECK(n_open_edges(corners_of(smooth)) == 0);
   CHECK(volume_of(smooth) == Approx(exact).epsilon(0.01)); // second order in 1 mm over a radius of 8
-  for (const Vector3d& vertex : smooth.vertices) // of a linear profile along edges: curvature h²/(8 r)
+  for (const Vector3d& vertex : smooth.vertices) // a linear profile errs along edges by curvature: h²/(8 r)
     REQUIRE(std::abs((vertex - Vector3d(12, 11, 10)).norm() - 8) < 1. / (8 * 8));
   CHECK(volume_of(contour(ball(true), {0.5, 20, 0})) == Approx(exact).epsilon(0.05)); // steps of 1 mm
 }

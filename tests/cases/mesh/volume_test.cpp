@@ -85,7 +85,7 @@ TEST_CASE("a compressed picture with a byte that its checksum refutes or without
   };
   for (const auto& [name, content] : compressed(picture_bytes)) {
     CAPTURE(name);
-    for (const std::size_t from_end : {1, 6}) { // of the length and the checksum
+    for (const std::size_t from_end : {1, 6}) { // a byte of the length, one of the checksum
       std::string damaged = content;
       damaged[damaged.size() - from_end] ^= 1;
       CHECK_THAT(refused(name, damaged), Contains("is damaged where it is compressed") ||
@@ -125,7 +125,7 @@ TEST_CASE("a picture whose file says another unit than mm is the same body", "[v
   check_is_picture(folder.write("c.nii", Nifti().units(2)));
   check_is_picture(folder.write("d.nii", Nifti().units(8))); // none of length: mm
   Labels in_tenths = bone_and_fat(10, folder.write("e.nii", Nifti()));
-  in_tenths.scale = 10; // of a file that says it wrongly
+  in_tenths.scale = 10; // overrides a unit that the file states wrongly
   CHECK(make_label_mesh(in_tenths).cells.size() == 9 * 6 * 6);
   CHECK_THAT(refusal(bone_and_fat(1, folder.write("e.nii", Nifti().units(5)))), Contains("xyzt_units 5"));
 }

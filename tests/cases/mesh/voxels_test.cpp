@@ -119,8 +119,8 @@ TEST_CASE("a surface in metres is scaled to mm, and so is the count of its cubes
   CHECK(count_voxels(body).in_body == Approx(8).epsilon(1e-6)); // single precision
 }
 
-// Of the same kind were looked for: the same file as [surface] (read_surface() reads it here), .vtp (without
-// such triangles by joined()), meshes (check_mesh_test.cpp), springs of a network (network_test.cpp).
+// Other places checked for this defect: the same file as [surface] (read_surface() reads it here), .vtp
+// (joined() drops such triangles), meshes (check_mesh_test.cpp), springs of a network (network_test.cpp).
 TEST_CASE(
     "triangles that are there twice or have no area, and bytes after the last, are left out with a word") {
   const std::string body = cuboid({0, 0, 0}, {2, 2, 2});

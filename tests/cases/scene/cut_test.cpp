@@ -88,7 +88,7 @@ TEST_CASE("the sides of a joined cut move as their bone does, but for nodes of c
     const auto& [selection, motion] = scene.moved[1 + side];
     CHECK(motion.components == std::array<bool, 3>{true, false, false});
     CHECK(motion.displacement == Vector3d(displacements[side], 0, 0));
-    CHECK(selection.nodes.size() == 2 * 3); // at z = 1 and 2: z = 0 is bone, z = 3 is of the cells above
+    CHECK(selection.nodes.size() == 2 * 3); // z = 1 and 2: z = 0 is bone, z = 3 is of the cells above
     CHECK(selection.faces.size() == 2);
     for (const int node : selection.nodes) {
       const Vector3d place = scene.mesh.nodes[index(node)];

@@ -59,7 +59,7 @@ TEST_CASE("a factor that jumps between the ends of a motion is found, in loads a
     CHECK(has_jump({{{0, 0}, {1, 0.5}, {1, 2}, {2, 0}}}, is_load));
     CHECK_FALSE(has_jump({{{0, 1}, {0, 0}}}, is_load)); // the motion starts with it
     CHECK_FALSE(has_jump({{{2, 1}, {2, 0}}}, is_load)); // and has ended
-    CHECK_FALSE(has_jump({{{1, 1}, {1, 1}}}, is_load)); // by nothing
+    CHECK_FALSE(has_jump({{{1, 1}, {1, 1}}}, is_load)); // jumps by nothing
     CHECK_FALSE(has_jump({{{0, 0}, {1, 1}}}, is_load));
     CHECK_FALSE(has_jump({}, is_load));
   }

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of cubes of 1 mm.
+/// Returns a case whose body is a box of 1 mm cubes.
 Case cubes(const std::array<int, 3>& cells) {
   Case definition;
   definition.body = Box{Vector3d(cells[0], cells[1], cells[2]), cells};
@@ -45,7 +45,7 @@ Scene pulled(Scene scene, const std::vector<WeightedPoint>& points, const Vector
   return scene;
 }
 
-/// What the load has of a vector field (mm), by the forces on the nodes.
+/// Work of the load on a vector field (mm), from the forces on the nodes.
 template<class Field>
 double work(const Scene& scene, const Field& field) {
   double sum = 0;
@@ -88,7 +88,7 @@ TEST_CASE("a patch's work in a quadratic field is that at its points, to what it
   for (const auto& [point, weight] : points)
     exact +=
         weight * std::pow(scene.mesh.nodes[index(scene.mesh.cells[point.cell][0])].x() + point.at.x(), 2);
-  // In a cell from a to b, x² is interpolated with an error of (b - x)(x - a), a quarter of h² at most.
+  // Interpolation of x² in a cell from a to b errs by (b - x)(x - a), a quarter of h² at most.
   CHECK(work(coarse, square) - exact > 0.25 / 4); // mm²: nodes of the coarse cells are too far off
   CHECK(work(refine(coarse, 1), square) - exact <= 0.25 / 4);
   CHECK(work(refine(coarse, 2), square) - exact <= 0.25 / 16);

@@ -200,7 +200,7 @@ TEST_CASE("a part of the body has the nodes in its box, on and beyond its plane"
     return select(mesh, inside);
   };
   Part part{"", {-infinity, -infinity, 0.3}, {0.1, infinity, infinity}};
-  CHECK(selected(part).nodes.size() == 2 * 4 * 4); // of x 0 and 0.1, of z 0.3 to 0.6, rounded as they are
+  CHECK(selected(part).nodes.size() == 2 * 4 * 4); // x = 0 and 0.1, z = 0.3 to 0.6, despite rounding
   CHECK(selected(part).edges.size() == 16 + 2 * 3 * 4 + 2 * 4 * 3);
   part.point = Vector3d(0, 0, 0.4);
   part.normal = Vector3d(0, 0, -1);
@@ -218,7 +218,7 @@ TEST_CASE("a class of cells has the nodes of its cells, on finer meshes too") {
   bone.part = Part{"bone", Vector3d::Constant(-infinity), Vector3d::Constant(infinity)};
   CHECK(select(mesh, bone).nodes.size() == 3 * 3 * 3);
   CHECK(select(refine(mesh), bone).nodes.size() == 5 * 5 * 5);
-  CHECK(select(refine(mesh), bone).faces.size() == 3 * 5 * 4 * 4); // of its cells, each once
+  CHECK(select(refine(mesh), bone).faces.size() == 3 * 5 * 4 * 4); // its cells' faces, each once
   bone.part->point = Vector3d(0, 0, 1.2);
   bone.part->normal = Vector3d::UnitZ();
   CHECK(select(mesh, bone).nodes.size() == 3 * 3);

@@ -16,7 +16,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # of VTK's hexahedron
+FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # VTK's hexahedron
 EDGE = 15.5  # mm
 
 

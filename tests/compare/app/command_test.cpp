@@ -322,7 +322,7 @@ TEST_CASE("every template gives a case that runs, and nothing is ever overwritte
     const std::string new_case = std::string("new my-") + name + " --template " + name;
     printed_by(new_case, in_folder);
     CHECK(content(folder.path / ("my-" + std::string(name) + ".toml")).find("TEMPLATE") == std::string::npos);
-    // As `new` says, to the limit: seconds. The mesh is worth to start from: it errs by less than 5 %.
+    // The limit takes seconds, as `new` says. The mesh is a fair start: it errs by less than 5 %.
     const auto document = document_of("run --json my-" + std::string(name) + ".toml", in_folder);
     CHECK(document["cases"][0]["name"] == "my-" + std::string(name));
     check_has_errors(document["cases"][0]);

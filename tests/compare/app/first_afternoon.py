@@ -110,7 +110,7 @@ def read_the_answer():
         measure = measures[name]
         assert measure["unit"] == unit, measure
         assert abs(measure["fem"]) > 0 and abs(measure["msm"]) > 0, measure
-        # Of the pressure three meshes show no limit yet, which is said.
+        # Three meshes show no limit of the pressure yet, and a note says so.
         assert measure["error_uncertainty_percent"] or (name == "pressure" and measure["fem_limit_note"]), measure
     # The tool presses down, the table up: together nothing, in either model.
     for side in ("fem", "msm"):

@@ -37,7 +37,7 @@ TEST_CASE("an option's number is finite and in its range") {
 TEST_CASE("a limit of a file's size ends in one line, and leaves nothing that is half written") {
   const TemporaryFolder folder;
   const std::string out = (folder.path / "out").string();
-  for (const char* blocks : {"8", "40", "150"}) { // of 1024 bytes in bash, 512 in other shells
+  for (const char* blocks : {"8", "40", "150"}) { // a block has 1024 bytes in bash, 512 in other shells
     fs::remove_all(out);
     const ProgramRun run = run_program("run " + gated_cube + " --set body.cells=[8,8,8] --out " + out,
                                        "ulimit -f " + std::string(blocks) + "; ");

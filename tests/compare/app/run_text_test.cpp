@@ -56,7 +56,7 @@ std::vector<std::string> commands_at_the_end(const std::string& text) {
   return commands;
 }
 
-/// @param truth  what the verdict says that the errors are from
+/// @param truth  reference of the errors that the verdict names
 void check_static_case(const std::string& file, const std::string& truth) {
   CAPTURE(file);
   const std::string text = printed_by("run " + file, in_source);
@@ -104,7 +104,7 @@ TEST_CASE("the verdict has the numbers of the JSON", "[long]") {
       text, found,
       std::regex("The springs are up to ([0-9.]+) \\+- ([0-9.]+) % .* themselves err by up to "
                  "([0-9.]+) \\+- [0-9.]+ % on this mesh\\.")));
-  CHECK(std::stod(found[1]) == Approx(worst).margin(0.005)); // as printed
+  CHECK(std::stod(found[1]) == Approx(worst).margin(0.005)); // rounded as printed
   CHECK(std::stod(found[2]) == Approx(bar).epsilon(0.05));
   CHECK(std::stod(found[3]) == Approx(own).margin(0.005));
 }

@@ -167,9 +167,9 @@ TEST_CASE(
   REQUIRE(kinds.size() == 1000);
   CHECK(kinds[0] == 0);
   CHECK(kinds[1] == 1);  // the next along x
-  CHECK(kinds[10] == 1); // along y
+  CHECK(kinds[10] == 1); // the next along y
   CHECK(kinds[11] == 0);
-  CHECK(kinds[100] == 1); // along z
+  CHECK(kinds[100] == 1); // the next along z
   CHECK(compare::is_assembled(scene));
   cases::Scene no_grid = scene;
   no_grid.mesh.grid.reset();

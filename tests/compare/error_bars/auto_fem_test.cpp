@@ -153,7 +153,7 @@ TEST_CASE("a mesh that fails costs the others nothing") {
   CHECK(solved == std::vector<int>{0, 1});
   CHECK(fem.refined->reason == "the mesh refined 2 times was not solved: out of luck");
   const MeshStudy study = study_meshes(scene, *fem.refined, 0);
-  REQUIRE(study.measures[0].reference.has_value()); // of two meshes: three times the last change
+  REQUIRE(study.measures[0].reference.has_value()); // two meshes: uncertain by three times the last change
   const auto& values = study.measures[0].values;
   CHECK(study.measures[0].reference->value == values[1]);
   CHECK(study.measures[0].reference->uncertainty == 3 * std::abs(values[1] - values[0]));

@@ -15,7 +15,7 @@ using namespace compare;
 
 namespace {
 
-/// Pulled and sheared by a traction of (0.004, 0, 0.01) MPa on 4 x 4 mm.
+/// A block pulled and sheared by a traction of (0.004, 0, 0.01) MPa on 4 x 4 mm.
 cases::Case pulled_block() {
   cases::Case definition = bodies::clamped_box({4, 4, 4}, {});
   definition.loads = {{bodies::region("z+"), cases::loads::Traction{{0.004, 0, 0.01}}}};
@@ -62,7 +62,7 @@ TEST_CASE("both models' forces, energy, stress and strain are held against the l
     CHECK(std::abs(*values[i].error_percent) <= 15); // the hybrid design's, on four cells across
     CHECK(std::abs(*values[i].error_percent) > 1e-4);
   }
-  // in the middle of the block the stress is the traction's to a few percent, whatever the model
+  // the stress in the middle of the block is the traction's to a few percent, whatever the model
   CHECK(*values[3].fem == Approx(0.01).epsilon(0.15));
   CHECK(*values[3].msm == Approx(0.01).epsilon(0.15));
 }
@@ -74,7 +74,7 @@ TEST_CASE("displacements alone have no forces: refused beside them, by name") {
   CHECK_THROWS_WITH(plan_sweep(scene.definition, Extent::quick), Catch::Contains("\"reaction\""));
   Answers answers = solve(scene, {cases::Side::msm}, solve_fem);
   CHECK(answers.msm.solution.fields);
-  answers.msm.solution.fields.reset(); // as another program's
+  answers.msm.solution.fields.reset(); // another program's answer has none
   for (const MeasuredValue& value : measure(scene, answers, nullptr)) CHECK_FALSE(value.msm);
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("the error bar of a clamped block covers what the next finer mesh answ
   CHECK(measure.values[1] == x_at(own)); // it was not solved again
   CHECK(*measure.discretisation_error_percent ==
         discretisation_error_percent(x_at(own), *measure.limit)); // the case's mesh is the middle one
-  // Between second order, where the solution is smooth, and the weakness of the clamped edge's singularity.
+  // The order is between the second, that of smooth solutions, and the lower one of the clamped edge.
   CHECK(measure.limit->order > 1);
   CHECK(measure.limit->order < 2.5);
 
@@ -98,7 +98,7 @@ TEST_CASE("a stretch that every mesh has exactly leaves nothing to extrapolate",
   CHECK_THAT(study.measures.at(0).reason, Catch::Contains("agree"));
   REQUIRE(study.measures.at(0).reference.has_value()); // which is what all of them say
   CHECK(study.measures[0].reference->value == study.measures[0].values[2]);
-  CHECK(study.measures[0].reference->uncertainty == Approx(2.2e-9)); // to what a solve leaves undecided
+  CHECK(study.measures[0].reference->uncertainty == Approx(2.2e-9)); // what a solve leaves undecided
 }
 
 namespace {

@@ -38,7 +38,7 @@ msm::Points any_displacement(std::size_t n_nodes) {
   return displacement;
 }
 
-/// For rebuild_forces.py.
+/// State that rebuild_forces.py reads: a line for each point.
 std::string state_of(const msm::Problem& problem, const msm::Points& displacement) {
   const msm::Points force = msm::internal_force_at(problem.lattice, displacement),
                     load = problem.on_all_points(problem.force),

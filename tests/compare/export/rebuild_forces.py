@@ -17,7 +17,7 @@ from pathlib import Path
 
 import sofa_objects
 
-TOLERANCE = 1e-10  # of the largest force; files hold every digit, sums have another order
+TOLERANCE = 1e-10  # relative to the largest force; files hold every digit, sums have another order
 
 
 def minus(a, b):
@@ -52,7 +52,7 @@ def volume_gradient(x):
     volume, gradient = 0.0, [[0.0] * 3 for _ in range(8)]
     gauss = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
     for point in itertools.product(gauss, repeat=3):
-        slopes = []  # of the eight shape functions
+        slopes = []  # derivatives of the eight shape functions
         for v in range(8):
             bits = [v >> a & 1 for a in range(3)]
             values = [p if b else 1 - p for p, b in zip(point, bits)]
@@ -145,7 +145,7 @@ def from_vtu(folder, displacement):
             "stiffness", "rest_length", "is_power_log", "exponent", "kind")))):
         spring_force(force, x, ends[2 * s], ends[2 * s + 1], k, rest_length, p if is_power_log else None)
         crossed = sum(a != b for a, b in zip(*(arrays["rest position"][ends[2 * s + e]] for e in range(2))))
-        assert kind == crossed, (s, kind)  # on a box: 1 an edge, 2 a face diagonal, 3 an internal diagonal
+        assert kind == crossed, (s, kind)  # box: 1 an edge, 2 a face diagonal, 3 an internal diagonal
     return force, [[int(c) for c in held] for held in arrays["constrained"]], arrays["force"], arrays["prescribed_displacement"]
 
 

@@ -15,10 +15,10 @@ using namespace springproof;
 using compare::ExportTarget;
 using Eigen::Vector3d;
 
-// A scene that nobody ran. SOFA is in no package here: what scene.py adds to its graph is solved by a program
-// of the test's own (run_sofa_scene.py), with the equations and the thresholds of SOFA's components. Looked
-// for also in: CSV and VTU, whose forces are rebuilt (export_springs_test.cpp), and which say that they have
-// no time.
+// The defect tested for: an exported scene that nobody ran. No package here has SOFA, so the test's own
+// program (run_sofa_scene.py) solves what scene.py adds to the graph, with the equations and thresholds that
+// SOFA's components have. Other places checked: CSV and VTU, which state that they have no time, and whose
+// forces are rebuilt (export_springs_test.cpp).
 namespace {
 
 const std::string sofa_block = R"(schema = 1

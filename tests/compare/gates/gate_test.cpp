@@ -151,7 +151,7 @@ TEST_CASE("no quantity is met against a converged reference that is not there, t
   }
   auto outside = comparison({expectation(Quantity::msm, {0, 1}, ReferenceKind::converged)});
   outside.answers.fem.solution.status = cases::Status::skipped;
-  CHECK_FALSE(judged::judge(outside).is_sound()); // with any reference
+  CHECK_FALSE(judged::judge(outside).is_sound()); // whatever the reference
 }
 
 TEST_CASE(
@@ -223,7 +223,7 @@ TEST_CASE("a gate without a value is never met, whatever the reason, and the rea
       CHECK_FALSE(judged.gates[0].value);
       CHECK_FALSE(judged.met());
       CHECK(judged.is_sound() == (missing.reason == "was not asked for"));
-      // of a percentage without a value of its own only that it is not finite is known
+      // a percentage without a value is known only not to be finite
       const bool is_of_both = quantity == Quantity::error_percent && missing.reason == "no finite value";
       CHECK_THAT(describe(judged.gates[0]), Catch::Contains(is_of_both ? "not finite" : missing.reason));
     }

@@ -27,7 +27,7 @@ inline compare::Comparison comparison(const std::vector<cases::Expectation>& exp
   return result;
 }
 
-/// With the finite elements' own error bar, of some percent of their value.
+/// Adds the finite elements' own error bar, a percentage of their value.
 inline compare::Comparison studied(compare::Comparison result, double percent) {
   result.mesh_study = compare::MeshStudy{};
   result.mesh_study->refine = {0, 1, 2};
@@ -36,12 +36,12 @@ inline compare::Comparison studied(compare::Comparison result, double percent) {
   return result;
 }
 
-/// With a limit of 10 mm, known to some percent; the error of -10 % is against it.
+/// Adds a limit of 10 mm, known to a percentage; the error of -10 % is relative to it.
 inline compare::Comparison with_limit(compare::Comparison result, double percent) {
   result = studied(std::move(result), percent);
   result.mesh_study->measures[0].reference = compare::Limit{10, percent / 10, ""};
   result.measures[0].fem_limit = result.mesh_study->measures[0].reference;
-  result.measures[0].error_uncertainty_percent = 0.9 * percent; // of 9/10
+  result.measures[0].error_uncertainty_percent = 0.9 * percent; // msm is 9/10 of the limit
   return result;
 }
 

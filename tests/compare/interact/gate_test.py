@@ -69,7 +69,7 @@ def main():
     judged = gate(program, 0.9 * error, 1.1 * error, *pulled)
     assert judged["met"] and judged["value"] == error and judged["unit"] == "%", judged
     assert not gate(program, 1.1 * error, 2 * error, *pulled)["met"]
-    still = gate(program, 0.9 * error, 1.1 * error, "case.toml")  # under its weight alone
+    still = gate(program, 0.9 * error, 1.1 * error, "case.toml")  # not pulled: moves under its weight alone
     assert not still["met"] and still["value"] != error, still
     for part in ("1", "2"):
         program.run("gate", *pulled, "--shard", f"{part}/2", "--out", f"part{part}", *expectation(0.9 * error, 1.1 * error))

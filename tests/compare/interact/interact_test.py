@@ -133,7 +133,7 @@ def check_pull(program):
     assert frame["force"] > 0 and frame["inverted"] == 0 and frame["failures"] == 0 and 0 < frame["residual"] <= 1e-6
     held = int(frame["held"])
     assert page.rest[3 * held] == 40, "the ray from x+ took hold of another side"
-    page.say(type="grab", origin=[200, 20, 500], direction=[0, 0, 1])  # beside the body: releases
+    page.say(type="grab", origin=[200, 20, 500], direction=[0, 0, 1])  # passes beside the body: releases
     while page.frame()["held"] >= 0:
         assert time.monotonic() < end
     moved = largest(page.frame())
@@ -394,7 +394,7 @@ def check_browser(springproof, case, folder):
         problems = [problem for problem in page.problems() if "favicon" not in str(problem)]
         assert problems == [], problems
         page.close()
-        summary = program.end()  # by itself: its page is closed
+        summary = program.end()  # ends by itself: its page is closed
     assert summary["pulled_steps"] > 0 and summary["failed_steps"] == 0, summary
     rows = list(csv.DictReader(open(summary["recording"])))
     assert len(rows) == summary["pulled_steps"], (len(rows), summary)

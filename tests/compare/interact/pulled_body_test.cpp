@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// @param cells  along x; of 12 the springs are on the multigrid path
+/// @param cells  numbers along x, y and z; with 12 along x the springs take the multigrid path
 cases::Scene block(const std::string& cells, const std::string& damping = "mass_damping = 30",
                    const std::string& scheme = "scheme = \"implicit_euler\"",
                    const std::string& gravity = "1e-6") {
@@ -222,7 +222,7 @@ TEST_CASE("a recording replays in springs as it was pulled, and in finite elemen
     std::ostringstream rows;
     rows.precision(17);
     rows << recording_header << '\n';
-    for (int step = 1; step <= 50; ++step) { // as long as the case
+    for (int step = 1; step <= 50; ++step) { // the whole length of the case
       if (step == 5) {
         REQUIRE(body.grab(from_right));
         body.drag({15, 3, 0});
@@ -248,7 +248,7 @@ TEST_CASE("a recording replays in springs as it was pulled, and in finite elemen
     CHECK(largest > 0.01);
     CHECK(difference < 1e-4 * largest); // tolerances 1e-6 and 1e-9 of the largest force, over 50 steps
     const cases::Trajectory& fem = *answers.fem.solution.trajectory;
-    CHECK(fem.displacement[25].norm() > 0.1); // of the watched corner
+    CHECK(fem.displacement[25].norm() > 0.1); // the watched corner
   }
 }
 

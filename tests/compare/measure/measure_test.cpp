@@ -266,7 +266,7 @@ TEST_CASE("the curvature of a line that is bent to a circle is the inverse of it
     CHECK(curvature(where, cases::Axis::x, bent) == Approx(1 / radius).epsilon(1e-12)); // rounding
   CHECK(curvature("z+", cases::Axis::y, bent) == 0);                                    // stays straight
   CHECK(compare::unit_of({"m", measures::Curvature{}}) == "1/mm");
-  auto broken = bent; // on the first of three lines
+  auto broken = bent; // one node of the first of three lines
   broken.displacement[cases::index(cases::select_node(scene.mesh, {"x- y- z+"}))].z() =
       std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isnan(curvature("z+", cases::Axis::x, broken)));

@@ -191,7 +191,7 @@ cases::Scene bar_with_skin() {
   return scene;
 }
 
-/// At rest, and after a second all by the same way.
+/// An answer that is at rest at 0 s, and has moved all nodes by `way` at 1 s.
 compare::Answer pushed(const cases::Scene& scene, const Vector3d& way) {
   compare::Answer answer;
   answer.solution.status = cases::Status::converged;
@@ -239,10 +239,10 @@ TEST_CASE("a surface that rests but for rounding while the body moves has no err
   compare::Answers answers;
   answers.fem = pushed(scene, {0, 0, 1e-12});
   answers.msm = pushed(scene, {0, 0, -2e-12});
-  CHECK(compare::surface_motion(scene, answers)->error_percent.value() == Approx(300)); // of a body at rest
+  CHECK(compare::surface_motion(scene, answers)->error_percent.value() == Approx(300)); // the body rests too
   cases::Trajectory& fem = *answers.fem.solution.trajectory;
   fem.nodes = {0};
-  fem.displacement = {{0, 0, 0}, {0, 0, 1}}; // between the bodies that are kept
+  fem.displacement = {{0, 0, 0}, {0, 0, 1}}; // it moves between the bodies that are kept
   CHECK_FALSE(compare::surface_motion(scene, answers)->error_percent);
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("what is written of surfaces in motion is what the comparison has foun
   answers.msm = pushed(scene, {0, 0.2, 2});
   compare::Comparison comparison = compare::comparison_of(std::move(scene), std::move(answers));
   REQUIRE(comparison.surface_motion);
-  comparison.surface_motion->error_percent = 42; // as nothing would find it anew
+  comparison.surface_motion->error_percent = 42; // a number that no computation would give
   CHECK(compare::motion_to_json(comparison)["surface"]["error_percent"] == 42);
   const std::vector<std::string> notes = compare::notes_on_motion(comparison);
   REQUIRE(notes.size() == 1);

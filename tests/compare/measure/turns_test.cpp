@@ -73,7 +73,7 @@ cases::Solution moved_bar(const cases::Scene& scene, const Motion& motion) {
   return solution;
 }
 
-/// Its sections turned about the axis of the bar, by so much at the end.
+/// The bar with its sections turned about its axis, by `degrees` at the end.
 cases::Solution twisted_by(const cases::Scene& scene, double degrees) {
   const Vector3d axis(0, 5, 5);
   return moved_bar(scene, [&](const Vector3d& x) {
@@ -119,7 +119,7 @@ TEST_CASE("a tilt is counted too, along a bar that is bent into a ring", "[verif
   const cases::Scene scene = twisted_bar(held_at_x, 40);
   for (const double degrees : {-200., 100., 181., 270., 340.}) {
     const double radius =
-        40 / (degrees * radians_of_degree); // of the bar's lower fibres, about (0, y, radius)
+        40 / (degrees * radians_of_degree); // mm: radius of the bar's lower fibres about (0, y, radius)
     const auto ring = moved_bar(scene, [&](const Vector3d& x) {
       const double angle = degrees * radians_of_degree * x.x() / 40;
       return Vector3d((radius - x.z()) * std::sin(angle), x.y(), radius - (radius - x.z()) * std::cos(angle));
@@ -139,7 +139,7 @@ TEST_CASE("both models turn an end by 300 degrees, in statics and in time", "[ve
       held_at_x + "[[moved]]\nregion = 'x+'\nangle = 300\naxis = 'x'\ncentre = [40, 5, 5]\n";
   for (const bool moves : {false, true}) {
     INFO(moves);
-    cases::Case definition = twisted_bar(turned, 8).definition; // of cubes, whose springs go all the way
+    cases::Case definition = twisted_bar(turned, 8).definition; // cubes: their springs follow the whole turn
     if (moves) {
       cases::Dynamics& dynamics = definition.dynamics.emplace();
       dynamics.scheme.scheme = cases::Scheme::implicit_euler;

@@ -32,7 +32,7 @@ density = 1000
 design = "hybrid"
 )";
 
-/// The same held at one end or moving freely.
+/// The bar, held at one end or moving freely.
 cases::Scene bar(bool is_held) {
   const std::string held = "[[fixed]]\nregion = \"x-\"\n",
                     moving = "[dynamics]\nscheme = \"newmark\"\nstep = 0.001\nend = 0.001\n",

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double edge = 10, density = 1e-9, shear_modulus = 0.1; // mm, t/mm³, MPa
 
-/// Of the Lamé modes of a free cube, which shear in three planes without changing volume, the motion in the
-/// plane of x and y less that in the others. The sum of the three has another symmetry of the cube than this,
-/// and on a mesh another frequency.
+/// Combines the Lamé modes of a free cube, which shear in three planes without changing volume: twice the one
+/// in the plane of x and y less those in the others. The sum of all three has another symmetry than this, and
+/// on a mesh another frequency.
 Eigen::VectorXd lame_shape(const cases::HexMesh& mesh) {
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * mesh.nodes.size()));
   const double k = std::acos(-1.0) / edge;
@@ -54,7 +54,7 @@ cases::LinearElastic material(double poissons_ratio) {
   return {2 * shear_modulus * (1 + poissons_ratio), poissons_ratio};
 }
 
-/// Of finite elements, n along an edge.
+/// Frequency (Hz) of the Lamé mode of finite elements, n along an edge.
 double lame_frequency(int n, double poissons_ratio) {
   const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(edge), {{n, n, n}});
   const auto vertices = cases::cell_vertices(mesh, 0);
@@ -64,7 +64,7 @@ double lame_frequency(int n, double poissons_ratio) {
                         compare::assemble(mesh, mechanics::consistent_mass(vertices, density)));
 }
 
-/// Of springs of point masses.
+/// Frequency (Hz) of the Lamé mode of springs between point masses, n cells along an edge.
 double lame_frequency(int n, double poissons_ratio, cases::Design design) {
   cases::Case definition;
   definition.body = cases::Box{Eigen::Vector3d::Constant(edge), {n, n, n}};
@@ -87,7 +87,7 @@ TEST_CASE("springs whose lattice has the material's moduli approach the Lame mod
     const double coarse = std::abs(lame_frequency(4, nu, design) / exact - 1),
                  fine = std::abs(lame_frequency(8, nu, design) / exact - 1);
     CHECK(fine < 0.03);
-    CHECK(fine < 0.5 * coarse); // at the boundary springs of fewer cells: an order between 1 and 2
+    CHECK(fine < 0.5 * coarse); // the order is between 1 and 2: boundary springs belong to fewer cells
   }
 }
 

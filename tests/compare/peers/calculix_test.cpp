@@ -138,7 +138,7 @@ TEST_CASE("small strain on the cube agrees with CalculiX on every node", "[peer]
 
 TEST_CASE("a bar that is loaded at once moves as CalculiX says, at equal steps of newmark", "[peer]") {
   cases::Case definition = cube("shear_small", {"fem.formulation=small_strain", "body.cells=[3,3,4]"});
-  definition.measures.clear(); // among them a volume
+  definition.measures.clear(); // a volume is among them
   definition.expectations.clear();
   definition.material_dynamics.density = 1000;
   definition.loads[0].history.points = {{{0., 1.}}, {{0.008, 1.}}, {{0.012, 0.}}};

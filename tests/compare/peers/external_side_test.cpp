@@ -87,7 +87,7 @@ TEST_CASE("an independent program's springs are measured with our ruler and agre
       compare::comparison_of(by_us.scene, compare::with_displacements(by_us.answers, by_us.scene, *external));
   const auto& theirs = by_them.answers.msm.solution;
   CHECK(largest_difference(ours, theirs) <= 1e-8); // ours ends at 1e-9 of the load; 0.5 mm at the free end
-  CHECK(largest_volume_difference(ours, theirs) <= 1e-8); // of 1 mm³
+  CHECK(largest_volume_difference(ours, theirs) <= 1e-8); // a cell has 1 mm³
   CHECK(by_them.met());
 }
 

@@ -88,7 +88,7 @@ compare::Answers answers_with(const cases::HexMesh& mesh, const std::function<Ve
   return answers;
 }
 
-/// Curved in every direction.
+/// A displacement (mm) that is curved in every direction.
 Vector3d smooth(const Vector3d& x) {
   return {0.1 * std::sin(x.x() + 0.5 * x.y()), 0.05 * std::cos(x.y() - x.z()),
           0.02 * x.x() * x.z() + 0.03 * x.z() * x.z()};
@@ -109,7 +109,7 @@ TEST_CASE("whatever VTK's writers leave is read and matched with the nodes: ever
     INFO(path);
     const auto displacement = compare::match_nodes(mesh, compare::read_displacements(path), path);
     const bool is_float = path.find("_float") != std::string::npos;
-    // Of up to 0.15 mm; VTK writes doubles as text with eleven digits, floats with six.
+    // Components reach 0.15 mm; VTK writes doubles as text with eleven digits, floats with six.
     CHECK(largest_error(mesh, displacement, foreign_displacement) <= (is_float ? 1e-6 : 1e-11));
     ++n_of[fs::path(path).extension()];
   }
@@ -191,7 +191,7 @@ TEST_CASE("results on another mesh are interpolated in their cells: linear field
   const auto found = compare::read_external(
       {{scene_of(mesh), {}}}, vtu_on(folder, foreign_body({3, 2, 2}), linear), Transfer::interpolated);
   REQUIRE(found);
-  CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // of 4 mm
+  CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // displacements are some 4 mm
   // Its x² loses up to h²/8 times its second derivative of 0.02; y z nothing in hexahedra.
   for (const std::string name :
        {"tetrahedra_double.vtu", "image_double.vti", "hexahedra_float_binary_51.vtk"}) {
@@ -237,12 +237,12 @@ TEST_CASE("results on the case's own nodes are interpolated without any error") 
   CHECK(largest_difference(answers.interpolated->fem_and_back.solution, answers.fem.solution) <= 1e-14);
 }
 
-// Of the same kind were looked for: the way back, in trilinear hexahedra (VTK's search ends at 1e-9 there),
-// surfaces bound to cells (mechanics/surface, by place_in_cell()), structured and rectilinear grids
+// Other places checked for this defect: the way back, in trilinear hexahedra (VTK's search ends at 1e-9
+// there), surfaces bound to cells (mechanics/surface, by place_in_cell()), structured and rectilinear grids
 // (hexahedra and voxels along the axes).
 TEST_CASE("in curved quadratic cells, and on their nodes, a linear displacement is interpolated exactly",
           "[verification]") {
-  const auto curved = [](const Vector3d& p) -> Vector3d { // of the unit cube
+  const auto curved = [](const Vector3d& p) -> Vector3d { // maps the unit cube
     return {2 * p.x() + 0.3 * p.y() * p.y() - 0.2 * p.x() * p.z(), 1.5 * p.y() + 0.25 * p.x() * p.x(),
             p.z() + 0.2 * p.x() * p.y() - 0.15 * p.y() * p.y()};
   };
@@ -270,7 +270,7 @@ TEST_CASE("in curved quadratic cells, and on their nodes, a linear displacement 
     for (Vector3d& node : mesh.nodes.stored()) node = curved(node);
     mesh.grid.reset();
     const auto found = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
-    CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // of 3 mm
+    CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // displacements are some 3 mm
   }
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("nodes a little outside of the results' cells take the closest value, 
   const compare::Answers answers = compare::with_displacements({}, scene_of(mesh), *external);
   CHECK(answers.interpolated->n_outside == 25);
   CHECK(answers.interpolated->largest_distance == Approx(0.1));
-  CHECK(external->displacement.back().x() == Approx(3.8));        // of the other body's end
+  CHECK(external->displacement.back().x() == Approx(3.8));        // the other body's end
   CHECK(answers.interpolated->fem_and_back.converged() == false); // no finite elements: nothing to try it on
   for (Vector3d& node : mesh.nodes.stored()) node.x() += 1;
   CHECK_THROWS_WITH(compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated),

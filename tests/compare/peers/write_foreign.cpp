@@ -98,7 +98,7 @@ vtkNew<vtkUnstructuredGrid> unstructured(bool are_tetrahedra) {
           const std::array<vtkIdType, 4> corners{cell[0], cell[around[t]], cell[around[t + 1]], cell[6]};
           grid->InsertNextCell(VTK_TETRA, 4, corners.data());
         }
-        grid->InsertNextCell(VTK_QUAD, 4, cell.data()); // as meshes with marked surfaces have
+        grid->InsertNextCell(VTK_QUAD, 4, cell.data()); // meshes with marked surfaces have such faces
       }
   add_fields<Array>(*grid);
   return grid;
@@ -126,7 +126,7 @@ void write_legacy(vtkDataSet& data, const std::string& path) {
     }
 }
 
-/// Every mode and compressor.
+/// Writes the grid in every mode and with every compressor.
 void write_encodings(vtkUnstructuredGrid& grid, const std::string& path) {
   for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended})
     for (const int compressor :

@@ -19,7 +19,7 @@ void write_text(const std::string& path, const std::string& text) {
   compare::write_file(path, [&](std::ostream& out) { out << text; });
 }
 
-/// To a path of the command line.
+/// Writes to a path given on the command line.
 void write_named_text(const std::string& path, const std::string& text) {
   compare::write_named_file(path, [&](std::ostream& out) { out << text; });
 }

@@ -19,7 +19,7 @@ TABLES = ["4.1", "4.2", "4.3", "4.5", "4.6", "4.7", "5.1", "5.2", "5.3", "5.4", 
 SECTIONS = ["summary", "advice-0.45", "stiffnesses", "designs-4.5", "volumes", "cases"]
 VIEWS = 21  # cube: three tests, two load sets, two materials, and figure 4.15's; three bars
 WIDTH = 1280
-SCALE = 0.5  # of the screenshots: reading them takes Python longer than Chromium takes to make them
+SCALE = 0.5  # scale of the screenshots: Python takes longer to read them than Chromium to make them
 AT_SCALE = f"--force-device-scale-factor={SCALE}"
 LARGEST = 3e6  # bytes of a page
 

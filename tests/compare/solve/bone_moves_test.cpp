@@ -35,7 +35,7 @@ cases::ScaledDisplacement along_x(double length) {
   return {{0, 0, 0}, {1, 0, 0}, length, {}};
 }
 
-/// Of both models.
+/// Solutions of both models, the finite elements first.
 std::vector<cases::Solution> solve_both(const cases::Scene& scene) {
   std::optional<msm::DesignResult> design;
   const compare::Answer springs = compare::solve_springs(scene, 1, design);
@@ -124,7 +124,7 @@ TEST_CASE("force scaling by numbers of iterations says how far from equilibrium 
   REQUIRE(few.from_equilibrium->largest);
   CHECK_FALSE(few.is_equilibrium());
   CHECK(*few.from_equilibrium->largest ==
-        Approx(largest_difference(few, newton)).epsilon(1e-6)); // of two solves
+        Approx(largest_difference(few, newton)).epsilon(1e-6)); // tolerance of two solves
   CHECK(*few.from_equilibrium->root_mean_square < *few.from_equilibrium->largest);
   CHECK(*few.from_equilibrium->root_mean_square > 0);
 }

@@ -10,11 +10,10 @@ using namespace springproof;
 
 using Eigen::Vector3d;
 
-/// Bodies of cells that are no cubes, under loads that strain them evenly: the lattice's moduli are the
-/// body's.
+/// Bodies of cells that are no cubes, under loads that strain them evenly: the body has its lattice's moduli.
 namespace {
 
-constexpr double modulus = 0.3, ratio = 0.35, strain = 1e-7; // of which finite rotations are another 1e-7
+constexpr double modulus = 0.3, ratio = 0.35, strain = 1e-7; // finite rotations add a relative 1e-7
 
 cases::Load traction(const std::string& where, const Vector3d& value) {
   return {bodies::region(where), cases::loads::Traction{value}};
@@ -29,12 +28,12 @@ cases::Case body(const Vector3d& cell, cases::Design design) {
 }
 
 struct Solved {
-  msm::Elasticity compliance; ///< of the lattice
+  msm::Elasticity compliance; ///< the lattice's, 1/MPa
   double misfit;
   Vector3d size, top; ///< mm; the latter the displacement of the last vertex
 };
 
-/// Of the lattice, 1/MPa.
+/// Compliance of the lattice, 1/MPa.
 msm::Elasticity springs_compliance(const cases::Scene& scene, const msm::DesignResult& design) {
   return msm::cell_elasticity(design.springs.terms()->kinds, cases::cell_vertices(scene.mesh, 0)).inverse();
 }

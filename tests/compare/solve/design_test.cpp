@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(cases::default_design({cases::LinearElastic{0.3, -0.1}}) ==
         cases::Design::moduli); // hybrid has it not
   CHECK(cases::default_design({cases::LinearElastic{0.3, 0.3}, cases::LinearElastic{3, 0.45}}) ==
-        cases::Design::hybrid); // of both materials
+        cases::Design::hybrid); // default for both materials
   CHECK(cases::default_design({cases::LinearElastic{0.3, 0.45}}, 0.3) == cases::Design::matched);
   CHECK(cases::default_design({cases::Ogden{{0.04}, {2}, 0.05}}) == cases::Design::hybrid); // nu = 0.18
 }
@@ -135,9 +135,9 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
   }
 }
 
-// Of the other designs cells share a spring by its sum: half of it is the half body's already. What else is
-// counted by node or cell on such planes was looked through in tests/faults/attempts_same.py: loads, patches,
-// supports, masses, fields.
+// Other designs sum a shared spring over its cells, so that the half body has half of it already. Whatever
+// else is counted by node or cell on such planes (loads, patches, supports, masses, fields) is checked in
+// tests/faults/attempts_same.py.
 TEST_CASE("a quarter of a body between planes of symmetry answers as the whole, with springs that are whole "
           "at the boundary",
           "[verification]") {

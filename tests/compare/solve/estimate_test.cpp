@@ -67,7 +67,7 @@ TEST_CASE("estimates name the solver that the model will take, and grow with the
   CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("factorised"));
   definition.fem.refine = 2;
   CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("assembled"));
-  std::map<std::string, Estimate> before; // of each solver: a grid's, from some size on, takes less
+  std::map<std::string, Estimate> before; // by solver: from some size on a grid's takes over, and takes less
   for (const int n : {2, 6, 7, 8, 12, 30, 100})
     for (const Estimate& now :
          {compare::estimate_fem(body(cube(n))), compare::estimate_springs(body(cube(n)))}) {
@@ -173,7 +173,7 @@ TEST_CASE("finite elements in motion are divided among the ranks, but for their 
   definition.dynamics->write_every = 10;
   const Estimate motion = compare::estimate(body(definition), {}).front();
   CHECK(motion.held_by == compare::HeldBy::all_ranks_together);
-  CHECK(motion.megabytes_of_each >= 1e-6 * 2 * 24 * 2 * cubed(41)); // of two bodies
+  CHECK(motion.megabytes_of_each >= 1e-6 * 2 * 24 * 2 * cubed(41)); // two bodies kept
   CHECK(motion.megabytes > 226);                                    // measured: log_strain q1_bbar
   const double rest = motion.megabytes - motion.megabytes_of_each;
   CHECK(compare::megabytes_within(limit(1), motion, {2, 1}) == Approx(rest / 2 + motion.megabytes_of_each));

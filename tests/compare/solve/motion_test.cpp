@@ -73,7 +73,7 @@ history = [[0, 1], [0, 0]]
                                "released.toml");
 }
 
-/// Static, or damped so strongly that it comes to rest.
+/// The hanging bar, static or damped so strongly that it comes to rest.
 cases::Case hanging(bool in_time) {
   const std::string damped = R"(
 [dynamics]
@@ -153,7 +153,7 @@ TEST_CASE("both models move through the time of a case, and are measured on thei
   // bit.
   const double beam = 0.5596 / (30. * 30.) * std::sqrt(0.1 * 10 * 10 / (12 * 1e-9)); // Hz
   CHECK(*swing.fem == Approx(beam).epsilon(0.2));
-  CHECK(*course.error_percent > 0); // of the difference, which no model is without
+  CHECK(*course.error_percent > 0); // no two models agree exactly
   const nlohmann::ordered_json motion = compare::motion_to_json(comparison);
   CHECK(motion["time"].size() == 101);
   CHECK(motion["measures"][0]["fem"].size() == 101);
@@ -222,13 +222,13 @@ over_time = "peak"
     for (const compare::Answer* answer : {&comparison.answers.fem, &comparison.answers.msm}) {
       REQUIRE(answer->converged());
       REQUIRE(answer->solution.trajectory->slowest);
-      // By Dunkerley's formula of Euler and Bernoulli's beam (114 Hz) and a beam that shears alone (110 Hz).
+      // Dunkerley's formula: Euler and Bernoulli's beam (114 Hz) and a beam that shears alone (110 Hz).
       CHECK(answer->solution.trajectory->slowest->omega == Approx(2 * std::acos(-1.0) * 79).epsilon(0.15));
     }
     return compare::notes_on_motion(comparison);
   };
   const std::vector<std::string> beyond = notes_of("implicit_euler", 0.03);
-  REQUIRE(beyond.size() == 2); // of both models, and no measure swings
+  REQUIRE(beyond.size() == 2); // one note for each model; no measure swings
   CHECK_THAT(beyond[0], Catch::StartsWith("fem: ") && Catch::Contains("Warning: a step outlasts its period"));
   CHECK_THAT(beyond[1], Catch::StartsWith("msm: ") && Catch::Contains("Warning: a step outlasts its period"));
   const std::vector<std::string> within = notes_of("implicit_euler", 1e-3);

@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 #include <petscsys.h>
 
-// On one rank by itself; on several under mpirun (compare/grid_on_*_ranks).
+// Runs on one rank by itself, and on several under mpirun (compare/grid_on_*_ranks).
 
 using namespace springproof;
 
@@ -69,7 +69,7 @@ cases::Case quarter_of_a_box() {
   return quarter;
 }
 
-/// Coarsened along its thickness first.
+/// A plate of flat cells, which is coarsened along its thickness first.
 cases::Case flat_cells() {
   cases::Case flat = bodies::clamped_box({14, 12, 8}, bodies::tensile(0.004));
   flat.body = cases::Box{{14, 12, 0.8}, {14, 12, 8}};
@@ -278,7 +278,7 @@ TEST_CASE_METHOD(WithMpi, "what ranks own is the body, and coarser parts lie wit
     part.ranks->sum(&n_own, 1);
     CHECK(n_own == double(all.layout.nodes[0]) * all.layout.nodes[1] * all.layout.nodes[2]);
   }
-  CHECK(n_parts == (n_ranks() > 1 ? 2 : 0)); // of 41 x 22 x 34 and 21 x 12 x 18 nodes
+  CHECK(n_parts == (n_ranks() > 1 ? 2 : 0)); // grids of 41 x 22 x 34 and 21 x 12 x 18 nodes
 }
 
 TEST_CASE_METHOD(WithMpi, "a grid too small to be dealt out is solved whole by every rank", "[ranks]") {

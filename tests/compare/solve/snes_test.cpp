@@ -32,7 +32,7 @@ const msm::CellStiffness springs = bodies::cell(31, 47, 33), hybrid = bodies::ce
 
 } // namespace
 
-// On one rank by itself; on two under mpirun (compare/snes_on_two_ranks).
+// Runs on one rank by itself, and on two under mpirun (compare/snes_on_two_ranks).
 TEST_CASE_METHOD(WithMpi, "SNES finds the equilibrium that the fast path finds", "[snes][long]") {
   const auto& stiffness = GENERATE(springs, hybrid, power_log);
   for (const cases::Case& body : {bodies::clamped_box({10, 10, 10}, bodies::tensile(0.05)),

@@ -27,7 +27,7 @@ TEST_CASE(
   const ProgramRun of_other = expecting("msm=[0.2, 0.3]", "hybrid"); // the case's own is moduli
   CHECK(of_other.status == 0);
   CHECK(verdict(of_other)["judged"] == false);
-  const ProgramRun of_fem = expecting("fem=[0.2, 0.3]", "hybrid"); // of no springs
+  const ProgramRun of_fem = expecting("fem=[0.2, 0.3]", "hybrid"); // needs no springs
   CHECK(of_fem.status == 1);
   CHECK(verdict(of_fem)["judged"] == true);
 }

@@ -30,7 +30,7 @@ Trial with_error(const std::string& name, double worst, bool is_stable) {
   return ranked;
 }
 
-/// Of finite elements that were solved.
+/// A ranking whose finite elements were solved.
 compare::Ranking ranking_of(const std::vector<Trial>& designs = {}) {
   compare::Ranking ranking{"case", {}, {}};
   ranking.fem.solution.status = cases::Status::converged;
@@ -133,8 +133,8 @@ TEST_CASE("the sentence names the designs that the reference's uncertainty does 
                                               Catch::Contains("does not tell it from close: "));
 }
 
-// Other sentences that advise: verdict_of(), which shares the clause on the finite elements, and the advice
-// of `tables`, which ranks by both load sets and has no bars.
+// Other sentences that advise: verdict_of(), which shares the clause on the finite elements, and the one that
+// `tables` prints, which ranks by both load sets and has no bars.
 TEST_CASE("the advice has the numbers of the table, and its reasons hold for them") {
   std::mt19937 chance(7);
   const auto any = [&](double most) { return most * (double(chance()) / 4294967295.0); };
@@ -165,7 +165,7 @@ TEST_CASE("the advice has the numbers of the table, and its reasons hold for the
     const Trial& best = *row.at(use[1]);
     const auto has_moduli = [](const Trial& r) { return r.misfit && *r.misfit <= 0.05; };
     CHECK(best.is_stable);
-    CHECK(std::stod(use[2]) == Approx(*best.worst).margin(0.005)); // as printed
+    CHECK(std::stod(use[2]) == Approx(*best.worst).margin(0.005)); // rounded as printed
     CHECK(use[4].matched == has_limits);
     CHECK((use[6] == "less") == (best.milliseconds < 1e3 * ranking.fem.seconds()));
     CHECK_THAT(advice, Catch::Contains("whose own error on this mesh is not known"));

@@ -120,7 +120,7 @@ TEST_CASE("the most accurate within a time takes at most that time") {
 TEST_CASE("the floor is reached where all finer levels are near the last") {
   CHECK(first_level_at_floor(Errors{9., 3.2, 3.1, 3.}) == std::optional<std::size_t>(1));
   CHECK(first_level_at_floor(Errors{9., 6., 4., 3.}) == std::optional<std::size_t>(3)); // none in sight
-  CHECK(first_level_at_floor(Errors{3., 9., 3., 3.}) == std::optional<std::size_t>(2)); // by chance before
+  CHECK(first_level_at_floor(Errors{3., 9., 3., 3.}) == std::optional<std::size_t>(2)); // the first is chance
 }
 
 TEST_CASE("a level without an error is not passed over, and without the last there is no floor") {

@@ -202,7 +202,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a design that is refused is a failed row of a sweep in time, with the reason") {
-  cases::Case auxetic = block(); // of a negative Poisson's ratio, which the case's own design takes
+  cases::Case auxetic = block(); // its own design takes a negative Poisson's ratio
   std::get<cases::LinearElastic>(auxetic.material).poissons_ratio = -0.1;
   auxetic.msm.design = cases::Design::moduli;
   auxetic.dynamics->end = 0.01;
@@ -246,7 +246,7 @@ TEST_CASE("the figure of a sweep in time has two blocks of points for every meth
   sweep.definition = block();
   compare::plot_sweep(folder.path.string(), sweep);
   const std::string points = content(folder.path / "motion_sweep_points.csv");
-  std::vector<std::size_t> n_rows{0}; // of every block, its header too
+  std::vector<std::size_t> n_rows{0}; // lines of every block, its header too
   std::istringstream lines(points);
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty())

@@ -55,7 +55,7 @@ TEST_CASE("an error of one power of the mesh width is extrapolated away", "[veri
     CHECK(field_error_percent(reference, meshes[2], field(meshes[2], 1e-4, p)).value() ==
           Approx(error_of_finest).epsilon(1e-6));
     CHECK(reference.field.uncertainty_percent ==
-          Approx(1.25 * error_of_finest).epsilon(0.05)); // of the finest's size
+          Approx(1.25 * error_of_finest).epsilon(0.05)); // relative to the finest's size
   }
 }
 

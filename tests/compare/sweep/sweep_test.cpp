@@ -40,7 +40,7 @@ SweepRow measured(const Variant& variant, double seconds, double error) {
   row.run.first.status = cases::Status::converged;
   row.run.setup_seconds = {1, 1, 1};
   row.run.first_seconds = {seconds, seconds, 100};        // a median is not moved by one slow round
-  row.measure_error_percent = {-2 * error, std::nullopt}; // of the two measures of the case
+  row.measure_error_percent = {-2 * error, std::nullopt}; // the case's two measures
   return row;
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("a budget leaves out the variants of the longest estimated times, neve
     const std::vector<double> seconds = estimated_seconds(cut);
     return *std::max_element(seconds.begin() + static_cast<long>(cut.plan.reference.size()), seconds.end());
   };
-  std::size_t n_longer = 0; // of the whole plan than the longest that was kept
+  std::size_t n_longer = 0; // variants of the whole plan longer than the longest one kept
   for (const Variant& variant : whole.plan.variants)
     n_longer += estimate_of(whole, variant).seconds > longest_kept();
   CHECK(n_longer <= n_cut + cut.plan.reference.size());
@@ -179,13 +179,13 @@ TEST_CASE("failed variants and missing values give no points") {
   CHECK(points[0].seconds == 3); // setup and solve
   CHECK(points_of(sweep, Error::field, Clock::re_solve).empty());
   CHECK(points_of(sweep, Error::worst_measure, Clock::first_answer)[0].error_percent ==
-        18); // without its sign
+        18); // its sign is dropped
   CHECK_FALSE(worst_measure_error(failed(spring_variant(4))));
 }
 
 TEST_CASE("points whose error is less than more cells leave of it are told apart") {
   Sweep sweep = synthetic();
-  sweep.rows.back() = measured(spring_variant(4), 5, 8.5); // after 9, 8 and 7
+  sweep.rows.back() = measured(spring_variant(4), 5, 8.5); // the points before have 9, 8 and 7
   const auto points = points_of(sweep, Error::field, Clock::first_answer);
   REQUIRE(points.size() == 4);
   for (const Point& point : points)
@@ -237,7 +237,7 @@ TEST_CASE(
     CHECK(run.setup_seconds.size() == 2);
     CHECK(run.first_seconds.size() == 2);
     CHECK(run.again_seconds.size() == 2);
-    const auto cells = field_cells(variant); // of a quadratic element twice as many as its own
+    const auto cells = field_cells(variant); // twice its own cells for quadratic elements
     CHECK(run.first.displacement.size() == static_cast<std::size_t>(std::pow(cells[0] + 1, 3)));
     CHECK(run.first.newton_iterations >= run.again.newton_iterations); // it starts nearer
     CHECK(run.again.newton_iterations >= 1);

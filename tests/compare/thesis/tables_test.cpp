@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// Standard output of the program in the project's folder; the exit status must be 0.
-/// @param words  as typed in a shell
+/// @param words  arguments as typed in a shell
 std::string output(const std::string& words) {
   const ProgramRun run = run_program(words, "cd " SPRINGPROOF_SOURCE_DIR " && ");
   INFO(run.error);

@@ -165,7 +165,7 @@ TEST_CASE("a figure of bodies holds the faces and edges that look at the viewer,
   compare::plot_bodies(folder.path.string(), "cube", {{"one", {&mesh, &fem}, {&mesh, &springs}}}, 1);
   const auto blocks = blocks_of(folder.path / "cube.csv");
   REQUIRE(blocks.size() == 3);
-  CHECK(blocks[0].size() == 3 * 5); // of a cube three faces are seen: closed polygons
+  CHECK(blocks[0].size() == 3 * 5); // three faces of a cube are seen: closed polygons
   CHECK(blocks[1].size() == 9 * 2); // and nine edges, each drawn once
   CHECK(blocks[2].size() == 9 * 2); // all of them sharp
   const auto has = [](const std::vector<std::string>& lines, const std::string& start) {

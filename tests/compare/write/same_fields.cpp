@@ -71,7 +71,7 @@ std::vector<vtkIdType> vertices_of(vtkUnstructuredGrid& grid, vtkIdType cell, co
   return vertices;
 }
 
-/// @param whole_number  of each of the pieces' points, or cells
+/// @param whole_number  number in the whole of each point, or cell, of the pieces
 void compare(vtkDataSetAttributes& whole, vtkDataSetAttributes& pieces,
              const std::vector<vtkIdType>& whole_number, double tolerance) {
   if (whole.GetNumberOfArrays() != pieces.GetNumberOfArrays()) differ("the numbers of fields");

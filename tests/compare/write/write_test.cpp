@@ -131,7 +131,7 @@ TEST_CASE("a .vtu carries stress and forces with their units, errors, loads and 
   CHECK(read_array<double>(vtu, "fem_strain_energy_density")[0] == Approx(0.5).epsilon(1e-14));
   CHECK(read_array<double>(vtu, "fem_reaction")[2] == 3);
   CHECK(read_array<double>(vtu, "error")[0] == Approx(1).epsilon(1e-14));
-  CHECK(read_array<double>(vtu, "relative_error")[0] == Approx(0.2).epsilon(1e-14)); // of 5 mm
+  CHECK(read_array<double>(vtu, "relative_error")[0] == Approx(0.2).epsilon(1e-14)); // relative to 5 mm
   CHECK(read_array<double>(vtu, "applied_force")[3 * 7 + 2] == Approx(1).epsilon(1e-14));
   CHECK(read_array<double>(vtu, "material") == std::vector<double>{2});
   const std::size_t stress = vtu.find("Name=\"fem_stress\"");

@@ -21,7 +21,7 @@ namespace two_backends {
 
 namespace {
 
-constexpr double usual_residual = 1e-10; ///< of the load
+constexpr double usual_residual = 1e-10; ///< relative to the load
 
 cases::Solution solve(const cases::Scene& scene, Backend backend, double residual = usual_residual) {
   auto settings = fem_reference::default_settings();
@@ -66,7 +66,7 @@ cases::Case cube(cases::Formulation formulation, Element element, Test test = Te
     material = ogden;
   }
   auto definition = scenes::cube(test, set, material, formulation, element, 5);
-  // on fewer nodes; point forces on the vertices of quadratic elements tear a body that has no energy
+  // there are fewer nodes; point forces on the vertices of quadratic elements tear a body that has no energy
   for (auto& load : definition.loads) load.scale(121. / 36 / (element == Element::q2 ? 4 : 2));
   return definition;
 }

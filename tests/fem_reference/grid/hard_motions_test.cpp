@@ -32,7 +32,7 @@ TEST_CASE("strong damping ends in the static equilibrium, on the grid too", "[ve
     cases::Case definition = block(cases::Formulation::log_strain, element);
     definition.material_dynamics = {1000., 100, 0.01};
     definition.dynamics->scheme.scheme = cases::Scheme::implicit_euler;
-    definition.dynamics->step = 0.05; // of the period
+    definition.dynamics->step = 0.05; // s; the period is about 0.08 s
     definition.dynamics->end = 5;
     const cases::Solution motion = follow(definition, Backend::grid);
     definition.dynamics.reset();
@@ -114,7 +114,7 @@ TEST_CASE("a column that snaps sideways is followed where statics finds no equil
 
 TEST_CASE("a step that is too long for Newton's method is halved, and the motion goes on") {
   cases::Case definition = block(cases::Formulation::log_strain, Element::q1_bbar);
-  definition.loads = {scenes::traction("z+", {1e-3, 0, 0})}; // at once a quarter of its modulus
+  definition.loads = {scenes::traction("z+", {1e-3, 0, 0})}; // a quarter of its modulus at once
   definition.dynamics->step = 0.01;
   definition.dynamics->end = 0.04;
   for (const auto backend : {Backend::assembled, Backend::grid}) {

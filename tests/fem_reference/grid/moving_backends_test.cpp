@@ -113,7 +113,7 @@ TEST_CASE("a body that nothing holds falls on the grid as the parabola says", "[
       fem_reference::follow(cases::make_scene(definition), fem_reference::default_steps(), Backend::grid);
   const double half_squared = 0.04 * 0.04 / 2;
   for (const Vector3d& moved : motion.displacement)
-    CHECK((moved - half_squared * Vector3d(2000, 0, -4000)).norm() < 1e-6); // of 3.6 mm
+    CHECK((moved - half_squared * Vector3d(2000, 0, -4000)).norm() < 1e-6); // the block moves by 3.6 mm
 }
 
 } // namespace motion_of_two_backends

@@ -125,7 +125,7 @@ TEST_CASE("the energy of log_strain is the work on the straight path of logarith
     work += whole_stress(law, at(s)).dot(flatten(change));
   }
   CHECK(law.energy(at(1)) == Approx(work).epsilon(1e-6));
-  // at small strains that of Hooke's law, with its leading digits
+  // the energy at small strains agrees with that of Hooke's law in the leading digits
   const Matrix3 small = Matrix3::Identity() + 1e-7 * Eigen::Vector3d(1, -2, 3).asDiagonal().toDenseMatrix();
   CHECK(law.energy(small) == Approx(hooke.energy(small)).epsilon(1e-5));
 }

@@ -12,8 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 const cases::TransverselyIsotropic fibrous_body = scenes::fibrous(Vector3d(1, 2, -0.5));
-constexpr double contraction_along =
-    0.4 * 0.1 / 0.3; ///< of it: contraction along the fibre, pulled across it
+constexpr double contraction_along = 0.4 * 0.1 / 0.3; ///< contraction along the fibre when pulled across it
 
 Matrix3 turned_by(double angle) {
   return Eigen::AngleAxisd(angle, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
@@ -68,7 +67,7 @@ TEST_CASE(
   struct Pull {
     int direction;
     double modulus;
-    Vector3d strains; ///< per axial strain
+    Vector3d strains; ///< relative to the axial strain
   };
   const Pull along{0, m.youngs_modulus_along, {1, -m.poissons_ratio_along, -m.poissons_ratio_along}},
       across{1, m.youngs_modulus_across, {-contraction_along, 1, -m.poissons_ratio_across}};
@@ -144,7 +143,7 @@ TEST_CASE("up to the bounds of Poisson's ratios every strain stores energy, beyo
 
 TEST_CASE("what averaged elements take point by point stays bounded when the volume is kept",
           "[verification]") {
-  const auto split = [](double distance) { // from keeping the volume
+  const auto split = [](double distance) { // distance from keeping the volume
     cases::TransverselyIsotropic m = fibrous_body;
     m.poissons_ratio_along = 0.5 - distance;
     m.poissons_ratio_across = 1 - m.youngs_modulus_across / (2 * m.youngs_modulus_along) - distance;
@@ -164,7 +163,7 @@ TEST_CASE("divided differences of the logarithm are exact where arguments meet",
   CHECK(std::abs(divided_difference(1, 1, std::exp(2)) - (1 / (std::exp(2) - 1) - 0.5) / (std::exp(2) - 1)) <=
         1e-15);
   for (const double ratio : {0., 0.3, 0.5, 1.}) {           // the middle argument, between the others
-    const double end = 0.02 / (1 - 0.02 * (1 + ratio) / 3); // of the series: a spread of 0.02 of the mean
+    const double end = 0.02 / (1 - 0.02 * (1 + ratio) / 3); // the series' end: a spread of 0.02 of the mean
     const auto at = [&](double spread) { return divided_difference(1, 1 + ratio * spread, 1 + spread); };
     // the function itself changes by 1e-14, the quotient has the rounding error 1e-16/0.02
     CHECK(std::abs(at(end * (1 + 1e-12)) - at(end * (1 - 1e-12))) <= 1e-13);

@@ -56,7 +56,7 @@ class ManufacturedMotion : public mechanics::DynamicProblem {
 };
 
 /// The error after an eighth of a second of a motion of 5 Hz falls with the step as each scheme says.
-/// @param n_steps  of the coarser run
+/// @param n_steps  the coarser run's number of steps
 inline void check_orders(mechanics::DynamicProblem& body, const mechanics::Vector& shape, int n_steps) {
   const auto error = [&](const cases::TimeScheme& scheme, int n) {
     ManufacturedMotion problem(body, shape, 10 * std::acos(-1.0));

@@ -89,7 +89,7 @@ TEST_CASE("the implicit Euler method damps by omega h/2, to first order, and mak
     const double decay = std::log1p(omega_h * omega_h) / (2 * std::atan(omega_h));
     CHECK(swings.damping_ratio == Approx(decay / std::hypot(1, decay)).epsilon(1e-9));
     CHECK(swings.period ==
-          Approx(omega_h / std::atan(omega_h)).epsilon(1e-7)); // of a small eigenvalue among large entries
+          Approx(omega_h / std::atan(omega_h)).epsilon(1e-7)); // a small eigenvalue among large entries
   }
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("swings in steps of the other schemes have the damping and the period 
       CHECK(swings.period == Approx(omega_h / (2 * std::atan(omega_h / 2))).epsilon(1e-9));
     }
     const std::complex<double> i(0, 1);
-    const auto root = (2. + std::sqrt(1. + 2. * i * omega_h)) / (3. - 2. * i * omega_h); // of bdf2
+    const auto root = (2. + std::sqrt(1. + 2. * i * omega_h)) / (3. - 2. * i * omega_h); // bdf2's
     const double decay = -std::log(std::abs(root)) / std::arg(root);
     const auto swings = mechanics::swings_in_steps(bdf2, omega_h);
     CHECK(swings.damping_ratio == Approx(decay / std::hypot(1, decay)).epsilon(1e-6).margin(1e-9));

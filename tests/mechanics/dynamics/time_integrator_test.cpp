@@ -49,7 +49,7 @@ struct Manufactured {
   static Vector velocity(double t) { return pair_of(2 * std::sin(2 * t), -1.5 * std::sin(3 * t + 0.4)); }
   static Vector acceleration(double t) { return pair_of(4 * std::cos(2 * t), -4.5 * std::cos(3 * t + 0.4)); }
 
-  /// Root mean square over the steps to 2 s.  @param long_step  of every second one, over the others'
+  /// Root mean square over the steps to 2 s.  @param long_step  length of every second step over the others'
   double error(const cases::TimeScheme& scheme, int n_steps, double long_step) {
     TimeIntegrator motion(body, scheme, at(displacement(0), velocity(0)), exact_steps());
     const double pair = 4. / n_steps;
@@ -70,7 +70,7 @@ struct Manufactured {
 
 TEST_CASE("a manufactured motion is approached at the order of each scheme", "[verification]") {
   Manufactured motion;
-  constexpr double rounding = 0.05; // of the order: higher powers of a step of 1 % of a radian
+  constexpr double rounding = 0.05; // orders are off by higher powers of a step of 1 % of a radian
   CHECK(motion.order(implicit_euler) == Approx(1).margin(rounding));
   CHECK(motion.order(newmark) == Approx(2).margin(rounding));
   CHECK(motion.order(bdf2) == Approx(2).margin(rounding));
@@ -245,7 +245,7 @@ TEST_CASE("a body in free flight falls as the parabola says", "[verification]") 
 
 TEST_CASE("a step whose equation is not solved is halved until it is") {
   Body body = simple(2 * pi);
-  body.least_mass_factor = 4 / (0.06 * 0.06); // of newmark: no step above 0.06 s
+  body.least_mass_factor = 4 / (0.06 * 0.06); // newmark's: no step above 0.06 s
   TimeIntegrator motion(body, newmark, released(1), exact_steps());
   for (int n = 1; n <= 10; ++n) motion.advance(n * 0.1);
   CHECK(motion.n_halvings() == 10);

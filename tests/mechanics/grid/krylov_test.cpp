@@ -14,7 +14,7 @@ namespace {
 
 constexpr double target = 1e-10;
 
-/// Of a diagonal matrix, with ones on the right.
+/// Solves a system with a diagonal matrix and ones on the right.
 grid::LinearSolution solve(const Eigen::VectorXd& diagonal) {
   const auto times = [&](const Field<double>& in, Field<double>& out) { out = diagonal.cwiseProduct(in); };
   const auto as_it_is = [](const Field<double>& in, Field<double>& out) { out = in; };

@@ -150,7 +150,7 @@ TEST_CASE("the outer surface of a box is closed, bound to its nodes and seen fro
 
 TEST_CASE("weights of a patch add up to 1, and tend to its mean over the area as meshes are refined",
           "[verification]") {
-  // Over a disc of radius 4 about the middle of a face, x = 10, the mean of (y - 5)² is 4²/4.
+  // The mean of (y - 5)² over a disc of radius 4 about the middle of a face, x = 10, is 4²/4.
   const Vector3d centre(10, 5, 5);
   double error_before = 0;
   for (const int n : {10, 40}) {
@@ -161,7 +161,7 @@ TEST_CASE("weights of a patch add up to 1, and tend to its mean over the area as
     const double error =
         std::abs(mean(weights, mesh, [](const Vector3d& at) { return std::pow(at.y() - 5, 2); }) - 4);
     if (n == 40) {
-      CHECK(error < 0.05); // of 4: vertices a quarter of a millimetre apart sample a disc of 8
+      CHECK(error < 0.05); // the value is 4: vertices a quarter of a millimetre apart sample a disc of 8
       CHECK(error < error_before);
     }
     error_before = error;

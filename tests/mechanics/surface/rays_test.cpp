@@ -26,7 +26,7 @@ std::vector<Vector3d> scattered(std::size_t n) {
 
 TEST_CASE("a ray meets a triangle at the distance of its plane, at edges and corners too", "[verification]") {
   const std::array<Vector3d, 3> triangle{Vector3d(0, 0, 1), Vector3d(2, 0, 1), Vector3d(0, 2, 1)};
-  const Vector3d up(0, 0, 3); // of any length
+  const Vector3d up(0, 0, 3); // its length does not matter
   for (const Vector3d& from :
        {Vector3d(0.5, 0.5, 0), Vector3d(0, 0, 0), Vector3d(1, 1, 0), Vector3d(1, 0, 0)})
     CHECK(mechanics::distance_along({from, up}, triangle).value() == Approx(1).epsilon(1e-14));
@@ -34,7 +34,7 @@ TEST_CASE("a ray meets a triangle at the distance of its plane, at edges and cor
   CHECK_FALSE(mechanics::distance_along({{1.1, 1, 0}, up}, triangle));
   CHECK_FALSE(mechanics::distance_along({{-0.01, 1, 0}, up}, triangle));
   CHECK_FALSE(mechanics::distance_along({{0.5, 0.5, 0}, {1, 0, 0}}, triangle));
-  CHECK_FALSE(mechanics::distance_along({{-1, 0.5, 1}, {1, 0, 0}}, triangle)); // along its plane
+  CHECK_FALSE(mechanics::distance_along({{-1, 0.5, 1}, {1, 0, 0}}, triangle)); // parallel to its plane
   const double nan = std::nan("");
   CHECK_FALSE(mechanics::distance_along({{nan, 0, 0}, up}, triangle));
 }
@@ -47,7 +47,7 @@ TEST_CASE("the distance to a surface is that of the nearer side") {
   };
   CHECK(distance({0.5, 0.7, 0.4}, {0, 0, 1}).value() == Approx(0.4));
   CHECK(distance({0.5, 0.7, 0.4}, {0, 0, -1}).value() == Approx(0.4));
-  CHECK(distance({1, 1, 1.5}, {0, 0, 2}).value() == Approx(0.5)); // through a vertex of six triangles
+  CHECK(distance({1, 1, 1.5}, {0, 0, 2}).value() == Approx(0.5)); // it hits a vertex of six triangles
   CHECK_FALSE(distance({5, 5, 5}, {0, 0, 1}));
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("in boxes whose edges differ by up to 1.65 the lattice has the materia
       designed(cases::Design::hybrid, cases::Ogden{{0.04}, {2}, std::nullopt}, edges);
   CHECK(ogden.misfit->largest < 0.003); // lambda = 200 mu stands for incompressible
   const msm::DesignResult springs = designed(cases::Design::moduli, cases::LinearElastic{0.3, 0.25}, edges);
-  CHECK(springs.misfit->largest < 1e-9); // at nu = 1/4 springs alone have them
+  CHECK(springs.misfit->largest < 1e-9); // springs alone have them at nu = 1/4
 }
 
 TEST_CASE("a box's free number is the split where springs allow it, and grows where they do not") {
@@ -248,7 +248,7 @@ TEST_CASE("no moduli of a lattice are nearer to a material's than those of the t
   CHECK(nearest.distance == Approx(distance(c)).epsilon(1e-9));
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> any(-1, 1);
-  for (int trial = 0; trial < 200; ++trial) { // in every direction that a lattice can go
+  for (int trial = 0; trial < 200; ++trial) { // all directions that a lattice can go
     const double size = 1e-4 * std::pow(10, 2 * any(generator));
     TransverseModuli other = c;
     for (double* of : {&other.c11, &other.c12, &other.c13, &other.c33, &other.c44})

@@ -122,7 +122,7 @@ TEST_CASE("the misfit of moduli is the largest of E, G and nu by axis", "[verifi
   const double twice = 1, round_off = 1e-12;
   CHECK(msm::moduli_misfit(2 * material, material).largest == Approx(twice).epsilon(round_off));
   CHECK(msm::moduli_misfit(*msm::elasticity_at_rest(cases::LinearElastic{0.3, 0.25}), material).largest ==
-        Approx(0.1).epsilon(round_off)); // of nu; G errs by 8 %
+        Approx(0.1).epsilon(round_off)); // nu errs most; G errs by 8 %
   msm::Elasticity softer = material;
   softer(4, 4) *= 0.7; // xz alone
   const msm::ModuliMisfit misfit = msm::moduli_misfit(softer, material);
@@ -151,7 +151,7 @@ TEST_CASE("designs whose lattice misses the material's moduli say so, the others
     CAPTURE(cases::name_of(design));
     CHECK(says_so(designed(tissue, design)));
   }
-  // As published, the thesis's springs alone have E along the axes and nu = 1/4 at nu = 1/4.
+  // The thesis's springs alone, as published, have E along the axes and nu = 1/4 at nu = 1/4.
   CHECK(designed({cases::LinearElastic{0.005, 0.25}}, D::ladd_kinney).misfit->largest < 1e-9);
   CHECK(says_so(designed(tissue, D::hybrid, 0.35))); // designed from another ratio than the material's
 }

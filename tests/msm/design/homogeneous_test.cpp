@@ -146,12 +146,12 @@ TEST_CASE("waves have the stiffness that the tangent of a block of the lattice g
       for (int n = 0; n < 27; ++n) {
         const auto at = static_cast<std::size_t>(n);
         const Eigen::Vector3d cells =
-            (block.rest[at] - block.rest[13]) / cell_edge; // from the block's centre
+            (block.rest[at] - block.rest[13]) / cell_edge; // place relative to the block's centre
         sum += tangent.block<3, 3>(39, 3 * n) * std::polar(1.0, phase.dot(cells));
       }
       return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3cd>(sum).eigenvalues()[0] / phase.squaredNorm();
     };
-    double smallest = INFINITY; // over the waves that are sampled: pi/4 apart, and long ones
+    double smallest = INFINITY; // the waves sampled: pi/4 apart, and long ones
     for (int i = -4; i <= 4; ++i)
       for (int j = -4; j <= 4; ++j)
         for (int k = -4; k <= 4; ++k) {

@@ -145,7 +145,7 @@ TEST_CASE("a measured curve in any kind of strain and stress and in any unit is 
         const double per_mpa = unit == msm::CurveUnit::Pa ? 1e6 : unit == msm::CurveUnit::kPa ? 1e3 : 1;
         std::string text;
         for (std::size_t i = 0; i < 2; ++i) {
-          const double area = std::exp(2 * expected.lateral_strain[i]); // over that at rest
+          const double area = std::exp(2 * expected.lateral_strain[i]); // relative to that at rest
           const double force = expected.stress[i] * (stress == msm::CurveStress::nominal ? area : 1);
           text += fmt::format("{:.17g},{:.17g},{:.17g}\n", written(expected.axial_strain[i]), per_mpa * force,
                               written(expected.lateral_strain[i]));

@@ -139,7 +139,7 @@ TEST_CASE("an incompressible Ogden material has moduli E = 3 mu and G = mu") {
   const msm::DesignResult result = msm::design(moduli);
   CHECK(result.moduli.youngs_modulus == Approx(3 * 0.04332).epsilon(round_off));
   CHECK(result.moduli.shear_modulus == Approx(0.04332).epsilon(round_off));
-  CHECK(result.warnings == std::vector<std::string>{result.misfit->text}); // of nu: springs alone have 1/4
+  CHECK(result.warnings == std::vector<std::string>{result.misfit->text}); // nu: springs alone have 1/4
 }
 
 TEST_CASE("below nu = 1/4 the hybrid's volume term is negative, and cell and lattice are stable at rest",

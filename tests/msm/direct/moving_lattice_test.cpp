@@ -69,7 +69,7 @@ TEST_CASE("the tangent of a lattice's step is the derivative of its residual, da
   const auto step = lattice.motion->direction(at, product, 0, 0, mechanics::Convexity::exact);
   REQUIRE(step);
   CHECK((*step - along).norm() <=
-        1e-6 * along.norm()); // of the differences: 1e-10 by size, 1e-11 by rounding
+        1e-6 * along.norm()); // the differences err by 1e-10 for their size, 1e-11 for rounding
   const auto energy = [&](double way) { return lattice.motion->energy(at + way * along, 0); };
   CHECK((energy(-small) - energy(small)) / (2 * small) == Approx(residual(0).dot(along)).epsilon(1e-6));
 }
@@ -80,7 +80,7 @@ TEST_CASE("a lattice that nothing holds falls as the parabola says, and keeps it
                                    {0, lattice.rest(), lattice.rest(), {}});
   for (int n = 1; n <= 100; ++n) motion.advance(n * 0.001);
   for (const Vector3d& moved : msm::to_points(lattice.problem, motion.now().displacement))
-    CHECK((moved - Vector3d(0, 0, -9810 * 0.1 * 0.1 / 2)).norm() < 1e-6); // of 49 mm
+    CHECK((moved - Vector3d(0, 0, -9810 * 0.1 * 0.1 / 2)).norm() < 1e-6); // it falls by 49 mm
 }
 
 TEST_CASE("a damped lattice comes to rest in its static equilibrium", "[verification]") {
@@ -130,7 +130,7 @@ TEST_CASE("damping in proportion to stiffness resists no rigid motion, damping i
   for (const bool is_of_mass : {true, false}) {
     Moving lattice(two_cells(false, is_of_mass ? 2 : 0, is_of_mass ? 0 : 2));
     Vector velocity = lattice.rest(), mass = velocity, damping = velocity;
-    for (Eigen::Index p = 0; p < velocity.size(); p += 3) velocity[p] = 1; // along x
+    for (Eigen::Index p = 0; p < velocity.size(); p += 3) velocity[p] = 1; // velocity along x
     lattice.motion->mass_product(velocity, mass);
     lattice.motion->damping_product(velocity, damping);
     CHECK(mass.sum() == Approx(2e-6)); // t: 2000 mm³ of water

@@ -18,7 +18,7 @@ void count() {
 
 } // namespace
 
-// Of this program: operator new and Eigen call them too.
+// The program's own allocation functions, which operator new and Eigen call too.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t n, std::size_t size);
@@ -58,7 +58,7 @@ namespace moving_bodies {
 
 namespace {
 
-/// @param pull  of the motion's body, drawn further in every step; null: none
+/// @param pull  a pull on the motion's body, drawn further in every step; null: none
 long allocated_by(mechanics::TimeIntegrator& motion, int first, int last, double step,
                   msm::Pull* pull = nullptr) {
   n_allocations = 0;
@@ -99,7 +99,7 @@ TEST_CASE("after the first steps on a grid a step allocates nothing") {
         CHECK(allocated_by(motion, 4, 20, step) == 0);
         CHECK(body.motion->work().linear_iterations > 20);
         const auto at = [&](Eigen::Index entry) { return msm::Pull::Entry{entry, 1, true}; };
-        const Eigen::Index node = body.vectors.size() / 6, n = body.vectors.size() / 3; // of a middle layer
+        const Eigen::Index node = body.vectors.size() / 6, n = body.vectors.size() / 3; // a middle layer's
         for (const double stiffness : {0.01, 2.}) {
           INFO("pulled by " << stiffness << " N/mm");
           const int first = stiffness < 1 ? 21 : 31;

@@ -191,7 +191,7 @@ double softest(const msm::grid::Body& body, const msm::grid::Field<double>& disp
 TEST_CASE("what counting calls rigid is, and hinges, balls and too few supports are not called so") {
   const auto at_wall = [](const Place& node) { return node[0] == 0; };
   const auto everywhere = [](const Place&) { return true; };
-  const auto joined_at = [](const Place& second) { // to the cell 0, 0, 0
+  const auto joined_at = [](const Place& second) { // joined to the cell 0, 0, 0
     return [second](const Place& cell) { return cell == Place{0, 0, 0} || cell == second; };
   };
   const auto held_at = [](const std::vector<Place>& nodes) {

@@ -20,13 +20,13 @@ cases::Solution follow_on_grid(const cases::Scene& scene, const std::vector<msm:
   return msm::follow(scene, cells, {msm::Path::multigrid, 1, {}, {}}, settings);
 }
 
-/// Of the static scene, on the direct path.
+/// Equilibrium of the static scene, on the direct path.
 msm::Points equilibrium(cases::Scene scene, const std::vector<msm::CellStiffness>& cells) {
   scene.definition.dynamics.reset();
   return msm::Model(scene, cells, {msm::Path::direct, 1, {}, {}}).solve().displacement;
 }
 
-/// Over the size of b.
+/// Largest difference of two lists of points, over the largest norm in b.
 double difference(const msm::Points& a, const msm::Points& b) {
   double largest = 0, size = 0;
   for (std::size_t p = 0; p < a.size(); ++p) {

@@ -13,7 +13,7 @@ namespace held_factors {
 
 namespace {
 
-/// With a gap and cells of two stiffnesses, held at x = 0.
+/// A body with a gap and cells of two stiffnesses, held at x = 0.
 Body body_with_gap() {
   Body body;
   body.cells = {7, 5, 6};

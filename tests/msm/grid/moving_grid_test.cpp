@@ -21,7 +21,7 @@ cases::Solution follow_on(msm::Path path, const cases::Scene& scene,
   return msm::follow(scene, cells, {path, 1, {}, {}});
 }
 
-/// Of all displacements of two motions that are kept, over the largest of them.
+/// Largest difference of the displacements that two motions keep, over the largest one of a.
 double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   REQUIRE(a.trajectory->bodies.size() == b.trajectory->bodies.size());
   double largest = 0, size = 0;
@@ -128,8 +128,8 @@ TEST_CASE("steps in real time have no more iterations than allowed and say what 
   CHECK(of_motion > 0);
   CHECK(of_motion <= 0.05);
   const double end = (whole.displacement.back() - cut.displacement.back()).norm();
-  // At rest 1 % of the loads may be unbalanced, and some of it bends the block, which it resists least: by
-  // several times as much as the same force does that is shared as the loads are.
+  // 1 % of the loads may stay unbalanced at rest. Some of it bends the block, which resists that least:
+  // several times as far as the same force does when it is distributed as the loads are.
   CHECK(end <= 5 * 0.01 * whole.displacement.back().norm());
 }
 

@@ -13,12 +13,12 @@ TEST_CASE("in real time a step's equation is solved in single precision: holes, 
   const cases::MaterialDynamics damped{1000., 3, 0.02}, undamped{1000., 3, 0};
   for (const bool has_holes : {false, true})
     for (const auto& material : {undamped, damped})
-      for (const double unit : {1., 1e-25, 1e25}) // of stiffness
+      for (const double unit : {1., 1e-25, 1e25}) // factor on every stiffness
         for (const double stiffness : {0., 0.01, 100., 1e4, 1e6}) {
           CAPTURE(has_holes, material.stiffness_damping, unit, stiffness);
           const cases::Scene scene = block({}, material, has_holes, 15); // too many unknowns for a factor
           const Moving body(scene, {msm::scaled(hybrid_springs, unit)});
-          // Of mass as large as the stiffness, whatever its unit.
+          // The mass term is as large as the stiffness, whatever its unit.
           const Vector rest = body.rest();
           const mechanics::StepTerms terms{1e5 * unit, 20, rest, rest, rest, 1};
           const Vector at = body.random_motion(0.2, 1), right_side = unit * body.random_motion(1, 2);

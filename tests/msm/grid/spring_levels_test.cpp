@@ -165,7 +165,7 @@ TEST_CASE("one multigrid cycle removes most of an error, of bodies with gaps tha
   INFO("mass " << mass);
   if (is_smooth)
     CHECK(error.norm() <= 0.2 * motion.norm());
-  else // in the norm of the energy: 0.03 is left; with a broken level 0.5 or more
+  else // the norm is that of the energy: 0.03 is left; with a broken level 0.5 or more
     CHECK(std::sqrt(error.dot(product(error)) / motion.dot(product(motion))) < 0.1);
 }
 

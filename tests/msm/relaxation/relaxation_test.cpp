@@ -115,7 +115,7 @@ TEST_CASE("force scaling moves points along their forces by one length of step a
     return solve(pulled, cases::Solver::force_scaling, thesis_cell).displacement;
   };
   const auto once = after(1), twice = after(2);
-  // Without springs' forces yet: alpha times the load on the top, nothing elsewhere.
+  // The springs have no forces yet: the top moves by alpha times its load, and nothing else moves.
   const double alpha_load = once.back().z();
   CHECK(alpha_load > 0);
   for (std::size_t n = 0; n < 18; ++n) CHECK(once[n].norm() == 0); // below the top
