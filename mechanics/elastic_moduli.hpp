@@ -17,7 +17,7 @@ inline ElasticModuli elastic_moduli(const cases::LinearElastic& material) {
   return {lambda, mu, lambda + 2 * mu / 3};
 }
 
-/// The material of a shear and a bulk modulus, MPa.
+/// Returns the material with a given shear and bulk modulus, MPa.
 inline cases::LinearElastic linear_elastic(double mu, double kappa) {
   return {9 * kappa * mu / (3 * kappa + mu), (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu))};
 }

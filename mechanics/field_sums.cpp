@@ -17,13 +17,13 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Of the symmetric part.
+/// Returns the components of the symmetric part.
 cases::SymmetricTensor in_order(const Matrix3d& m) {
   return {
       m(0, 0), m(1, 1), m(2, 2), (m(0, 1) + m(1, 0)) / 2, (m(1, 2) + m(2, 1)) / 2, (m(0, 2) + m(2, 0)) / 2};
 }
 
-/// Of the nodes that are here, N.
+/// Returns the forces on the nodes that are here, N.
 std::vector<Eigen::Vector3d> forces_here(FieldSums& sums, const cases::Sharing* sharing,
                                          std::size_t n_nodes) {
   std::vector<cases::Numbered<Eigen::Vector3d>> added;
@@ -48,13 +48,13 @@ std::vector<CellSums> cells_here(FieldSums& sums, const cases::Sharing* sharing)
 constexpr double tolerance_at_nodes = 1e-6, ///< far above that of solvers, and far below a forgotten load
     tolerance_as_a_whole = 0.05;
 
-/// Forces on nodes as one, and how large they are.
+/// Sum of the forces on nodes, and their norm.
 struct Resultant {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< N
-  double norm = 0;                                 ///< of all nodes' forces as one vector, N
+  double norm = 0;                                 ///< N, all nodes' forces taken as one vector
 };
 
-/// @param forces  of the nodes that are here
+/// @param forces  N, one per node that is here
 Resultant resultant(const std::vector<Eigen::Vector3d>& forces, const cases::Share& here,
                     const cases::Sharing* sharing) {
   Resultant sum;
@@ -70,8 +70,8 @@ Resultant resultant(const std::vector<Eigen::Vector3d>& forces, const cases::Sha
   return sum;
 }
 
-/// Splits internal forces less applied ones (N, of the nodes that are here) into the supports' reactions and
-/// what is left on free degrees of freedom, which must be nothing of an equilibrium.
+/// Subtracts the applied forces from the internal ones (N, on the nodes that are here). Returns the result on
+/// constrained degrees of freedom, the reactions; on free ones it must vanish in equilibrium.
 std::vector<Eigen::Vector3d> reactions(const cases::Scene& scene, std::vector<Eigen::Vector3d> force,
                                        const cases::Share& here, const cases::Sharing* sharing,
                                        const FieldsOf& of) {
@@ -106,7 +106,7 @@ std::vector<Eigen::Vector3d> reactions(const cases::Scene& scene, std::vector<Ei
 
 } // namespace
 
-/// By V² - I = H + H^T + H H^T, in which small strains keep their digits.
+/// Uses V² - I = H + H^T + H H^T, in which small strains keep their digits.
 Matrix3d logarithmic_strain(const Matrix3d& h) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> left(h + h.transpose() + h * h.transpose());
   const auto half_log = [](double excess) {

@@ -27,11 +27,11 @@ struct CellSums {
   /// Integral of the displacement gradient, mm³.
   Eigen::Map<Eigen::Matrix3d> gradient() { return Eigen::Map<Eigen::Matrix3d>(numbers.data() + 9); }
   double& rest_volume() { return numbers[18]; } ///< mm³; 0: nothing was added
-  double& volume() { return numbers[19]; }      ///< that the virial is of: deformed, mm³
+  double& volume() { return numbers[19]; }      ///< deformed, mm³; the virial refers to it
   double& energy() { return numbers[20]; }      ///< N mm
 };
 
-/// What a model, or a rank of it, adds up on the body's own mesh: of nodes and cells in two ranges.
+/// Sums of a model, or of a rank of it, on the body's own mesh, for a range of nodes and one of cells.
 class FieldSums {
  public:
   FieldSums(const cases::Range& nodes, const cases::Range& cells)
@@ -42,7 +42,7 @@ class FieldSums {
   Eigen::Vector3d& force(std::size_t node) { return forces_[node - nodes_.begin]; }
   CellSums& cell(std::size_t number) { return sums_of_cells_[number - cells_.begin]; }
 
-  /// All sums, which are none afterwards.
+  /// Takes out the sums of all cells, and leaves none.
   std::vector<CellSums> take_cells() { return std::exchange(sums_of_cells_, {}); }
 
   const cases::Range& nodes() const { return nodes_; }
@@ -62,12 +62,12 @@ enum class Balance {
   not_asked,  ///< an answer after a given number of iterations, or a state without loads
   as_a_whole, ///< the model's share of a load differs from node to node from the scene's: forces as sums, to
               ///< 5 %
-  at_nodes    ///< on every node of the body's own mesh, to 1e-6: so forces and moments do
+  at_nodes    ///< every node of the body's own mesh, to 1e-6: so forces and moments do
 };
 
-/// What fields are of.
+/// What fields refer to.
 struct FieldsOf {
-  double load_factor; ///< of the scene's loads
+  double load_factor; ///< factor on the scene's loads
   StrainMeasure measure;
   cases::PointMass shared; ///< how the model's nodes share the mass that gravity acts on
   Balance balance;
@@ -76,8 +76,8 @@ struct FieldsOf {
 /// The fields of a solution, each rank's share of them. Reactions are internal forces less the applied ones,
 /// on constrained degrees of freedom. On the others an equilibrium leaves nothing: internal forces are held
 /// against the loads of the scene, which the solver had from elsewhere. Collective.
-/// @param sums     what this rank adds; where nobody shares the answer, of all cells
-/// @param sharing  of the solution
+/// @param sums     what this rank adds; all cells where nobody shares the answer
+/// @param sharing  the ranks that share the solution; null: one rank has all of it
 /// @throws SolveError where an equilibrium's reactions do not balance the loads
 cases::Fields fields_of(const cases::Scene& scene, FieldSums sums, const cases::Sharing* sharing,
                         const FieldsOf& of);

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-/// The trilinear hexahedron as a map of the unit cube: vertex v = i + 2j + 4k sits at (i, j, k). Of the
-/// project this uses nothing, so that meshes can use it.
+/// The trilinear hexahedron as a map of the unit cube: vertex v = i + 2j + 4k sits at (i, j, k). This
+/// includes nothing of the project, so that meshes can use it.
 namespace springproof::mechanics {
 
 using HexahedronVertices = std::array<Eigen::Vector3d, 8>; ///< mm
@@ -17,7 +17,7 @@ inline Eigen::Vector3d gauss_point(int q) {
 }
 
 /// The eight shape functions, which add up to 1, in the order of the vertices.
-/// @param at  in the coordinates of the unit cube, in it or not
+/// @param at  coordinates of a point in the unit cube or outside
 inline std::array<double, 8> shape_values(const Eigen::Vector3d& at) {
   std::array<double, 8> values;
   for (std::size_t v = 0; v < 8; ++v) {

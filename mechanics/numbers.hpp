@@ -37,7 +37,7 @@ SPRINGPROOF_INLINE double expm1_of(double x) {
 SPRINGPROOF_INLINE double root(double x) {
   return __builtin_sqrt(x);
 }
-/// False for what is not a number; of packs, in any lane.
+/// Whether a > b, in packs for every lane; false where one is not a number.
 SPRINGPROOF_INLINE bool all_greater(double a, double b) {
   return a > b;
 }

@@ -15,9 +15,9 @@ class StateOnMesh {
  public:
   using State = Eigen::VectorXd;
   struct Parts {
-    /// mm, of the nodes that this rank computes.
+    /// Displacements of the nodes that this rank computes, mm.
     std::function<std::vector<cases::Numbered<Eigen::Vector3d>>(const State&)> displacements;
-    /// mm³: deformed volumes that this rank's elements add to cells.
+    /// Deformed volumes that this rank's elements add to cells, mm³.
     std::function<std::vector<cases::Numbered<double>>(const State&)> cell_volumes;
   };
   /// @param mesh     must outlive this

@@ -36,7 +36,7 @@ struct StepTerms {
   const Vector& force;          ///< N, on free degrees of freedom: loads, and M and C times what is known
   const Vector& supports; ///< mm: constrained entries are where the step holds them; others mean nothing
   double scale = 0;       ///< N: forces of the motion, which residuals are relative to
-  /// Iterations of a linear solver, of the step in all; none: as many as it takes.
+  /// Limit on the linear solver's iterations, over the whole step; none: as many as it takes.
   std::optional<int> enough_linear_iterations = {};
 };
 
@@ -48,7 +48,7 @@ class DynamicProblem : public NonlinearProblem {
  public:
   /// M * motion and C * motion on free degrees of freedom, 0 on constrained ones; neither depends on the
   /// displacement. Entries of `motion` on supports count: where they move, a consistent mass couples them.
-  /// @param product  of the size of `motion`
+  /// @param product  resized to match `motion`; must not alias it
   virtual void mass_product(const Vector& motion, Vector& product) = 0;
   virtual void damping_product(const Vector& motion, Vector& product) = 0;
 
@@ -57,15 +57,15 @@ class DynamicProblem : public NonlinearProblem {
   /// Writes where supports are at a time to the constrained entries of a displacement, mm.
   virtual void supports_at(double /*time*/, Vector& /*displacement*/) const {}
 
-  /// Fills in what of a velocity or acceleration follows from this rank's degrees of freedom: entries that
-  /// belong to another rank, unknowns that were condensed.
+  /// Fills in those entries of a velocity or acceleration that follow from this rank's degrees of freedom:
+  /// entries of other ranks, unknowns that were condensed.
   virtual void complete(Vector& /*motion*/) {}
 
-  /// Of all evaluations from now on. What the terms refer to lives until the next call.
+  /// Sets the step of all later evaluations. What the terms refer to must live until the next call.
   virtual void set_step(const StepTerms& terms) = 0;
 
  protected:
-  /// For size().
+  /// Returns a norm over its scale, 0 for a norm of 0; for size().
   static double relative(double norm, double scale) { return norm == 0 ? 0 : norm / scale; }
 };
 

@@ -11,7 +11,7 @@ namespace springproof::mechanics {
 
 namespace {
 
-/// Takes down a motion, step after step.
+/// Records a motion, step after step.
 class Record {
  public:
   Record(const cases::Scene& scene, const BodyInTime& body)
@@ -67,7 +67,7 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   FollowedMotion followed{motion.now().displacement, record.finish(motion), motion.work()};
   followed.work.load_reached = 1;
   followed.work.n_unknowns = body.problem.n_unknowns();
-  followed.work.work = body.problem.work(); // without that of what follows
+  followed.work.work = body.problem.work(); // excludes what follows
   followed.trajectory.slowest = slowest_vibration(body.problem, begin, dynamics.end);
   return followed;
 }

@@ -18,13 +18,13 @@ struct BodyInTime {
 struct FollowedMotion {
   Vector end; ///< displacement, mm
   cases::Trajectory trajectory;
-  Equilibrium work; ///< of all steps; its residual is the last step's
+  Equilibrium work; ///< totals of all steps; the residual is the last step's
 };
 
 /// Moves a body through the time of its case's [dynamics], from a displacement without velocity.
 /// @throws cases::InputError where a region turns too far in a step (cases::check_turns_in_time())
-/// @throws cases::SolveError, whose load reached is the part of the time, when a step's equation is not
-/// solved, halved as it is
+/// @throws cases::SolveError when a step's equation is not solved even after halvings; its load reached is
+/// the fraction of the time
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings = {});
 

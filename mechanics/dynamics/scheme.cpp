@@ -75,7 +75,7 @@ int order_of(const cases::TimeScheme& scheme) {
 }
 
 SwingsInSteps swings_in_steps(const cases::TimeScheme& scheme, double omega_h) {
-  // Of u, h v, h² a and u and h v of the step before, in units of time in which h is 1.
+  // State: u, h v, h² a, then u and h v of the step before; the unit of time is h.
   const StepCoefficients c = step_coefficients(scheme, 1, 1);
   Eigen::Matrix<double, 5, 5> amplification = Eigen::Matrix<double, 5, 5>::Zero();
   for (int column = 0; column < 5; ++column) {

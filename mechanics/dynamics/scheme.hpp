@@ -22,12 +22,12 @@ struct KnownMotion {
 struct StepCoefficients {
   double mass, damping; ///< 1/s², 1/s
   KnownMotion known_acceleration, known_velocity;
-  double place = 1;              ///< of w, v* and t* on the way from the step's beginning (0) to its end (1)
-  double place_acceleration = 1; ///< of a*
+  double place = 1;              ///< position of w, v* and t* between the step's beginning (0) and end (1)
+  double place_acceleration = 1; ///< position of a*
 };
 
 /// @param step         h, s, > 0
-/// @param step_before  s; of bdf2, whose first step is one of the implicit Euler method
+/// @param step_before  s, for bdf2; none: its first step, which is one of the implicit Euler method
 /// Source: Newmark (1959); Chung and Hulbert (1993), with internal forces at w (generalised midpoint), which
 /// at rho_infinity = 1 keeps momentum and angular momentum; bdf2 with unequal steps: Hairer, Norsett, Wanner
 /// (1993), III.5.
@@ -40,17 +40,17 @@ bool needs_acceleration(cases::Scheme scheme);
 /// Order of the error of displacements and velocities.
 int order_of(const cases::TimeScheme& scheme);
 
-/// What steps make of an undamped oscillator. A step multiplies its swings by an eigenvalue of the scheme's
-/// amplification matrix: its size is their decay, its angle how far they come; of the implicit Euler method
-/// it is 1/(1 - i omega h).
+/// Damping ratio and period that a scheme gives an undamped oscillator. A step multiplies the swing by an
+/// eigenvalue of the scheme's amplification matrix: its magnitude is the decay, its angle the advance in
+/// phase. The implicit Euler method has 1/(1 - i omega h).
 struct SwingsInSteps {
-  double damping_ratio; ///< zeta, of which zeta/sqrt(1 - zeta²) is decay over angle; to first order omega h/2
-                        ///< of the implicit Euler method
-  double period; ///< over that of the oscillator: omega h over the angle
+  double damping_ratio; ///< zeta, with zeta/sqrt(1 - zeta²) = decay over angle; omega h/2 to first
+                        ///< order for the implicit Euler method
+  double period;        ///< relative to the oscillator's: omega h over the angle
 };
 /// @param omega_h  angular frequency times step, > 0
-/// @return of steps that leave no swing a ratio of 1 and an infinite period
-/// Source: Hughes, The Finite Element Method (1987), section 9.2; of the principal root.
+/// @return a ratio of 1 and an infinite period where steps leave no swing
+/// Source: Hughes, The Finite Element Method (1987), section 9.2, for the principal root.
 SwingsInSteps swings_in_steps(const cases::TimeScheme& scheme, double omega_h);
 
 } // namespace springproof::mechanics

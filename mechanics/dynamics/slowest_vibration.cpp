@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t n_rigid_motions = 6;
 constexpr int max_iterations = 60;
 constexpr double settled = 5e-3; ///< relative change of omega² from one iteration to the next
-constexpr double forcing = 1e-3; ///< of the linear solver; what it leaves errs by as much of omega²
+constexpr double forcing = 1e-3; ///< linear solver's tolerance; omega² errs by as much, relative
 
 class InverseIteration {
  public:
@@ -21,7 +21,7 @@ class InverseIteration {
     problem_.residual(at_, 0, Expect::residual, at_start_);
   }
 
-  /// omega² of the slowest motion that is not among those that were found.
+  /// Returns omega² of the slowest motion not found before.
   std::optional<double> next() {
     start();
     double last = -1;
@@ -62,10 +62,10 @@ class InverseIteration {
   const Vector& at_;
   double shift_;
   std::vector<Found> found_;
-  Vector force_, at_start_; ///< of the step; the residual without it: forces that the start is held by
+  Vector force_, at_start_; ///< force of the step; residual at the start without it
   Vector shape_, weighted_, solved_, product_, residual_;
 
-  /// Some shape that has a part of every vibration, 0 on supports.
+  /// Sets a shape with a part of every vibration, 0 on supports.
   void start() {
     std::mt19937 generator(1);
     shape_.setZero(at_.size());
@@ -73,10 +73,10 @@ class InverseIteration {
       entry = static_cast<double>(number) / 4294967296.0 - 0.5;
     });
     problem_.mass_product(shape_, weighted_);
-    if (!solve()) solved_.setZero(at_.size()); // of no size
+    if (!solve()) solved_.setZero(at_.size()); // zero: next() gives up
     shape_ = solved_;
   }
-  /// K + shift M times solved_ = weighted_: a step that such a force makes from the state.
+  /// Solves (K + shift M) solved_ = weighted_, as the step that such a force makes from the state.
   bool solve() {
     const double held = std::sqrt(problem_.dot(at_start_, at_start_)),
                  size = std::sqrt(problem_.dot(weighted_, weighted_));

@@ -31,7 +31,7 @@ TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme&
 void TimeIntegrator::advance(double to) {
   double step = to - now_.time;
   for (int halvings = 0; now_.time < to;) {
-    // What rounding leaves of the way is no step of its own.
+    // A remainder left by rounding is no step of its own.
     const bool is_last = to - now_.time <= step * (1 + 1e-9);
     if (try_step(is_last ? to : now_.time + step)) continue;
     if (halvings++ == settings_.max_halvings) give_up(failure_);
@@ -45,7 +45,7 @@ double TimeIntegrator::kinetic_energy() {
   return problem_.dot(now_.velocity, product_) / 2;
 }
 
-/// The forces of the start, and the acceleration that they give: M a = F - C v - f_int(u).
+/// Finds the forces at the start and the acceleration that they give: M a = F - C v - f_int(u).
 void TimeIntegrator::start() {
   problem_.external_force(now_.time, force_);
   scale_ = norm(force_);
@@ -120,7 +120,7 @@ void TimeIntegrator::combine(const KnownMotion& known) {
   known_ += known.velocity_before * before_->velocity;
 }
 
-/// Newton's method from where the motion leads, or else from where the step begins.
+/// Solves by Newton's method from where the motion leads, or else from where the step begins.
 bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, double to) {
   problem_.set_step(terms);
   const int iterations_before = std::exchange(work_.newton_iterations, 0); // limits are on each step
@@ -142,7 +142,7 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
   return is_solved;
 }
 
-/// place_: on the way from the step's beginning to an end, supports to where they will be.
+/// Sets guess_, and place_ and supports_ with the supports where the step holds them.
 void TimeIntegrator::predict(const StepCoefficients& c, double to, Guess guess) {
   if (guess == Guess::acceleration_stays) {
     combine(c.known_acceleration);

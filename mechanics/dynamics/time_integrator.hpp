@@ -14,12 +14,12 @@ struct Motion {
 
 struct IntegrationSettings {
   EquilibriumSettings newton =
-      nearly_linear();   ///< its tolerance, limits on iterations and should_stop, of each step
-  int max_halvings = 10; ///< of a step whose equation is not solved
-  /// Iterations of a step's linear solver, in all; see in_real_time().
+      nearly_linear();   ///< tolerance, iteration limits and should_stop hold for each step
+  int max_halvings = 10; ///< limit per advance(); a step whose equation is not solved is halved
+  /// Limit on a step's linear iterations, in all; see in_real_time().
   std::optional<int> enough_linear_iterations = {};
 
-  /// Of a step that changes little: its first direction leads all the way.
+  /// Settings for a step that changes little: its first direction leads all the way.
   static EquilibriumSettings nearly_linear() {
     EquilibriumSettings settings;
     settings.first_forcing = 1e-3;
@@ -27,9 +27,9 @@ struct IntegrationSettings {
   }
 };
 
-/// A step of a bounded length: it ends with a residual of 1 % of the loads, or after two iterations of
-/// Newton's method and so many of the linear solver, with what is left then; one that is left with more than
-/// the loads is halved. Simulators take one linear solution a step (Baraff and Witkin 1998).
+/// Settings that bound the time of a step. It ends with a residual of 1 % of the loads, or with what is left
+/// after two iterations of Newton's method and the given number of the linear solver. A step left with more
+/// than the loads is halved. Simulators take one linear solution a step (Baraff and Witkin 1998).
 IntegrationSettings in_real_time(int linear_iterations);
 
 /// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
@@ -44,7 +44,7 @@ class TimeIntegrator {
   TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
                  const IntegrationSettings& settings = {});
 
-  /// One step to a time (s); one whose equation is not solved is halved.
+  /// Steps to a time (s); a step whose equation is not solved is halved.
   /// @throws cases::SolveError with the time reached, where now() is left
   void advance(double to);
 
@@ -53,9 +53,9 @@ class TimeIntegrator {
   int n_halvings() const { return n_halvings_; }    ///< steps that were halved
   /// Steps in real time that were taken with more residual than the tolerance.
   int n_unfinished() const { return n_unfinished_; }
-  double largest_residual() const { return largest_residual_; } ///< that a step was left with, relative
+  double largest_residual() const { return largest_residual_; } ///< largest relative one left by a step
 
-  /// v . M v / 2, N mm, of the free degrees of freedom.
+  /// Returns v . M v / 2, N mm, over the free degrees of freedom.
   double kinetic_energy();
 
  private:
@@ -69,12 +69,12 @@ class TimeIntegrator {
   int n_halvings_ = 0, n_unfinished_ = 0;
   double largest_residual_ = 0;
   double scale_ = 0;       ///< N: largest forces so far
-  bool has_loads_ = false; ///< so far
+  bool has_loads_ = false; ///< some load has acted so far
   std::string failure_;
   Vector force_, known_, product_, residual_, step_;
-  bool is_smooth_ = false;  ///< the acceleration of the last step was nearer to that before it than to none
-  Vector guess_;            ///< place_ before supports are where they will be
-  Vector place_, supports_; ///< w of the step; the same with what it begins from, constrained entries right
+  bool is_smooth_ = false;  ///< the last step changed the acceleration by less than its size
+  Vector guess_;            ///< place_ before supports are moved
+  Vector place_, supports_; ///< w of the step; a displacement whose constrained entries are the step's
 
   void start();
   bool try_step(double to);

@@ -32,7 +32,7 @@ class PathFollower {
 
  private:
   static constexpr double small_step = 1.0 / 32;
-  static constexpr int guess_factor = 10; ///< on iterations from a start that is no equilibrium
+  static constexpr int guess_factor = 10; ///< multiplies the iteration limit of a start out of equilibrium
 
   NonlinearProblem& problem_;
   const std::string& name_;
@@ -40,10 +40,10 @@ class PathFollower {
   const NonlinearProblem::Work before_ = problem_.work();
   Equilibrium result_;
   Newton newton_;
-  double reached_ = 0;       ///< of the way
+  double reached_ = 0;       ///< fraction of the way
   Vector now_, previous_;    ///< the last two equilibria on the path
-  double previous_step_ = 0; ///< between them; 0: there is one alone
-  int inverted_ = 0;         ///< cells, now
+  double previous_step_ = 0; ///< way between them; 0: there is only one
+  int inverted_ = 0;         ///< inverted cells at now_
 
   double load(double way) const { return settings_.from + way * (settings_.to - settings_.from); }
 
@@ -68,8 +68,8 @@ class PathFollower {
       // A remainder too small for a step of its own is taken along.
       const double target = 1 - reached_ - step < settings_.smallest_load_step ? 1 : reached_ + step;
       const int iterations_before = result_.newton_iterations;
-      // Close to a limit point nothing but the tangent's sign tells that the path ends: there a convexified
-      // step would leave the path.
+      // Close to a limit point only the tangent's sign shows that the path ends. A convexified step would
+      // leave the path there.
       const bool stays_convex = step < small_step || settings_.max_convexified_per_step == 0;
       if (!attempt(predicted(target), target, stays_convex ? Convexity::exact : Convexity::clamped))
         step /= 2;
@@ -78,8 +78,8 @@ class PathFollower {
     }
   }
 
-  /// What a load step starts from: the last increment extrapolated. Supports that move take the body along as
-  /// far as the tangent knows: moved alone, they would turn the cells next to them inside out.
+  /// Returns the start of a load step: the last increment extrapolated. Supports that move take the body
+  /// along as far as the tangent knows: moved alone, they would turn the cells next to them inside out.
   Vector predicted(double target) {
     Vector trial = now_;
     if (previous_step_ > 0) trial += ((target - reached_) / previous_step_) * (now_ - previous_);
@@ -97,7 +97,7 @@ class PathFollower {
     return there;
   }
 
-  /// One load step. On success the path goes on from its end.
+  /// Tries one load step. On success the path goes on from its end.
   bool attempt(Vector trial, double target, Convexity fallback, int iteration_factor = 1) {
     const int left_convexity = result_.escapes + result_.convexified_steps;
     if (!newton_.solve(trial, load(target), fallback, iteration_factor)) return false;
@@ -124,7 +124,7 @@ class PathFollower {
                             std::move(none));
   }
 
-  /// Without load the body must resist every motion.
+  /// Checks that the body resists every motion without load.
   void check_rest() {
     const RestState rest = problem_.rest_state();
     if (rest == RestState::mechanism)
@@ -163,7 +163,7 @@ class PathFollower {
     return result_.is_stable.value_or(true);
   }
 
-  /// What is known of the last equilibrium, and what the work came to.
+  /// Records what is known of the last equilibrium, and the work.
   void finish() {
     if (settings_.lowest_eigenvalue == LowestEigenvalue::report)
       if (const auto mode = problem_.lowest_mode(now_)) result_.lowest_eigenvalue = mode->eigenvalue;
@@ -172,7 +172,7 @@ class PathFollower {
     result_.work = problem_.work() - before_;
   }
 
-  /// Where every equilibrium was stable, the path ends at a limit point; otherwise that is not known.
+  /// Reports a limit point if every equilibrium was stable; otherwise the cause is not known.
   [[noreturn]] void give_up_path() {
     const std::string reason = "no equilibrium was found beyond this load";
     if (settings_.stability == Stability::require) give_up(reason, cases::Outcome::limit_point);

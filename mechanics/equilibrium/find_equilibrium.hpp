@@ -9,28 +9,28 @@ namespace springproof::mechanics {
 
 enum class LowestEigenvalue { skip, report };
 enum class Stability {
-  require, ///< of every equilibrium on the path
-  report,  ///< of the last one
-  ignore   ///< for a guess, or where it is known
+  require, ///< every equilibrium on the path must be stable
+  report,  ///< tell for the last one
+  ignore   ///< do not ask: a guess, or a known answer
 };
 
 /// What a path is asked for, and its limits. A path goes from a state of equilibrium at one load factor to
 /// another; load steps are fractions of that way.
 struct EquilibriumSettings {
-  double tolerance = 1e-9; ///< on |residual on free degrees of freedom| / |applied load|
+  double tolerance = 1e-9; ///< limit for |residual on free degrees of freedom| / |applied load|
   double from = 0, to = 1; ///< load factors
   double first_load_step = 1;
   double largest_load_step = 1;
   double smallest_load_step = 1e-4;
-  double first_forcing = 0.1;        ///< of Newton's iterations at a load
+  double first_forcing = 0.1;        ///< forcing of the first Newton iteration at a load
   int max_newton_per_step = 40;      ///< more than twice what any load step that succeeded was seen to need
   int easy_newton_per_step = 8;      ///< a load step that took no more is followed by one of twice the length
-  int max_convexified_per_step = 12; ///< of these; what has not converged by then will not
+  int max_convexified_per_step = 12; ///< limit; what has not converged by then will not
   /// Iterations after which a state is taken as it is; none: only where the tolerance is met.
   std::optional<int> enough_newton_per_step = {};
   int max_load_steps = 400;
-  int max_newton_iterations = 4000;         ///< in all
-  long max_relaxation_iterations = 1000000; ///< of an explicit relaxation
+  int max_newton_iterations = 4000;         ///< limit over the whole path
+  long max_relaxation_iterations = 1000000; ///< limit for an explicit relaxation
   std::function<bool()> should_stop = {};   ///< asked before every iteration; empty: never
   LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
   Stability stability = Stability::require;
@@ -45,10 +45,10 @@ struct Equilibrium {
   int newton_iterations = 0;
   long relaxation_iterations = 0;
   int convexified_steps = 0;               ///< Newton steps for which the exact tangent would not do
-  int escapes = 0;                         ///< from unstable equilibria met on the way
+  int escapes = 0;                         ///< unstable equilibria met and left on the way
   std::optional<bool> is_stable;           ///< when required or reported, and known
   std::optional<double> lowest_eigenvalue; ///< N/mm
-  NonlinearProblem::Work work;             ///< of finding it
+  NonlinearProblem::Work work;             ///< work done to find it
   std::size_t n_unknowns = 0;
 };
 
@@ -57,9 +57,8 @@ struct Equilibrium {
 /// positive definite. An unstable equilibrium met on the way (a bifurcation) is left along its lowest mode,
 /// where stability is required. The path has to stay connected: a step that left the exact tangent and turned
 /// cells inside out is halved rather than taken.
-/// @param start  state in equilibrium at settings.from; from load factor 0, where rest is in equilibrium, any
-///               other one is a guess
-/// @param name   of the method, for messages
+/// @param start  state in equilibrium at settings.from; at load factor 0 any state but rest is a guess
+/// @param name   the method's name, for messages
 /// @throws cases::SolveError with the load reached, the outcome (limit point, mechanism, ...) and the work
 /// done
 Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, const std::string& name,
@@ -69,13 +68,13 @@ Equilibrium find_equilibrium(NonlinearProblem& problem, const Vector& start, con
 Equilibrium prescribed_state(const NonlinearProblem& problem, const Vector& start,
                              const EquilibriumSettings& settings);
 
-/// A model's answer, converged, but for displacements and what follows from them.
+/// Returns a converged solution, without displacements and what follows from them.
 cases::Solution to_solution(const Equilibrium& equilibrium);
 
 /// Settings with load steps in which no support turns by more than cases::largest_turn_of_step.
-/// @param degrees   that a support turns by at load factor 1
-/// @param settings  with the load factors from and to
-/// @param at_least  load steps from load factor 0 to 1
+/// @param degrees   largest turn of a support at load factor 1
+/// @param settings  their load factors from and to must be set
+/// @param at_least  least number of load steps from load factor 0 to 1
 EquilibriumSettings in_small_turns(double degrees, int at_least, EquilibriumSettings settings);
 
 } // namespace springproof::mechanics

@@ -11,7 +11,7 @@ namespace springproof::mechanics {
 namespace {
 
 constexpr double smallest_energy_fraction = 1e-6, smallest_work_fraction = 1. / 64;
-/// Work left on a step after it, of that at its start: it must fall a little at least.
+/// Largest accepted work after a step, relative to that at its start: it must fall a little.
 constexpr double accepted_work = 0.9;
 
 std::atomic<Interruption> interruption{nullptr};

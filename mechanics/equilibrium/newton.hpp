@@ -15,9 +15,9 @@ struct Trial {
 
 /// Moves `at` along a step as far as the problem's merit allows, shortening the step. Next to the solution an
 /// energy's change drowns in rounding: there a falling residual decides.
-/// @param residual  at `at`; on success at its new place
-/// @param expect    of the full step
-/// @param trial     room, from one search to the next where nothing else has moved `at`
+/// @param residual  the residual at `at`; on success that at its new value
+/// @param expect    what will be asked after the full step
+/// @param trial     work space, kept between searches if nothing else moves `at`
 /// @return whether a fraction of the step would do; otherwise `at` and `residual` are as they were
 bool line_search(NonlinearProblem& problem, Vector& at, Vector& residual, const Vector& step,
                  double load_factor, Trial& trial, Expect expect = Expect::residual);
@@ -34,13 +34,13 @@ class Newton {
   Newton(NonlinearProblem& problem, const EquilibriumSettings& settings, Equilibrium& result)
       : problem_(problem), settings_(settings), result_(result) {}
 
-  /// On success `at` is in equilibrium; otherwise it is of no use. The forcing is choice 2 of Eisenstat and
+  /// Moves `at` to an equilibrium; on failure `at` is meaningless. The forcing is choice 2 of Eisenstat and
   /// Walker (1996), gamma = 0.9, alpha = 2, never tighter than what the tolerance asks for.
-  /// @param fallback          for directions where the exact tangent has none
+  /// @param fallback          convexity to use where the exact tangent gives no direction
   /// @param iteration_factor  how many times the usual number of iterations it may take
   bool solve(Vector& at, double load_factor, Convexity fallback, int iteration_factor = 1);
 
-  const std::string& failure() const { return failure_; } ///< why the last solve() that failed did
+  const std::string& failure() const { return failure_; } ///< reason of the last failed solve()
 
  private:
   NonlinearProblem& problem_;

@@ -19,7 +19,7 @@ enum class Convexity {
 /// What a line search goes by.
 enum class Merit {
   energy, ///< it has to fall (Armijo)
-  work,   ///< of the residual on the step: its size has to fall, or its sign to stay
+  work,   ///< the residual's work on the step: its size has to fall, or its sign to stay
   none    ///< any state with a finite residual: saddle points, linear problems
 };
 
@@ -31,14 +31,14 @@ enum class RestState { sound, mechanism, unstable, unknown };
 
 /// Nonlinear equations r(u, load factor) = 0 of a supported and loaded body. Any path parameter may be the
 /// load factor; any terms (inertia too) may be in r, as long as direction() knows their tangent. Vectors are
-/// in whatever order the problem keeps them; with several ranks each has its own part. Of residuals and
-/// directions the entries of constrained degrees of freedom are 0; of states they are where the supports are.
+/// in whatever order the problem keeps them; with several ranks each has its own part. Constrained entries
+/// are 0 in residuals and directions; in states they are where the supports are.
 class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
 
   /// Minus the gradient of the energy, where there is one: N.
-  /// @param residual  of the size of `at`, which it is not; not finite for a state that is not admissible (a
+  /// @param residual  resized to match `at`; must not alias it. Not finite where `at` is not admissible (a
   /// cell turned inside out)
   virtual void residual(const Vector& at, double load_factor, Expect expect, Vector& residual) = 0;
   Vector residual(const Vector& at, double load_factor, Expect expect = Expect::residual) {
@@ -57,7 +57,7 @@ class NonlinearProblem {
   /// Newton's direction: solves tangent * step = residual.
   /// @param residual  the last that was evaluated, at this state
   /// @param forcing   allowed |residual - tangent step| / |residual|; a direct solver does better
-  /// @param step      neither of the others; of no use where there is none
+  /// @param step      must not alias the others; meaningless where there is no direction
   /// @return whether there is one: not when the solver fails, or an energy would not fall along the step
   virtual bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
                          Convexity convexity, Vector& step) = 0;
@@ -68,7 +68,7 @@ class NonlinearProblem {
     return step;
   }
 
-  /// For the next line search.
+  /// What the next line search goes by.
   virtual Merit merit() const = 0;
   /// Energy less the work of the dead loads, N mm; asked of problems whose merit it is.
   virtual double energy(const Vector& /*at*/, double /*load_factor*/) { return 0; }
@@ -87,11 +87,11 @@ class NonlinearProblem {
   /// What the tangent at rest says of the body; mechanism: some motion meets (almost) no stiffness; unknown:
   /// its linear solver fails.
   virtual RestState rest_state() { return RestState::sound; }
-  /// Of an unstable one, to follow "unstable at rest".
+  /// Cause of RestState::unstable, a text to follow "unstable at rest".
   virtual std::string cause_of_instability() const { return ""; }
   struct Mode {
     double eigenvalue; ///< N/mm
-    Vector shape;      ///< of length 1
+    Vector shape;      ///< length 1
   };
   /// The lowest eigenvalue of the exact tangent on the free degrees of freedom, and its eigenvector, to about
   /// three digits.
@@ -103,13 +103,13 @@ class NonlinearProblem {
   virtual bool moves_supports() const { return false; }
   virtual void move_supports(Vector& /*at*/, double /*load_factor*/) const {}
 
-  /// Over all ranks.
+  /// Products, maxima and conditions over all ranks.
   virtual double dot(const Vector& left, const Vector& right) const { return left.dot(right); }
   virtual double largest(const Vector& of) const { return of.cwiseAbs().maxCoeff(); } ///< magnitude
   virtual bool any_rank(bool here) const { return here; }
 
-  /// A run of entries of this rank's vectors, and how many entries that one rank alone would have lie between
-  /// the run before and this one.
+  /// A run of entries of this rank's vectors. `skipped` counts the other ranks' entries between it and the
+  /// run before.
   struct Run {
     Eigen::Index first, n, skipped;
   };
@@ -129,15 +129,15 @@ class NonlinearProblem {
   }
 
   struct Work {
-    long linear_iterations = 0; ///< of the iterative linear solver
-    long factorisations = 0;    ///< of the tangent
+    long linear_iterations = 0; ///< iterations of the linear solver
+    long factorisations = 0;    ///< factorisations of the tangent
     long force_evaluations = 0; ///< with or without their tangent
     Work operator-(const Work& before) const {
       return {linear_iterations - before.linear_iterations, factorisations - before.factorisations,
               force_evaluations - before.force_evaluations};
     }
   };
-  /// Since the problem was made; what a kind of problem does not count is 0.
+  /// Counts since the problem was made; 0 where a kind of problem does not count.
   virtual Work work() const { return {}; }
   virtual std::size_t n_unknowns() const { return 0; } ///< free degrees of freedom, over all ranks
 };

@@ -11,12 +11,12 @@ namespace springproof::mechanics::grid {
 /// What a coarser body with the same loads and supports tells of a path from rest.
 struct CoarseGuess {
   std::optional<Vector> state; ///< near the equilibrium at the end; none where it was not found
-  double first_load_step = 1;  ///< to try, of the path; less than 1 where the coarse body failed
+  double first_load_step = 1;  ///< first to try on the path; below 1 where the coarse body failed
 };
 
-constexpr double guess_tolerance = 1e-3; ///< of residuals, relative: a guess is worth no more
+constexpr double guess_tolerance = 1e-3; ///< relative residual: a guess is worth no more
 
-/// The equilibrium of the coarser body.
+/// Finds the equilibrium of the coarser body.
 /// @param coarser  what a still coarser one tells of it
 template<class Equations>
 CoarseGuess find_guess(Equations& equations, const Vector& rest, const char* what,

@@ -101,7 +101,7 @@ void Cycle::forget() {
   for (const auto& level : levels) level->forget();
 }
 
-/// The power method; its vector is kept for the next time.
+/// Runs the power method, whose vector is kept for the next time.
 void Cycle::estimate_largest_eigenvalue(Level& level) const {
   const bool is_first = !(level.largest_eigenvalue_ > 0 && std::isfinite(level.largest_eigenvalue_));
   if (is_first) {

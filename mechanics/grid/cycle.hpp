@@ -11,7 +11,7 @@ namespace springproof::mechanics::grid {
 /// What Chebyshev's iteration works on: eigenvalues of the preconditioned matrix up to a bound, and down to a
 /// part of it.
 struct Chebyshev {
-  int degree;   ///< of the polynomial
+  int degree;   ///< degree of the polynomial
   double share; ///< upper bound over the lower one
 };
 
@@ -38,9 +38,9 @@ void smooth(const Chebyshev& chebyshev, double upper, const Precondition& precon
   }
 }
 
-/// The inverse of a node's 3x3 block on its free components, 0 on the others. Where the free ones are not
-/// positive definite, or almost singular, as of a node that hangs on too few springs, their diagonal must do.
-/// @param singular_below  determinant over the product of the diagonal
+/// Inverts a node's 3x3 block on its free components; 0 on the others. Inverts only the diagonal if the free
+/// block is not positive definite, or almost singular, as at a node that hangs on too few springs.
+/// @param singular_below  least determinant over the product of the diagonal
 Eigen::Matrix3d inverse_on_free(Eigen::Matrix3d block, const bool (&is_free)[3], double singular_below);
 
 /// The symmetric matrix of a level that is small enough for a dense factorisation. Allocates nothing when it
@@ -55,9 +55,9 @@ class DenseFactor {
   };
 
   std::vector<std::ptrdiff_t> unknowns; ///< entries of a field of the level
-  std::vector<int> number;              ///< of every entry among the unknowns; -1: it is none
+  std::vector<int> number;              ///< each entry's index among the unknowns; -1: it is none
 
-  /// A matrix of 0 between those of n entries that are unknowns; to be filled in.
+  /// Returns a zero matrix to fill in, with a row for each of n entries that is an unknown.
   template<class IsUnknown>
   Matrix& begin(std::ptrdiff_t n, const IsUnknown& is_unknown) {
     unknowns.clear();
@@ -85,13 +85,13 @@ class DenseFactor {
 /// operator, the cycle has its fields. All in single precision.
 class Level {
  public:
-  /// @param size  of the level's fields
+  /// @param size  entries of the level's fields
   Level(std::ptrdiff_t size, int n_threads);
   virtual ~Level() = default;
   Level(const Level&) = delete;
   Level& operator=(const Level&) = delete;
 
-  /// Prepares the operator in the model's present state, after those of the finer levels.
+  /// Prepares the operator at the model's present state; finer levels come first.
   virtual void linearise() = 0;
   /// product = operator * direction, whose ghosts may be brought up to date; 0 on entries that are not free.
   virtual void multiply(Field<float>& direction, Field<float>& product) const = 0;
@@ -114,14 +114,14 @@ class Level {
   /// finer_correction = interpolation of the solution, 0 on entries that are not free
   virtual void prolong_to(Field<float>& finer_correction) = 0;
 
-  /// Drops the largest eigenvalue, and what is no number.
+  /// Drops the largest eigenvalue, and fields that may hold NaN.
   void forget();
 
  protected:
   friend class Cycle;
   Field<float> solution_, residual_, correction_, product_, rough_;
   Field<float> inverse_diagonal_; ///< symmetric 3x3 blocks: six arrays xx, yy, zz, yz, xz, xy
-  double largest_eigenvalue_ = 0; ///< of the inverse diagonal times the operator
+  double largest_eigenvalue_ = 0; ///< estimate for the inverse diagonal times the operator
   int n_threads_;
 };
 
@@ -131,27 +131,27 @@ class Cycle {
  public:
   struct Settings {
     Chebyshev smoother;
-    double margin;         ///< over what the power method finds, which comes from below
-    int first_power_steps; ///< later 2 do, from the vector that the last ones ended with
+    double margin;         ///< factor on the power method's estimate, which comes from below
+    int first_power_steps; ///< the first estimate's; later ones take 2, from the last vector
   };
   Cycle(const Settings& settings, int n_threads) : settings_(settings), n_threads_(n_threads) {}
 
-  /// From the finest one to the coarsest; filled in by the model.
+  /// Levels from the finest to the coarsest; filled in by the model.
   std::vector<std::unique_ptr<Level>> levels;
 
   void linearise();
-  /// Drops what a state far off may have left: largest eigenvalues that lead astray, and what is no number.
+  /// Drops what a state far off may have left: misleading largest eigenvalues, and NaN.
   void forget();
-  /// solution = cycle(right_side), of the finest level.
-  /// @param norm  of the right side, which is divided by it: that keeps single precision in range
+  /// solution = cycle(right_side), on the finest level.
+  /// @param norm  norm of the right side; dividing by it keeps single precision in range
   void apply(const Field<double>& right_side, double norm, Field<double>& solution);
-  /// The same of a right side that leaves single precision in range, near 1 in norm.
+  /// The same for a right side with a norm near 1, which keeps single precision in range.
   void apply(const Field<float>& right_side, Field<float>& solution);
 
  private:
   Settings settings_;
   int n_threads_;
-  std::size_t last_ = 0; ///< level that the cycle goes down to
+  std::size_t last_ = 0; ///< coarsest level that the cycle uses
   bool ends_exactly_ = false;
 
   void estimate_largest_eigenvalue(Level& level) const;

@@ -41,9 +41,9 @@ void scale_and_add(float* a, float factor, const float* b, std::ptrdiff_t n);
 
 double dot(const double* a, const double* b, std::ptrdiff_t n);
 
-/// out = keep * out + factor * (blocks) in, of the first n nodes.
+/// out = keep * out + factor * (blocks) in, for the first n nodes.
 /// @param blocks  symmetric 3x3 blocks, one for each node: six arrays xx, yy, zz, yz, xz, xy
-/// @param size    from one array to the next
+/// @param size    distance from one array to the next
 void apply_blocks(const float* blocks, const float* in, float* out, std::ptrdiff_t size, float keep,
                   float factor, std::ptrdiff_t n);
 
@@ -109,9 +109,9 @@ struct SplitMix {
   }
 };
 
-/// Random numbers, the same ones every time and on any number of ranks: a field with a part in every motion
-/// of the body.
-/// @param first  node of the whole grid that is the layout's node 0
+/// Returns a random field, the same every time and on any number of ranks, with a part in every motion of
+/// the body.
+/// @param first  number in the whole grid of the layout's node 0
 template<class Real, class Distribution>
 Field<Real> random_field(const Layout& layout, const std::array<int, 3>& first, unsigned seed,
                          Distribution any_value) {

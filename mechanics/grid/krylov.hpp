@@ -16,12 +16,12 @@ struct LinearSolutionIn {
   Field<Real> solution;
   int iterations = 0;
   bool converged = false;
-  bool met_negative_curvature = false; ///< of the operator, or none; then it did not converge
-  Field<Real> direction{};             ///< that has met it
+  bool met_negative_curvature = false; ///< or zero curvature; then it did not converge
+  Field<Real> direction{};             ///< the direction with that curvature
 };
 using LinearSolution = LinearSolutionIn<double>;
 
-/// Fields of conjugate gradients, kept from one solution to the next: nothing is allocated then.
+/// Work fields of conjugate gradients, kept from one solution to the next to save allocations.
 template<class Real>
 struct KeptFields {
   Field<Real> residual, preconditioned, product, direction;

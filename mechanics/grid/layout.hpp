@@ -9,8 +9,8 @@ namespace springproof::mechanics::grid {
 /// after the last one lie ghosts, as many as a model's kernels want: its make_layout() fills this in.
 struct Layout {
   int nodes[3] = {0, 0, 0};
-  std::ptrdiff_t row = 0;   ///< from one row to the next
-  std::ptrdiff_t plane = 0; ///< from one plane to the next
+  std::ptrdiff_t row = 0;   ///< distance from one row to the next
+  std::ptrdiff_t plane = 0; ///< distance from one plane to the next
   std::ptrdiff_t lead = 0;  ///< ghosts before the first node
   std::ptrdiff_t size = 0;  ///< entries of one array, ghosts and all
   std::ptrdiff_t at(int i, int j, int k, int c = 0) const {

@@ -134,7 +134,7 @@ SPRINGPROOF_INLINE void add(Real* to, const Pack<Real>& value) {
 }
 
 typedef float HalfPackF __attribute__((vector_size(pack_bytes / 2)));
-/// As many floats as doubles fit a pack.
+/// Loads as many floats as doubles fit a pack.
 SPRINGPROOF_INLINE PackD load_wide(const float* from) {
   typedef float Unaligned __attribute__((vector_size(pack_bytes / 2), aligned(4), may_alias));
   return __builtin_convertvector(*reinterpret_cast<const Unaligned*>(from), PackD);
@@ -153,7 +153,7 @@ SPRINGPROOF_INLINE PackF narrow(const PackD& low, const PackD& high) {
 template<class P>
 SPRINGPROOF_INLINE P window(const P& a, const P& b, int from) {
   constexpr int n = sizeof(P) / sizeof(a[0]);
-#ifdef __clang__ // of the sanitized build; it has no __builtin_shuffle
+#ifdef __clang__ // the sanitized build, which has no __builtin_shuffle
   P result;
   for (int i = 0; i < n; ++i) result[i] = from + i < n ? a[from + i] : b[from + i - n];
   return result;
@@ -311,8 +311,8 @@ SPRINGPROOF_INLINE P half_log(const P& x) {
   }
 }
 
-/// 2^x, to 1e-17 and 1e-7 but for rounding. Beyond 2^1000 and 2^120 as there, so that nothing times it is
-/// nothing.
+/// 2^x, to 1e-17 and 1e-7 but for rounding. x is kept within +-1000 and +-120, so that 0 times the
+/// result is 0.
 template<class P>
 SPRINGPROOF_INLINE P power_of_two(const P& wanted) {
   using Real = RealOf<P>;

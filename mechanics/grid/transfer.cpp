@@ -50,8 +50,8 @@ Interpolation<Real>::Interpolation(const Layout& fine, const Layout& coarse, con
       rows_(std::max(fine.nodes[0], coarse.nodes[0]) + lead + trail,
             std::max(fine.nodes[2], coarse.nodes[2])) {}
 
-/// Every row of a result: weighted rows of the source, over what the stencil selects along y and z, then
-/// along_x(that row, row of the result).
+/// Makes every row of a result: adds up weighted rows of the source, which the stencil selects along y and z,
+/// and calls along_x(sum, row of the result).
 template<class Real>
 template<class Stencil, class AlongX>
 void Interpolation<Real>::transfer(const Layout& from, const Field<Real>& source, const Layout& to,

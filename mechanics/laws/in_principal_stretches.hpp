@@ -28,7 +28,7 @@ template<class P>
 SPRINGPROOF_INLINE void eigensystem(P (&a)[6], P (&v)[9]) {
   for (int i = 0; i < 9; ++i) v[i] = constant<P>(i % 4 == 0 ? 1 : 0);
   constexpr double relative = sizeof(RealOf<P>) == 8 ? 1e-32 : 1e-14; // squared
-  constexpr double least = sizeof(RealOf<P>) == 8 ? 1e-300 : 1e-36;   // of the zero matrix
+  constexpr double least = sizeof(RealOf<P>) == 8 ? 1e-300 : 1e-36;   // bound for the zero matrix
   const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + 2 * (a[3] * a[3] + a[4] * a[4] + a[5] * a[5]);
   const P small = constant<P>(relative) * squared + constant<P>(least);
   for (int sweep = 0; sweep < 8; ++sweep) {
@@ -39,7 +39,7 @@ SPRINGPROOF_INLINE void eigensystem(P (&a)[6], P (&v)[9]) {
   }
 }
 
-/// Squares of the stretches, their axes in the material, their logarithms.
+/// Finds the stretches' squares, axes in the material, and logarithms.
 template<class P>
 SPRINGPROOF_INLINE void principal_axes(const P (&h)[9], P (&squared)[3], P (&axes)[9], P (&x)[3]) {
   P c[6];
@@ -56,9 +56,9 @@ SPRINGPROOF_INLINE void principal_axes(const P (&h)[9], P (&squared)[3], P (&axe
 ///   A_iijj = dP_i/d lambda_j,   A_ijij = m_ij,   A_ijji = (lambda_j² m_ij - tau_j)/(lambda_i lambda_j),
 /// m_ij = (tau_i - tau_j)/(lambda_i² - lambda_j²) (i != j), which stay exact when stretches coincide as long
 /// as m_ij does.
-/// @tparam Principal  has, of the logarithmic stretches x_i = ln lambda_i,
+/// @tparam Principal  has, for logarithmic stretches x_i = ln lambda_i,
 ///   kirchhoff(x, parameters, tau)  the part of the Kirchhoff stress that is no pressure, MPa,
-///   slopes(x, lambda², parameters, slope, difference)  d tau_i/d x_j, and m_ij of the pairs (1,2), (2,0),
+///   slopes(x, lambda², parameters, slope, difference)  d tau_i/d x_j, and m_ij for the pairs (1,2), (2,0),
 ///                                  (0,1), at its limit when the stretches coincide,
 ///   energy(x, parameters)          and what every law has of the pressure
 template<class Principal>

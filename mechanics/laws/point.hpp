@@ -3,8 +3,8 @@
 #include "mechanics/numbers.hpp"
 
 /// Isotropic laws at a point, written once for one number and for packs of them: P is a double or a pack. The
-/// displacement gradient H = grad u, F = I + H and stresses are [3*i + J], moduli dP_iJ/dF_kL; a strain made
-/// of F - I would lose the digits of small displacements. A law is a type with
+/// displacement gradient H = grad u, F = I + H and stresses are [3*i + J], moduli dP_iJ/dF_kL; strains from
+/// F - I would lose the digits of small displacements. A law is a type with
 ///   stress(H, parameters, P)       the first Piola-Kirchhoff stress without the pressure, MPa,
 ///   moduli(H, parameters, A)       its derivative,
 ///   pressure(J - 1, parameters)    tension-positive mean Cauchy stress, MPa, and its slope,
@@ -13,9 +13,8 @@
 ///   volume_energy(J - 1, parameters)  the pressure's integral, N mm per mm³ at rest;
 ///   Moduli                         Full, or Upper where they are symmetric,
 ///   is_finite                      J = det F; else J = 1 + tr H, and areas do not turn,
-///   has_pressure                   P = stress + p(J - 1) cof F; else P = stress, and the last four are
-///   absent
-///                                  or nothing,
+///   has_pressure                   P = stress + p(J - 1) cof F; else P = stress, and the
+///                                  three functions for the pressure are absent,
 ///   Material                       the one of a case's materials that it is made from.
 namespace springproof::cases {
 struct LinearElastic;
@@ -68,7 +67,7 @@ SPRINGPROOF_INLINE void twice_green_strain(const P (&h)[9], P (&c)[6]) {
   }
 }
 
-/// P = F S of a symmetric second Piola-Kirchhoff stress S.
+/// P = F S for a symmetric second Piola-Kirchhoff stress S.
 template<class P>
 SPRINGPROOF_INLINE void first_stress(const P (&h)[9], const P (&s)[9], P (&stress)[9]) {
   P f[9];

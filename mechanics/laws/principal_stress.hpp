@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-/// Laws of one number, with the parameters of a case's material.
+/// Laws evaluated for one number, with the parameters of a case's material.
 namespace springproof::mechanics {
 
 template<>

@@ -42,7 +42,7 @@ void check_memory_of(KSP solver) {
   const PC preconditioner = get<PC>(KSPGetPC, solver);
   if (get<PCFailedReason>(PCGetFailedReason, preconditioner) != PC_FACTOR_OUTMEMORY) return;
   const Mat factor = get<Mat>(PCFactorGetMatrix, preconditioner);
-  constexpr PetscInt allocation_failed = -13; // INFOG(1); others are of estimates that were too low
+  constexpr PetscInt allocation_failed = -13; // INFOG(1); others mean estimates that were too low
   if (get<PetscInt>(MatMumpsGetInfog, factor, 1) == allocation_failed) throw std::bad_alloc();
 }
 

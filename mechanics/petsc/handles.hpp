@@ -16,7 +16,7 @@ namespace springproof::mechanics::petsc {
 /// code: a programming error, never a solver that failed to converge
 void check(PetscErrorCode code);
 
-/// From now on PETSc prints nothing of its errors: check() tells them.
+/// Keeps PETSc from printing its errors from now on: check() reports them.
 void keep_quiet();
 
 /// @throws std::bad_alloc if MUMPS had too little memory for the factorisation in a solver's preconditioner
@@ -74,7 +74,7 @@ class Entries {
 using ReadEntries = Entries<const PetscScalar, VecGetArrayRead, VecRestoreArrayRead>;
 using WriteEntries = Entries<PetscScalar, VecGetArray, VecRestoreArray>;
 
-/// Ghosts from the ranks that own them.
+/// Updates ghosts from the ranks that own them.
 void update_ghosts(Vec vector);
 /// Adds what ranks have in ghosts to the owners' entries.
 void add_ghosts(Vec vector);
@@ -87,7 +87,7 @@ void attach_rigid_motions(Mat matrix, const std::vector<Eigen::Vector3d>& points
 /// Exceptions of functions that PETSc calls: they must not pass through its C code.
 class CallbackErrors {
  public:
-  /// For a callback to return: an error code in place of an exception, which is kept.
+  /// Returns an error code for a callback to return in place of an exception, which is kept.
   template<class Action>
   PetscErrorCode run(const Action& action) noexcept {
     try {

@@ -14,7 +14,7 @@ namespace {
 
 using OwnedSolver = Owned<EPS, EPSDestroy>;
 
-/// For the eigenpairs of a symmetric matrix, or of one and a mass matrix.
+/// Returns a solver for the eigenpairs of a symmetric matrix, or of one and a mass matrix.
 OwnedSolver solver_for(Mat matrix, Mat mass = nullptr) {
   OwnedSolver solver(get<EPS>(EPSCreate, PETSC_COMM_SELF));
   check(EPSSetOperators(solver.get(), matrix, mass));

@@ -24,8 +24,8 @@ Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
 /// @throws SolveError if fewer pairs converge to 1e-10 relative
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
 
-/// The lowest eigenpairs of K x = lambda M x, with eigenvectors of x^T M x = 1. As lowest_spectrum()
-/// otherwise; a free body's rigid modes are those of 0.
+/// The lowest eigenpairs of K x = lambda M x, scaled to x^T M x = 1. As lowest_spectrum() otherwise;
+/// the eigenvalue of a free body's rigid modes is 0.
 /// @param stiffness  positive semidefinite    @param mass  positive definite; both symmetric, both triangles
 Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
                            int n_pairs);

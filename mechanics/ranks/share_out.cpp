@@ -96,10 +96,10 @@ class MpiSharing : public cases::Sharing {
 
  private:
   MPI_Comm communicator_;
-  std::vector<Share> shares_; ///< of the ranks
+  std::vector<Share> shares_; ///< one per rank
 
-  /// What others have for here, in their order.
-  /// @param part  of a share, that the numbers are of
+  /// Returns what all ranks have for this one, in the order of the ranks.
+  /// @param part  the range of a share that the numbers belong to
   template<class Value>
   std::vector<Numbered<Value>> exchange(std::vector<Numbered<Value>> values, Range Share::*part) const {
     const auto is_before = [](const Numbered<Value>& a, const Numbered<Value>& b) {

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// From a point of the unit cube, to first order, to a place that the cube's map does not take it to.
+/// Returns the step, to first order, from a point of the unit cube to the one that the map takes to `place`.
 Vector3d step_to(const Vector3d& place, const HexahedronVertices& vertices, const Vector3d& at) {
   return jacobian(vertices, at).partialPivLu().solve(place - image(vertices, at));
 }
@@ -62,7 +62,7 @@ std::vector<cases::WeightedPoint> patch_within(const EmbeddedSurface& surface, c
                                                double radius) {
   const auto& positions = surface.rest.vertices;
   const double reach = radius + 1e-9 * (1 + centre.norm()); // what a recording rounds
-  std::map<int, double> area;                               // mm², of vertices in the sphere
+  std::map<int, double> area;                               // mm², by vertex in the sphere
   double whole = 0;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if ((positions[v] - centre).norm() <= reach) area.emplace(static_cast<int>(v), 0);

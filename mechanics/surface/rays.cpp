@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 /// Source: T. Moeller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
 std::optional<double> distance_along(const Ray& ray, const std::array<Vector3d, 3>& triangle) {
-  constexpr double rounding = 1e-12; // of the triangle: else a ray through a common edge could miss both
+  constexpr double rounding = 1e-12; // relative: else a ray through a common edge could miss both triangles
   const Vector3d direction = ray.direction.normalized();
   const Vector3d first = triangle[1] - triangle[0], second = triangle[2] - triangle[0];
   const Vector3d across = direction.cross(second), from_corner = ray.origin - triangle[0];
@@ -34,7 +34,7 @@ std::optional<double> distance_to_surface(const Ray& ray, const std::vector<std:
 
 Spheres cover(const std::vector<Vector3d>& positions, std::size_t n) {
   Spheres spheres{{}, 0};
-  std::vector<double> squared(positions.size(), std::numeric_limits<double>::infinity()); // to a centre, mm²
+  std::vector<double> squared(positions.size(), std::numeric_limits<double>::infinity()); // mm², to a centre
   for (std::size_t next = 0; spheres.vertices.size() < n;) {
     spheres.vertices.push_back(static_cast<int>(next));
     const Vector3d& centre = positions[next];

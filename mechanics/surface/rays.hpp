@@ -7,7 +7,7 @@ namespace springproof::mechanics {
 
 struct Ray {
   Eigen::Vector3d origin;    ///< mm
-  Eigen::Vector3d direction; ///< of any length but 0
+  Eigen::Vector3d direction; ///< any length but 0
 };
 
 /// Where a line meets a triangle, as a distance from the ray's origin in mm: negative behind it. A line along
@@ -15,24 +15,24 @@ struct Ray {
 std::optional<double> distance_along(const Ray& ray, const std::array<Eigen::Vector3d, 3>& triangle);
 
 /// The place where the line of a ray, to both sides, meets a surface nearest to its origin.
-/// @param positions  of the surface's vertices, mm   @return mm, not negative; nothing where it meets none
+/// @param positions  mm, one per vertex   @return mm, not negative; nothing where it meets none
 std::optional<double> distance_to_surface(const Ray& ray, const std::vector<std::array<int, 3>>& triangles,
                                           const std::vector<Eigen::Vector3d>& positions);
 
 /// Equal spheres about vertices of a surface, which together hold all of its vertices at rest.
 struct Spheres {
-  std::vector<int> vertices; ///< of the surface, one per sphere: its centre, which moves with it
+  std::vector<int> vertices; ///< centres, one per sphere: vertices of the surface, which move with it
   double radius;             ///< mm
 };
 
-/// Every next centre is the vertex furthest from those before it (farthest-point sampling; Gonzalez 1985: the
-/// radius is at most twice the smallest that so many spheres can have).
-/// @param positions  of the vertices at rest, mm, at least one
-/// @param n  > 0; of fewer vertices each is a centre, of a radius of 0
+/// Covers vertices; each next centre is the vertex furthest from those before (farthest-point sampling;
+/// Gonzalez 1985: the radius is at most twice the smallest that so many spheres can have).
+/// @param positions  mm, of the vertices at rest, at least one
+/// @param n  number of spheres, > 0; where vertices are fewer, each is a centre and the radius is 0
 Spheres cover(const std::vector<Eigen::Vector3d>& positions, std::size_t n);
 
-/// The sphere that a ray enters first, or begins in; in several, that with the centre nearest to its origin.
-/// @param positions  of the surface's vertices as they are now, mm
+/// Finds the sphere that a ray enters first or begins in; of several, the one centred nearest to its origin.
+/// @param positions  mm, where the surface's vertices are now
 /// @return its place among the spheres; nothing where the ray misses all
 std::optional<std::size_t> pick(const Spheres& spheres, const std::vector<Eigen::Vector3d>& positions,
                                 const Ray& ray);

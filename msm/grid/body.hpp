@@ -17,8 +17,8 @@ namespace springproof::msm::grid {
 /// The springs of one cell of a grid. A coarser cell need not be a cube: its edges differ, and its face
 /// diagonals.
 struct CellSprings {
-  std::array<double, 3> edge{};          ///< along x, y, z, N/mm
-  std::array<double, 3> face_diagonal{}; ///< in the planes yz, xz, xy, N/mm
+  std::array<double, 3> edge{};          ///< N/mm, along x, y, z
+  std::array<double, 3> face_diagonal{}; ///< N/mm, in the planes yz, xz, xy
   double internal_diagonal = 0;          ///< N/mm
   double volume = 0;                     ///< k_v, MPa
   bool is_empty() const;
@@ -39,18 +39,18 @@ class Ranks {
   virtual double largest(double value) const = 0;
 };
 
-/// What one of several ranks has of a grid: a box of nodes that it owns, and around it, where the grid goes
+/// One rank's part of a grid: a box of nodes that it owns, and around it, where the grid goes
 /// on, one layer of nodes that others own (ghosts), with the cells between. So every spring and every cell at
 /// an own node is here. Fields of all operators have their owners' values on ghosts, so that sums of fields
 /// need no messages; what adds up over nodes or springs counts own ones alone.
 struct Part {
   std::array<int, 3> first;               ///< node of the whole grid that is the part's node 0
   std::array<int, 3> own_first, own_last; ///< own nodes are first to last - 1, in the part's numbers
-  std::array<int, 3> whole_nodes;         ///< of the whole grid
+  std::array<int, 3> whole_nodes;         ///< nodes of the whole grid
   std::shared_ptr<const Ranks> ranks;
   /// The next coarser body: a part again, or the whole of it, which every rank then has.
   std::shared_ptr<const Body> coarser;
-  /// Where that is the whole of it: its nodes at and around this part, own ones as for parts.
+  /// If that is whole: its nodes at and around this part, with own ones as for parts.
   std::shared_ptr<const Body> coarser_here;
 
   bool owns(int i, int j, int k) const {
@@ -63,12 +63,12 @@ struct Part {
 struct Body {
   std::array<int, 3> cells;
   Eigen::Vector3d spacing;          ///< mm
-  std::vector<CellSprings> springs; ///< of every cell, x fastest, all 0 where there is none; or one for all
+  std::vector<CellSprings> springs; ///< one per cell, x fastest, all 0 where there is none; or one for all
   Layout layout;
   std::vector<std::ptrdiff_t> constrained; ///< entries of a field that never change: constrained dofs, and
                                            ///< entries without a cell. Sorted.
   std::optional<Part> part{};              ///< set when other ranks have the rest of the grid
-  std::optional<Exponents> exponents{};    ///< of power-log springs; none: Hooke's
+  std::optional<Exponents> exponents{};    ///< power-log springs'; none: Hooke's law
 
   bool is_uniform() const { return springs.size() == 1; }
   const CellSprings& cell(int i, int j, int k) const;
@@ -88,14 +88,14 @@ bool has_cell(const Body& body, int i, int j, int k);
 /// The same body in cells of twice the edge along those axes whose spacing is (almost) the smallest, so that
 /// cells tend to cubes; nothing when it is as coarse as it gets. A coarse spring has the energy of the fine
 /// ones in the same uniform strain; cells that are half outside have half the stiffness. A node is held where
-/// the fine node at its place is. Of a part, the coarser body that it brings.
+/// the fine node at its place is. For a part, returns the coarser body that it brings.
 std::optional<Body> coarsen(const Body& fine);
 
 /// Whether a body at rest resists every motion for a reason that counting shows: the 28 springs of a cell
 /// hold all distances between its vertices, cells that share a face share points that are not on a line and
 /// move as one, and each piece that hangs together by faces is held at three such points at least. It is not
 /// the only reason why a body may: false says nothing. Stiffnesses of less than a thousandth of the largest,
-/// or negative ones, do not count, and of a part of a body nothing is known.
+/// or negative ones, do not count; for a part of a body the answer is false.
 bool is_rigid_by_faces(const Body& body);
 
 /// The part of a whole body with own nodes first to last - 1 along each axis; ranks and coarser bodies are
@@ -138,11 +138,11 @@ inline double dot_of_piece(const float* a, const float* b, std::ptrdiff_t n) {
 
 } // namespace detail
 
-/// Over the nodes of the whole grid.
+/// Returns the dot product over the nodes of the whole grid.
 template<class Real>
 double dot(const Body& body, const Field<Real>& a, const Field<Real>& b, int n_threads) {
   if (body.part) return detail::dot_of_parts(body, a, b);
-  constexpr std::ptrdiff_t at_once = 64 * piece; // what the parts of lie on the stack
+  constexpr std::ptrdiff_t at_once = 64 * piece; // pieces whose sums lie on the stack
   double sum = 0;
   for (std::ptrdiff_t start = 0; start < a.size(); start += at_once) {
     std::array<double, 64> part{};
@@ -180,10 +180,10 @@ void clear_constrained(const Body& body, Field<Real>& field) {
 }
 
 /// Whether no two neighbours' displacements differ by midpoint_below of their distance.
-/// @param displacement  of this rank's nodes and ghosts, mm
+/// @param displacement  mm, on this rank's nodes and ghosts
 bool is_small(const Body& body, const Field<double>& displacement);
 
-/// As mechanics::grid::random_field(), of the entries that are not constrained.
+/// As mechanics::grid::random_field(), but 0 on constrained entries.
 template<class Real, class Distribution>
 Field<Real> random_field(const Body& body, unsigned seed, const Distribution& any_value) {
   const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};

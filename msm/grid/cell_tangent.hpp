@@ -20,13 +20,13 @@ class CellTangent {
  public:
   /// @param body  must outlive it
   explicit CellTangent(const Body& body);
-  /// @param displacement  of the cell's vertices, mm
+  /// @param displacement  mm, at the cell's vertices
   /// @return N/mm. Springs whose ends coincide, which have no direction, are left out
   CellMatrix at(const CellSprings& cell, const CellPositions& displacement) const;
 
  private:
   const Body& body_;
-  std::array<double, 8> rest_length_; ///< of a cell's springs, mm, by the axes along which they lead
+  std::array<double, 8> rest_length_; ///< mm, by the axes that a spring leads along
 };
 
 } // namespace springproof::msm::grid

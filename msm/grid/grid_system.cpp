@@ -24,7 +24,7 @@ CellSprings cell_springs(const CellStiffness& k) {
           k.volume};
 }
 
-/// Where a node of the mesh is here, if it is.
+/// Returns the place here of a node of the mesh, if it is here.
 std::optional<std::array<int, 3>> place_of(const Problem& problem, const Body& body, std::size_t node) {
   const cases::Grid& grid = *problem.mesh.grid;
   const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
@@ -40,7 +40,7 @@ std::optional<std::array<int, 3>> place_of(const Problem& problem, const Body& b
 /// Calls action(number of the mesh's node, its place here) for the nodes that are here.
 template<class Action>
 void for_each_node(const Problem& problem, const Body& body, const Action& action) {
-  if (const auto& whole = problem.mesh.nodes.rule) { // whose nodes are numbered by their places
+  if (const auto& whole = problem.mesh.nodes.rule) { // its nodes are numbered by their places
     const std::array<int, 3> first = body.part ? body.part->first : std::array<int, 3>{0, 0, 0};
     return for_each_place(body.layout.nodes, [&](int i, int j, int k) {
       const std::size_t row = index(first[1] + j) + index(whole->cells[1] + 1) * index(first[2] + k);
@@ -51,7 +51,7 @@ void for_each_node(const Problem& problem, const Body& body, const Action& actio
     if (const auto place = place_of(problem, body, n)) action(n, *place);
 }
 
-/// Zero where nothing is given.
+/// Makes a field of some nodes' vectors, 0 on the others.
 Field<double> to_field(const Problem& problem, const Body& body, const std::vector<cases::NodeVector>& some) {
   Field<double> field = Field<double>::Zero(3 * body.layout.size);
   for (const auto& [node, value] : some)
@@ -102,10 +102,10 @@ class MatrixFreeSystem : public GridSystem {
     return mode ? std::optional(mode->eigenvalue > 0) : std::nullopt;
   }
 
-  /// The tangent at rest has no negative eigenvalue. That it has no zero one shows in conjugate gradients
-  /// reaching every part of a random right side with a motion that it resists. Where rounding alone resists,
-  /// the answer is a huge motion, which stores next to nothing. On large bodies counting may spare that; on
-  /// small ones, it also shows whether the direct path has to take over.
+  /// The tangent at rest has no negative eigenvalue. It has no zero one if conjugate gradients reach every
+  /// part of a random right side with a motion that meets resistance. If rounding alone resists, the answer
+  /// is a huge motion, which stores next to no energy. On large bodies counting may spare this test; on small
+  /// ones the test also shows whether the direct path has to take over.
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     if (n_unknowns() > 3 * most_factorised && is_rigid_by_faces(problem_.body)) return RestState::sound;
@@ -174,7 +174,7 @@ class MatrixFreeSystem : public GridSystem {
       }
       if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
     }
-    if (!std::isfinite(eigenvalue)) return std::nullopt; // of a lattice whose stiffness is lost in rounding
+    if (!std::isfinite(eigenvalue)) return std::nullopt; // the stiffness is lost in rounding
     mode_ = Mode{eigenvalue, basis[0]};
     mode_at_ = displacement;
     return mode_;
@@ -223,8 +223,8 @@ class MatrixFreeSystem : public GridSystem {
 
  private:
   static constexpr int max_iterations = 300, max_mode_iterations = 100; ///< healthy lattices take 30
-  static constexpr double rounding = 1e-12; ///< of an eigenvalue: it leaves 1e-16, the softest lattice 1e-8
-  static constexpr double no_energy = 1e-18, no_stiffness = 1e-290; ///< as of the direct system
+  static constexpr double rounding = 1e-12; ///< relative eigenvalue: 1e-16 by rounding, 1e-8 softest lattice
+  static constexpr double no_energy = 1e-18, no_stiffness = 1e-290; ///< as in the direct system
 
   const GridProblem& problem_;
   int n_threads_;
@@ -321,7 +321,7 @@ GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStif
   result.load = to_field(problem, body, problem.force);
   clear_constrained(body, result.load);
   if (problem.supports) {
-    std::vector<std::ptrdiff_t> places; // of the points that move; -1: not here
+    std::vector<std::ptrdiff_t> places; // entries of the points that move; -1: not here
     for (const auto& [node, value] : problem.supports(0)) {
       const auto at = place_of(problem, body, index(node));
       places.push_back(at ? body.layout.at((*at)[0], (*at)[1], (*at)[2]) : -1);

@@ -14,13 +14,13 @@ struct GridProblem {
   /// Displacement (mm) of constrained entries at a load factor, as a field that is kept until the next call;
   /// empty: they stay at rest.
   std::function<const Field<double>&(double load_factor)> supports{};
-  std::size_t n_unknowns = 0; ///< of the whole grid, on all ranks
+  std::size_t n_unknowns = 0; ///< number in the whole grid, on all ranks
 };
 
 /// This rank's part of a whole body (collective), or the whole of it, which every rank then solves by itself.
 using DealOut = std::function<Body(Body whole)>;
 
-/// @param problem   on a grid; must outlive what is returned, if its supports move
+/// @param problem   has a grid; must outlive what is returned, if its supports move
 /// @param deal_out  empty: the body stays whole
 GridProblem make_grid_problem(const Problem& problem, const std::vector<CellStiffness>& stiffness,
                               const DealOut& deal_out = {});
@@ -39,7 +39,7 @@ std::unique_ptr<GridSystem> make_grid_system(const GridProblem& problem, int n_t
 /// from. Nothing when the coarse body does not carry the load, or there is none.
 std::optional<Vector> coarse_guess(const GridProblem& problem, int n_threads);
 
-/// Between fields and one vector (mm or N) per node of the problem's mesh.
+/// Converts between fields and one vector (mm or N) per node of the problem's mesh.
 /// @param sharing  the ranks that get the points together; null: a body that is whole here, and all points
 Points to_points(const Problem& problem, const Body& body, const Field<double>& field,
                  const cases::Sharing* sharing = nullptr);

@@ -23,7 +23,7 @@ HeldFactor::HeldFactor(const Body& body, const NodeVectors& vectors)
   });
 }
 
-/// A node meets those of its cells alone: every third node along each axis can be moved at once.
+/// Moves every third node along each axis at once: a node is coupled only with the nodes of its cells.
 Tangent::Matrix HeldFactor::matrix_of(const Operator& apply) const {
   const Layout& layout = body_.layout;
   std::vector<Eigen::Triplet<double>> lower;
@@ -58,9 +58,9 @@ Tangent::Matrix HeldFactor::matrix_of(const Operator& apply) const {
   return matrix;
 }
 
-/// Panels of rows, each column in steps of its own.
+/// Appends panels of rows, each column in steps of its own.
 void HeldFactor::append(const Eigen::MatrixXd& kept) {
-  for (Eigen::Index j = 0; j < kept.cols(); ++j) // of an inverse: no column is 0
+  for (Eigen::Index j = 0; j < kept.cols(); ++j) // columns hold an inverse: none is 0
     steps_.push_back(
         static_cast<float>(kept.col(j).cwiseAbs().maxCoeff() / std::numeric_limits<std::int16_t>::max()));
   const float* const step = steps_.data() + steps_.size() - kept.cols();

@@ -11,14 +11,14 @@
 namespace springproof::msm::grid {
 
 /// A symmetric operator of a small body (a tangent, with mass and damping), factorised in double precision
-/// and kept in 16 bits: a preconditioner for what the body becomes when it moves. On the vectors of
-/// its nodes.
+/// and kept in 16 bits: a preconditioner for the body as it moves on. It acts on the
+/// vectors of the nodes.
 class HeldFactor {
  public:
   using Operator = std::function<void(const Field<double>& direction, Field<double>& product)>;
 
   /// @param body     the whole of it; must outlive this
-  /// @param vectors  of the body
+  /// @param vectors  must be the body's
   HeldFactor(const Body& body, const NodeVectors& vectors);
 
   /// Takes 81 products, a factorisation, and memory.
@@ -31,9 +31,9 @@ class HeldFactor {
 
  private:
   const Body& body_;
-  Eigen::Index size_;                         ///< of a vector
-  std::vector<int> number_;                   ///< of the unknown of a field's entry; -1: it is constrained
-  std::vector<Eigen::Index> entries_;         ///< of unknowns, in a vector
+  Eigen::Index size_;                         ///< entries of a vector
+  std::vector<int> number_;                   ///< each field entry's unknown; -1: it is constrained
+  std::vector<Eigen::Index> entries_;         ///< each unknown's entry in a vector
   std::vector<Eigen::Index> ordered_entries_; ///< the same as the factor orders them
   std::vector<FactorBlock> blocks_;
   std::vector<int> rows_;

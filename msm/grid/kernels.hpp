@@ -25,22 +25,22 @@ using mechanics::grid::Layout;
 template<class Real>
 struct Springs {
   Layout layout;
-  Real rest[n_springs][3];     ///< from a node to its neighbour at rest
-  Real rest_length[n_springs]; ///< length of that
-  Real stiffness[n_springs];   ///< of one cell's spring; of 1 where `by_node` gives the stiffness
+  Real rest[n_springs][3];     ///< vector from a node to its neighbour at rest
+  Real rest_length[n_springs]; ///< its length
+  Real stiffness[n_springs];   ///< one cell's spring's; 1 where `by_node` gives the stiffness
   LawKind law;
-  Real parameter[n_springs]; ///< of the law
+  Real parameter[n_springs]; ///< the law's
   /// Without holes: number of cells that share a spring is share[dy + 1][dx + 1] of its node's place in the
   /// plane times share_z[k][dz + 1]. Arrays of layout.plane from the first node of a plane on, 0 for ghosts.
   const Real* share;
   const Real* share_z;
-  /// With holes or several stiffnesses: such arrays [k][spring]; else null.
+  /// Such arrays [k][spring], with holes or several stiffnesses; else null.
   const Real* by_node;
   /// The same as the springs are swept: blocks of the 13 springs of a pack of nodes, those that differ; null
   /// where by_node is.
   const Real* packed;
-  const int* block_of_pack; ///< in `packed`, of every pack of nodes, row by row; null where by_node is
-  /// Of every pack of nodes, row by row, PackUse as pack_stiffness() finds it; null where by_node is.
+  const int* block_of_pack; ///< each pack's block in `packed`, row by row; null where by_node is
+  /// PackUse of every pack of nodes, row by row, as pack_stiffness() finds it; null where by_node is.
   const unsigned char* pack_use;
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
@@ -106,7 +106,7 @@ struct Kernels {
   /// Diagonal 3x3 blocks of the tangent as six arrays: xx, yy, zz, yz, xz, xy. spill has six planes.
   void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
-  /// The stiffnesses by_node as springs are swept: a block of the 13 springs for every pack, row by row.
+  /// Orders the stiffnesses by_node as springs are swept: a block of 13 for every pack, row by row.
   void (*pack_stiffness)(const Springs<Real>&, Real* to, unsigned char* use);
   int pack; ///< numbers computed at once
 };
@@ -114,7 +114,7 @@ struct Kernels {
 /// Rows of a factor's block that lie together, column after column; the last may be 16.
 constexpr int panel_rows = 32;
 
-/// So that no pack has to be cut off.
+/// Rounds up to whole packs, so that none has to be cut off.
 constexpr int padded(int n) {
   return (n + 15) / 16 * 16;
 }
@@ -123,14 +123,14 @@ constexpr int padded(int n) {
 /// the inverse of D and, below it, B times that inverse, each column in steps of its own: 16 bits take half
 /// the time to read that single precision does, and reading is what a substitution takes its time for.
 struct FactorBlock {
-  int first;       ///< of its unknowns, which follow each other
-  int n_columns;   ///< its unknowns
+  int first;       ///< first of its unknowns, which follow each other
+  int n_columns;   ///< number of its unknowns
   int n_below;     ///< unknowns after them that they are coupled with ...
   const int* rows; ///< ... and which
   /// Panels of padded(n_columns + n_below) rows in all. Rows below are divided by `below`, which brings them
   /// to the size of the inverse.
   const std::int16_t* values;
-  const float* steps; ///< of the columns; 15 numbers more are read
+  const float* steps; ///< one per column; 15 numbers more are read
   float below;
   /// Numbers from one block to the next: whole lines of the cache.
   std::ptrdiff_t n_values() const {

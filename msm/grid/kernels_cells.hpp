@@ -13,8 +13,8 @@ constexpr int faces_at[8][3][3] = {{{4, 6, 2}, {1, 5, 4}, {2, 3, 1}}, {{3, 7, 5}
                                    {{2, 0, 4}, {7, 3, 2}, {4, 5, 7}}, {{5, 1, 3}, {3, 2, 6}, {6, 4, 5}}};
 
 /// dV/dx_a of the trilinear hexahedron: the volume under a bilinear face a, b, c, d, as seen from the origin,
-/// is the mean of what its two triangulations give; of its derivative with respect to a, the faces at a add
-/// (b x c + c x d + b x d) / 12.
+/// is the mean of what its two triangulations give. The derivative with respect to a is the sum over the
+/// faces at a of (b x c + c x d + b x d) / 12.
 template<class Real>
 SPRINGPROOF_INLINE void volume_gradients(const Vec<Real> (&x)[8], Vec<Real> (&g)[8]) {
 #pragma GCC unroll 8
@@ -64,7 +64,7 @@ struct Cells {
   }
 };
 
-/// Of the cells of plane k from node number `first` of the plane.
+/// Returns the cells of plane k from the plane's node number `first` on.
 template<class Real>
 SPRINGPROOF_INLINE Cells<Real> cells_from(const Springs<Real>& s, const Real* field, std::ptrdiff_t first,
                                           int k) {

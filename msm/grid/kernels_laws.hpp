@@ -37,7 +37,7 @@ struct Fast {
   SPRINGPROOF_INLINE static P exponential(const P& x) {
     return power_of_two(x);
   }
-  /// No number where J <= 0, by its bits, since -ffast-math knows no such thing. Where there is no cell, J is
+  /// NaN where J <= 0, set by its bits, since -ffast-math knows no NaN. Where there is no cell, J is
   /// anything, and k is 0.
   template<class Real>
   SPRINGPROOF_INLINE static Real log_volume(Real ratio, Real k) {

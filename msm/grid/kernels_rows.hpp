@@ -102,7 +102,7 @@ SPRINGPROOF_INLINE std::ptrdiff_t packed_row(const Layout& layout, int k, int j)
          pack_size<Real>;
 }
 
-/// What there is of a row's packs, of what there is of all packs row by row.
+/// Returns a row's packs, from data for all packs row by row.
 template<class Real, class T>
 SPRINGPROOF_INLINE T* of_packs(const Layout& layout, T* all, int k, int j) {
   return all + (std::ptrdiff_t{k} * layout.nodes[1] + j) * packs_of_row<Real>(layout);

@@ -1,7 +1,7 @@
 // Part of kernels_source.hpp, in its namespace: the springs, a pack of nodes at a time.
 #pragma once
 
-/// From a node to its neighbours along x, y and z at rest: springs 12, 10 and 4.
+/// Distances from a node to its neighbours along x, y and z at rest: springs 12, 10 and 4.
 template<class Real>
 SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
   return {s.rest[12][0], s.rest[10][1], s.rest[4][2]};
@@ -71,8 +71,8 @@ SPRINGPROOF_INLINE void clear_sums(Real* row, std::ptrdiff_t n) {
     clear_packs(row + (p * node_packs<Action> + sums_at<Action>)*pack_size<Real>, 9);
 }
 
-/// One vector field along a row into the scratch; h is what lies between neighbours. Packs that meet no
-/// spring keep what is there, which no spring reads.
+/// Copies one vector field along a row into the scratch; h is what lies between neighbours. Packs that meet
+/// no spring keep what is there, which no spring reads.
 template<std::ptrdiff_t stride, class Real>
 SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h, std::ptrdiff_t n,
                                const unsigned char* use, Real* to) {
@@ -90,7 +90,7 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
   }
 }
 
-/// One spring of a pack of nodes: the senders' sum grows, that of the nodes at the other end shrinks.
+/// Sweeps one spring of a pack of nodes: the senders' sum grows, that of the nodes at the other end shrinks.
 /// @param from  where the senders' places at rest are, seen from the other row's, less the senders'
 /// displacement
 /// @param to    the pack at the senders' place in the other row
@@ -114,8 +114,8 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
     store_three(sum, load_three(sum) - f);
 }
 
-/// The three springs of a group.
-/// @param edge  from a node to its neighbours along x, y, z at rest
+/// Sweeps the three springs of a group.
+/// @param edge  distances from a node to its neighbours along x, y, z at rest
 template<int group, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
                                     const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
@@ -130,11 +130,11 @@ SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>&
   sweep_spring<3 * group + 2>(action, from, v, stiffness, to, own);
 }
 
-/// All springs of a tile's packs in one row.
+/// Sweeps all springs of a tile's packs in one row.
 /// @tparam upwards  whether there is a plane above
 /// @param stiffnesses  blocks of a pack's springs
-/// @param blocks    of the packs; null: one after the other
-/// @param use       of the packs; null: all have springs
+/// @param blocks    each pack's block; null: one after the other
+/// @param use       each pack's use; null: all have springs
 template<bool upwards, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffnesses,
                                   const int* blocks, const unsigned char* use, Real* here, Real* above,
@@ -167,11 +167,11 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
   }
 }
 
-/// The results of a tile's part of a row from its sums. What goes to the node after the tile is left there
-/// for the next tile, which finds it; what goes to the node before it is added there.
-/// @param result  of the tile's first node
-/// @param n_nodes  that the row has from there on
-/// @param use      of the packs: where no spring is met the result stays as it is; null: all have springs
+/// Makes the results of a tile's part of a row from its sums. What goes to the node after the tile is left
+/// there for the next tile, which finds it; what goes to the node before it is added there.
+/// @param result   begins at the tile's first node
+/// @param n_nodes  number of nodes in the row from there on
+/// @param use      each pack's use: where no spring is met the result stays as it is; null: all have springs
 template<class Action, class Real>
 SPRINGPROOF_INLINE void fold(const Tile& t, const Real* sums, Real* result, std::ptrdiff_t distance,
                              std::ptrdiff_t n_nodes, const unsigned char* use) {

@@ -78,7 +78,7 @@ MergedCells merge(const Cells& finer, const std::array<int, 3>& factor) {
     for (int v = 0; v < 8; ++v)
       for (int corner = 0; corner < 8; ++corner) {
         if (!(weight_at(result.begins_at[cell], factor, v, corner) > 0)) continue;
-        int place = 0; // of the corner, against the node's own divided by the factor and rounded down
+        int place = 0; // the corner's, against the node's own divided by the factor and rounded down
         for (std::size_t a = 0; a < 3; ++a) {
           const int below = (finer.places[cell][a] + bit(v, a)) / factor[a];
           place |= (places[cell][a] + bit(corner, a) - below) << a;

@@ -8,7 +8,7 @@ namespace springproof::msm::grid {
 /// Cells of a grid and their nodes. Nodes are numbers: where the body has a gap, two may have the same place.
 struct Cells {
   std::vector<std::array<int, 3>> places{};
-  std::vector<std::array<int, 8>> nodes{}; ///< by the bits of x, y, z
+  std::vector<std::array<int, 8>> nodes{}; ///< each cell's, by the bits of x, y, z
   int n_nodes = 0;
 };
 
@@ -24,15 +24,14 @@ struct Weights {
 Weights transposed(const Weights& weights, int n_columns);
 
 /// Cells merged into coarser ones that hang together as they do. A coarse cell of a grid's body reaches over
-/// gaps narrower than itself, and moves both sides as one; here it is doubled, each side having one. The
-/// nodes of coarse cells are one where cells next to each other need it: where a node of theirs is
-/// interpolated from both. (Composite elements as of Nesme, Kry, Jerabkova, Faure 2009, that meet as the fine
-/// ones do.)
+/// gaps narrower than itself, and moves both sides as one; here it is doubled, each side having one.
+/// Neighbouring coarse cells share a node only where a finer node is interpolated from both. (Composite
+/// elements as of Nesme, Kry, Jerabkova, Faure 2009, that meet as the fine ones do.)
 struct MergedCells {
   Cells cells;
   /// Finer cells by coarse ones: cell c has those from first_finer[c] to first_finer[c + 1] - 1.
   std::vector<int> first_finer, finer_cells;
-  std::vector<std::array<int, 3>> begins_at; ///< of every finer cell: its place in the coarse one, 0 or 1
+  std::vector<std::array<int, 3>> begins_at; ///< each finer cell's place in the coarse one, 0 or 1
   std::array<int, 3> factor;                 ///< finer cells along each axis of a coarse one, 1 or 2
   Weights interpolation;                     ///< a row for every finer node, a column for every coarse one
 };

@@ -16,7 +16,7 @@ namespace {
 using cases::index;
 
 constexpr int n_nodes_factorised = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
-constexpr int n_dense_nodes = 600; ///< where cells can be merged no further; of more, the smoother must do
+constexpr int n_dense_nodes = 600;      ///< most where merging has ended; with more, the smoother must do
 
 constexpr std::ptrdiff_t nodes_at_once = 512, cells_at_once = 32; ///< pieces that threads share
 
@@ -39,9 +39,9 @@ void for_each_node(std::ptrdiff_t n, int n_threads, const Action& action) {
 struct FinestCells {
   explicit FinestCells(const Body& finest);
   Cells cells{};
-  std::vector<std::ptrdiff_t> entry{};        ///< of every node, along x
-  std::vector<std::array<bool, 3>> is_held{}; ///< every node's components
-  std::vector<int> n_cells{};                 ///< of every node
+  std::vector<std::ptrdiff_t> entry{};        ///< each node's in a field, along x
+  std::vector<std::array<bool, 3>> is_held{}; ///< each node's components
+  std::vector<int> n_cells{};                 ///< number of cells at each node
 };
 
 FinestCells::FinestCells(const Body& finest) {
@@ -197,7 +197,7 @@ class MergedLevel : public mechanics::grid::Level {
   MergedCells merged_;
   Weights restriction_; ///< transpose of the interpolation
 
-  /// The level's matrix, and the inverse of its diagonal.
+  /// Makes the level's matrix, and the inverse of its diagonal.
   /// @param of_finer  (cell of the finer level): its stiffness
   /// @param hold      (the same, weights of its corners by component): clears the rows of what is held
   template<class OfFiner, class Hold>
@@ -210,15 +210,15 @@ class MergedLevel : public mechanics::grid::Level {
  private:
   const MergedLevel* finer_;
   std::vector<CellMatrix> stiffness_;
-  std::vector<int> row_, column_; ///< of the matrix' blocks
+  std::vector<int> row_, column_; ///< first block of each row; each block's column
   std::vector<Block> matrix_, inverse_;
   std::vector<std::array<int, 64>> blocks_of_cell_;
   mechanics::grid::DenseFactor<float> factor_;
 
-  /// The cells' stiffness from that of the finer cells.
+  /// Makes the cells' stiffness from that of the finer cells.
   template<class OfFiner, class Hold>
   void gather_stiffness(const OfFiner& of_finer, const Hold& hold) {
-    std::array<Corners, 8> weights; // by where a finer cell begins: finer corners by coarse ones
+    std::array<Corners, 8> weights; // finer corners by coarse ones, for each begin of a finer cell
     for (int begin = 0; begin < 8; ++begin)
       for (int v = 0; v < 8; ++v)
         for (int corner = 0; corner < 8; ++corner)

@@ -11,8 +11,8 @@ namespace springproof::msm::grid {
 /// their cells at a boundary are wrong by as much as they are empty: a head at 1.6 mm takes two to four times
 /// the iterations of conjugate gradients with them.
 /// @param finest        is no part of a body; must outlive the levels, as must the fields
-/// @param displacement  of the finest body when the levels are linearised, mm
-/// @param added         to its tangent's diagonal; of no size: nothing
+/// @param displacement  mm, the finest body's when the levels are linearised
+/// @param added         added to its tangent's diagonal; empty: nothing
 void add_merged_levels(const Body& finest, const Field<float>& displacement, const Field<float>& added,
                        int n_threads, std::vector<std::unique_ptr<mechanics::grid::Level>>& levels);
 

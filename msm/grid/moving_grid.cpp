@@ -40,7 +40,7 @@ Body stiffened(const Body& a, double factor, const Body& b) {
   return all;
 }
 
-/// Of mass and damping in the equation of a step. A preconditioner does not mind the rounding of its length.
+/// Factors of mass and damping in a step's equation. A preconditioner does not mind their rounding.
 struct Factors {
   double mass = 0, damping = 0;
   bool are_of(const mechanics::StepTerms& terms) const {
@@ -88,7 +88,7 @@ class CycleSpeed {
  public:
   bool is_slow() const { return is_slow_; }
   void forget() { is_slow_ = true; }
-  /// @param is_prepared  for this solution
+  /// @param is_prepared  whether it was prepared for this solution
   void measure(int iterations, double forcing, bool is_prepared) {
     const double slowness = iterations / -std::log(forcing);
     if (is_prepared) usual_ = slowness;
@@ -177,18 +177,18 @@ class MovingGrid : public MovingSprings {
   Field<double> at_, in_, out_; ///< room for vectors as fields
   mechanics::grid::KeptFields<double> kept_;
   mechanics::grid::LinearSolution found_;
-  int linear_iterations_ = 0; ///< in this step
+  int linear_iterations_ = 0; ///< count in this step
 
-  std::optional<HeldFactor> factor_; ///< none of large bodies
+  std::optional<HeldFactor> factor_; ///< none for large bodies
   FactorSchedule schedule_;
 
-  std::optional<SpringLevels> multigrid_; ///< of these:
+  std::optional<SpringLevels> multigrid_; ///< made with these:
   Factors of_multigrid_;
-  std::optional<RealTimeSolver> real_time_; ///< of the same
-  bool is_set_ = false;                     ///< it knows this step
+  std::optional<RealTimeSolver> real_time_; ///< made anew with the cycle
+  bool is_set_ = false;                     ///< real_time_ knows this step
   CycleSpeed speed_;
   bool has_failed_ = false;
-  bool is_prepared_ = false; ///< in this step
+  bool is_prepared_ = false; ///< the cycle was, in this step
 
   /// Preconditioners with what pulls, where they are known for it.
   std::optional<WithPull<double>> factor_with_pull_, cycle_with_pull_;
@@ -223,7 +223,7 @@ class MovingGrid : public MovingSprings {
     add_damping(terms().damping, v, product);
   }
 
-  /// @param precondition  for multiply() times `scale`
+  /// @param precondition  approximate inverse of multiply() times `scale`
   /// @param with_pull     the same with what pulls, where it is known
   void solve(const Vector& at, const Vector& right_side, double forcing, Clamp clamp, int most_iterations,
              double scale, const std::function<void(const Vector&, Vector&)>& precondition,
@@ -250,13 +250,13 @@ class MovingGrid : public MovingSprings {
     linear_iterations_ += found_.iterations;
   }
 
-  /// What is left of the step's limit, or as many as there may be.
+  /// Returns what is left of the step's limit, or the given number if it has none.
   int most_iterations(int without_limit) const {
     const auto enough = terms().enough_linear_iterations;
     return enough ? std::max(1, *enough - linear_iterations_) : without_limit;
   }
 
-  /// Whether there is a factor for this step.
+  /// Whether there is a factor for this step; makes one that is due.
   bool has_factor(const Vector& at) {
     if (factor_ && schedule_.is_due()) {
       schedule_.make();
@@ -279,7 +279,7 @@ class MovingGrid : public MovingSprings {
     return is_done;
   }
 
-  /// Damping by stiffness is of the body at rest, here of the body where it is.
+  /// Makes the cycle. Damping by stiffness belongs to the body at rest; the cycle has that of the moved body.
   void make_multigrid() {
     of_multigrid_ = schedule_.step();
     multigrid_.emplace(damping_body_ ? stiffened(body_, of_multigrid_.damping, *damping_body_) : body_,
@@ -304,7 +304,7 @@ class MovingGrid : public MovingSprings {
     solve(at, residual, forcing, clamp, max_iterations, multigrid_->scale(), cycle, cycle_with_pull_);
   }
 
-  /// As far as the step's iterations go.
+  /// Solves as far as the step's iterations go.
   bool goes_by_cut_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
     const bool is_anew =
@@ -331,7 +331,7 @@ class MovingGrid : public MovingSprings {
     count_iterations();
   }
 
-  /// To the end, with a cycle that is prepared anew where it has become slow.
+  /// Solves to the end, with a cycle that is prepared anew where it has become slow.
   bool goes_by_cycles(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!multigrid_ || !of_multigrid_.are_of(terms())) make_multigrid();
     for (int attempt = speed_.is_slow() ? 1 : 0; attempt < 3; ++attempt) {

@@ -11,9 +11,9 @@ namespace springproof::msm::grid {
 /// those that moved too far from it, a multigrid cycle that is prepared anew where it has become slow; steps
 /// in real time by cycles are in single precision (RealTimeSolver). After the first steps it allocates
 /// nothing; the motion does not depend on the number of threads.
-/// @param vectors    of the motion, of grid.body; must outlive what is returned, as must grid and statics
+/// @param vectors    the motion's, for grid.body; must outlive what is returned, as must grid and statics
 /// @param statics    equations of `grid`
-/// @param inertia    whose damping is not looked at
+/// @param inertia    its damping is not used
 /// @param damping    cells of damping_springs()
 std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const GridProblem& grid,
                                                 const NodeVectors& vectors, GridSystem& statics,

@@ -14,7 +14,7 @@ NodeVectors::NodeVectors(const Body& body, bool are_fields)
     ++runs.back().length;
     ++n;
   });
-  constexpr double worth_it = 0.7; // of the places: below, copies take less time than what they spare
+  constexpr double worth_it = 0.7; // share of the places: below it, copies take less time than they spare
   if (static_cast<double>(n) > worth_it * static_cast<double>(n_)) return;
   runs_ = std::move(runs);
   n_ = n;

@@ -9,18 +9,18 @@ namespace springproof::msm::grid {
 /// Where there is little to gain, and on a part of a body, a vector is a field.
 class NodeVectors {
  public:
-  /// Of vectors that are the body's fields.
+  /// Returns an object whose vectors are the body's fields.
   static NodeVectors fields(const Body& body) { return NodeVectors(body, true); }
   explicit NodeVectors(const Body& body) : NodeVectors(body, false) {}
 
   bool are_fields() const { return runs_.empty(); }
-  Eigen::Index size() const { return 3 * n_; } ///< of a vector
+  Eigen::Index size() const { return 3 * n_; } ///< entries of a vector
 
-  /// A vector as a field.
-  /// @param room  where it is unless the vector is a field itself; ghosts and places without a cell are 0
+  /// Returns a vector as a field.
+  /// @param room  holds the result unless the vector is a field; ghosts and places without a cell are 0
   const Field<double>& to_field(const Field<double>& vector, Field<double>& room) const;
   /// Calls write(field) and takes what it wrote as a vector.
-  /// @param room  as of to_field(), of another field than those that write() reads
+  /// @param room  as for to_field(), but no field that write() reads
   template<class Write>
   void from_field(const Write& write, Field<double>& room, Field<double>& vector) const {
     if (are_fields()) {
@@ -32,13 +32,13 @@ class NodeVectors {
     gather(room, vector);
   }
   Field<double> from_field(const Field<double>& field) const;
-  /// field = factor * vector, in single precision; where it has no cell it stays as it is, or 0.
+  /// field = factor * vector, in single precision; places without a cell stay as they are, or 0.
   void to_field(const Field<double>& vector, double factor, Field<float>& field) const;
   /// vector = factor * field
   void from_field(const Field<float>& field, double factor, Field<double>& vector) const;
-  /// Of an entry of a field in a vector; -1: it has none.
+  /// Returns the entry of a vector for a field's entry; -1: it has none.
   Eigen::Index entry(std::ptrdiff_t of_field) const;
-  /// Of an entry of a vector in a field.
+  /// Returns the entry of a field for a vector's entry.
   std::ptrdiff_t in_field(Eigen::Index of_vector) const;
 
  private:
@@ -50,7 +50,7 @@ class NodeVectors {
   std::ptrdiff_t size_of_array_, size_of_field_, n_;
 
   NodeVectors(const Body& body, bool are_fields);
-  /// Calls action(place in a field, place in a vector, length) for what follows each other in both.
+  /// Calls action(place in a field, place in a vector, length) for every stretch that is contiguous in both.
   template<class Action>
   void for_each_run(const Action& action) const {
     for (int c = 0; c < 3; ++c)

@@ -12,8 +12,8 @@ namespace springproof::msm::grid {
 /// that both may be of any size.
 class RealTimeSolver {
  public:
-  /// @param vectors  of the motion, of the body; must outlive this
-  /// @param scale    of stiffness, as of the cycles that solve() is given
+  /// @param vectors  the motion's, for the body; must outlive this
+  /// @param scale    factor on stiffness, the same as in the cycles given to solve()
   /// @param damping  springs whose tangent at rest is damping by stiffness
   RealTimeSolver(const Body& body, const NodeVectors& vectors, double scale,
                  const std::optional<Body>& damping, int n_threads);
@@ -22,17 +22,17 @@ class RealTimeSolver {
   /// @param diagonal  mass and damping by mass in a step's equation, N/mm; 0 on constrained entries
   /// @param damping   factor of damping by stiffness in it
   void set_step(const Vector& diagonal, double damping);
-  /// What pulls from now on.
+  /// Sets what pulls from now on.
   void set_pull(const std::optional<Pull>& pull);
-  /// The cycle of solve() is another one from now on.
+  /// Must be called when the cycle given to solve() has changed.
   void has_cycle_changed();
 
   /// solution = (tangent + damping + diagonal + pull)^-1 right_side, as far as it is asked for.
   /// @param at       displacement, mm
   /// @param size     norm of the right side
-  /// @param forcing  residual to be left, over that
-  /// @param cycle    approximate inverse, of the same scale and without the pull
-  /// @return what it took, until the next call; its own solution is scaled
+  /// @param forcing  residual to be left, relative to that
+  /// @param cycle    approximate inverse, with the same scale and without the pull
+  /// @return iterations and outcome, valid until the next call; the solution in it is scaled
   const mechanics::grid::LinearSolutionIn<float>& solve(const Vector& at, Clamp clamp,
                                                         const Vector& right_side, double size, double forcing,
                                                         int most_iterations, SpringLevels& cycle,

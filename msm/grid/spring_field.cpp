@@ -134,7 +134,7 @@ void SpringField<Real>::pack_stiffness() {
   };
   block_of_pack_.resize(index(n_rows * n_packs));
   std::unordered_map<std::string_view, int> number;
-  std::vector<std::ptrdiff_t> first_pack; // with a block
+  std::vector<std::ptrdiff_t> first_pack; // first pack with each block
   for (std::ptrdiff_t t = 0; t < tiles_of_row(n_packs); ++t)
     for (std::ptrdiff_t row = 0; row < n_rows; ++row)
       for (std::ptrdiff_t p = first_of_tile(n_packs, t); p < first_of_tile(n_packs, t + 1); ++p) {
@@ -143,7 +143,7 @@ void SpringField<Real>::pack_stiffness() {
         if (is_new) first_pack.push_back(at);
         block_of_pack_[index(at)] = found->second;
       }
-  constexpr std::ptrdiff_t line = 64 / sizeof(Real); // of the cache
+  constexpr std::ptrdiff_t line = 64 / sizeof(Real); // numbers in a cache line
   const auto n_blocks = static_cast<std::ptrdiff_t>(first_pack.size());
   Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(n_blocks * block + line));
   const auto at = reinterpret_cast<std::size_t>(packed.data()) / sizeof(Real);
@@ -222,7 +222,7 @@ void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displac
   for_each_slab(6, inverse.data(), [&](const Slab<Real>& slab) {
     kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data());
   });
-  static constexpr int places[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // among the six arrays
+  static constexpr int places[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // numbers of the six arrays
   for_each_plane(layout, n_threads_, [&](int k) {
     for (int j = 0; j < layout.nodes[1]; ++j)
       for (int i = 0; i < layout.nodes[0]; ++i) {
@@ -274,7 +274,7 @@ double SpringField<Real>::small_motion_energy(const Field<Real>& motion) const {
         const double elongation = along.dot(u.col(w) - u.col(v));
         sum += 0.5 * stiffness_along(cell, {step[0], step[1], step[2]}) * elongation * elongation;
       }
-    double change = 0; // of the volume over the volume
+    double change = 0; // relative change of volume
     for (int v = 0; v < 8; ++v)
       for (int a = 0; a < 3; ++a) change += ((v >> a) & 1 ? 0.25 : -0.25) * u(a, v) / body_.spacing[a];
     return sum + 0.5 * cell.volume * body_.spacing.prod() * change * change;

@@ -24,7 +24,7 @@ class SpringField {
                Field<Real>& product) const;
   /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
   /// yy, zz, yz, xz, xy.
-  /// @param added  to the tangent's diagonal; of no size: nothing
+  /// @param added  added to the tangent's diagonal; empty: nothing
   void inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse,
                         const Field<Real>& added = {}) const;
   double energy(const Field<Real>& displacement) const;

@@ -14,7 +14,7 @@ using mechanics::grid::Chebyshev;
 
 namespace {
 
-constexpr double nearby = 1e-3;                  ///< of the shortest edge of a cell
+constexpr double nearby = 1e-3;                  ///< relative to the shortest edge of a cell
 constexpr std::ptrdiff_t n_coarsest_nodes = 100; ///< a dense factorisation of 300 unknowns takes about 1 ms
 
 /// Calls action(stiffness) for all stiffnesses of a body.
@@ -30,7 +30,7 @@ void for_each_stiffness(AnyBody& body, const Action& action) {
 
 /// A preconditioner may have any scale. This one keeps single precision in range, and changes no other digit.
 double scale_of(const Body& finest) {
-  double largest = 0; // of all ranks
+  double largest = 0; // maximum over all ranks
   for_each_stiffness(finest, [&](double k) { largest = std::max(largest, k); });
   if (finest.part) largest = finest.part->ranks->largest(largest);
   return std::ldexp(1, largest > 0 ? -std::ilogb(largest) : 0);
@@ -73,7 +73,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   }
 
   Field<float> displacement;
-  Field<float> diagonal; ///< besides that of the springs; of no size: none
+  Field<float> diagonal; ///< added to that of the springs; empty: none
 
   void restrict_diagonal() {
     diagonal.setZero(displacement.size());
@@ -94,8 +94,8 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   }
   void complete(Field<float>& solution) const override { update_ghosts(body_, solution); }
 
-  /// Of the preconditioned matrix no eigenvalue is much less than the least share that the added diagonal has
-  /// in an inverse block.
+  /// No eigenvalue of the preconditioned matrix is much below the least share of the added diagonal in a
+  /// diagonal block.
   bool needs_no_coarser(const Chebyshev& smoother) const override {
     if (diagonal.size() == 0 || body_.part || is_merged(body_)) return false;
     const auto inverse = inverse_diagonal_.head(diagonal.size()).array(); // xx, yy, zz
@@ -132,7 +132,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   const Body& body_;
   SpringField<float> springs_;
   const SpringLevel* finer_;
-  std::optional<Transfer<float>> transfer_; ///< from the finer level and back
+  std::optional<Transfer<float>> transfer_; ///< between the finer level and this one
   mechanics::grid::DenseFactor<double> factor_;
 };
 
@@ -161,7 +161,7 @@ void SpringLevels::set_diagonal(const Field<double>& diagonal) {
 
 void SpringLevels::linearise(const Field<double>& displacement) {
   const Body& finest = bodies_.front();
-  // A preconditioner may be of a place nearby.
+  // A preconditioner may come from a place nearby.
   if (is_linearised_ &&
       on_all_ranks(finest, (linearised_at_ - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
                                nearby * finest.spacing.minCoeff()))

@@ -12,17 +12,17 @@ Body scaled(Body body, double factor);
 
 /// What a cycle smooths with in equilibrium: the lowest motions of a body take most of the iterations.
 constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
-/// And in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
+/// The same in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
 constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
 
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: a
 /// multigrid cycle. Coarse lattices are rediscretised at the sampled displacement, down to few enough nodes
-/// for a dense factorisation; of bodies with gaps or of several stiffnesses they are merged cells
-/// (merged_levels.hpp). Coarse diagonals are the fine one restricted, as masses are; below a level where the
-/// diagonal holds all eigenvalues in the smoother's range the cycle does not go.
+/// for a dense factorisation; for bodies with gaps or several stiffnesses they are merged cells
+/// (merged_levels.hpp). Coarse diagonals are the fine one restricted, as masses are; the cycle ends at a
+/// level where the diagonal holds all eigenvalues in the smoother's range.
 class SpringLevels {
  public:
-  /// @param finest  on a part of a body every function is collective
+  /// @param finest  every function is collective if it is a part of a body
   SpringLevels(const Body& finest, int n_threads,
                const mechanics::grid::Chebyshev& smoother = smoother_at_rest);
 
@@ -30,8 +30,8 @@ class SpringLevels {
   double scale() const { return scale_; }
   int n_levels() const { return static_cast<int>(cycle_.levels.size()); }
 
-  /// From the next linearise() on.
-  /// @param diagonal  of the finest body, N/mm times scale(); 0 on constrained entries
+  /// Sets the added diagonal from the next linearise() on.
+  /// @param diagonal  N/mm times scale(), on the finest body; 0 on constrained entries
   void set_diagonal(const Field<double>& diagonal);
 
   /// Prepares the cycle at a displacement of the finest body, mm.
@@ -39,7 +39,7 @@ class SpringLevels {
 
   /// solution = cycle(right_side), both of the finest body.
   void apply(const Field<double>& right_side, Field<double>& solution);
-  /// The same of a right side that leaves single precision in range, near 1 in norm.
+  /// The same for a right side with a norm near 1, which keeps single precision in range.
   void apply(const Field<float>& right_side, Field<float>& solution) { cycle_.apply(right_side, solution); }
 
  private:
@@ -48,7 +48,7 @@ class SpringLevels {
   double scale_;
   std::deque<Body> bodies_;
   mechanics::grid::Cycle cycle_;
-  std::vector<SpringLevel*> rediscretised_; ///< of the cycle's levels those that are lattices
+  std::vector<SpringLevel*> rediscretised_; ///< the cycle's levels that are lattices
   Field<double> linearised_at_;
   bool is_linearised_ = false;
 };

@@ -6,7 +6,7 @@ namespace springproof::msm::grid {
 
 namespace {
 
-/// Between all nodes of a grid on every rank, and a part's.
+/// Copies between a field of the whole grid, on every rank, and a part's.
 template<class Real>
 void gather(const Body& here, const Field<Real>& part, const Body& whole, Field<Real>& all) {
   all.setZero();
@@ -96,7 +96,7 @@ void Transfer<Real>::sample(const Field<Real>& fine, Field<Real>& coarse) const 
 template<class Real>
 void Transfer<Real>::sample_here(const Field<Real>& fine, Field<Real>& coarse) const {
   const Layout &from = fine_.layout, &to = coarse_here_.layout;
-  // Of a part's ghosts not all cells are here: such a mean may be of fewer nodes than on the whole body,
+  // Some cells at a part's ghosts are not here: their means may have fewer nodes than on the whole body,
   // which only the preconditioner meets.
   const auto moves = [&](int i, int j, int k) {
     return has_cell_.empty() ||

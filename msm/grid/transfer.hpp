@@ -24,11 +24,11 @@ class Transfer {
  private:
   const Body& fine_;
   const Body& coarse_;
-  const Body& coarse_here_; ///< of a fine part: the part of the coarse body around it
+  const Body& coarse_here_; ///< coarse_, or its part around a fine part
   int n_threads_;
-  std::array<int, 3> factor_, shift_; ///< of the interpolation
+  std::array<int, 3> factor_, shift_; ///< as in Interpolation
   mechanics::grid::Interpolation<Real> interpolation_;
-  std::vector<char> has_cell_; ///< of every node of the fine body; empty: of all
+  std::vector<char> has_cell_; ///< one per node of the fine body; empty: all have
 
   bool gathers() const { return &coarse_ != &coarse_here_; }
   template<class Make>
