@@ -47,7 +47,7 @@ mechanics::StateOnMesh AssembledBody::on_mesh() {
           {displacements, cell_volumes}};
 }
 
-/// Of this rank's nodes.
+/// Lists the rest position and displacement (mm) of this rank's nodes, 6 numbers each.
 std::vector<double> AssembledBody::node_displacements(const State& state) const {
   std::vector<double> numbers;
   for (int node = 0; node < discretisation.nodes.n_owned; ++node) {
@@ -99,7 +99,7 @@ cases::Fields fields_of(AssembledBody& body, const State& state, const cases::Sh
   return sums.fields(sharing, load_factor);
 }
 
-/// By the same kernels as the assembled backend's, one element at a time.
+/// Evaluates the fields with the assembled backend's kernels, one element at a time.
 cases::Fields fields_of(const grid::GridBody& body, const State& state, const cases::Sharing* sharing,
                         double load_factor) {
   const cases::Scene& scene = body.scene;

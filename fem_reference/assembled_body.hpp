@@ -11,8 +11,8 @@ namespace springproof::fem_reference {
 /// The case's formulation with each of the scene's materials.
 std::vector<Formulation> formulations_of(const cases::Scene& scene);
 
-/// A scene as assembled finite elements, and what their states say of the body's own mesh. Member functions
-/// have the names of those of grid::GridBody.
+/// A scene as assembled finite elements, with their states evaluated on the body's own mesh. The member
+/// functions are named like those of grid::GridBody.
 struct AssembledBody {
   /// @param on_mesh  the scene on the body's own mesh; definition.fem.refine is applied here
   /// @throws InputError for a combination of material, formulation and element that has no meaning
@@ -22,7 +22,7 @@ struct AssembledBody {
 
   cases::Scene scene;                    ///< on the body's own mesh
   std::vector<Formulation> formulations; ///< one for each of the scene's materials
-  Discretisation discretisation;         ///< of the refined mesh
+  Discretisation discretisation;         ///< the refined mesh's
   EquilibriumEquations equations;
 
   mechanics::StateOnMesh on_mesh();
@@ -31,13 +31,13 @@ struct AssembledBody {
   void set_in_motion(const mechanics::EquilibriumSettings&);
 };
 
-/// Norms of a state, when the case measures some that the body's nodes do not tell. Collective.
+/// Norms of a state, if the case measures norms that need more than the body's nodes. Collective.
 std::optional<cases::FieldNorms> norms_of(AssembledBody& body, const State& state,
                                           const cases::Sharing* sharing);
 std::optional<cases::FieldNorms> norms_of(const grid::GridBody& body, const State& state,
                                           const cases::Sharing* sharing);
 
-/// Fields of an equilibrium at a load factor. Collective.  @param sharing  of its solution
+/// Fields of an equilibrium at a load factor. Collective.  @param sharing  the solution's
 cases::Fields fields_of(AssembledBody& body, const State& state, const cases::Sharing* sharing,
                         double load_factor);
 cases::Fields fields_of(const grid::GridBody& body, const State& state, const cases::Sharing* sharing,

@@ -14,7 +14,7 @@ using State = mechanics::Vector;
 /// The loop over cells: internal forces, the assembled tangent, and what the condensed pressures need.
 class Assembly {
  public:
-  /// @param formulations  of each of the discretisation's materials
+  /// @param formulations  one for each of the discretisation's materials
   Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
   /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
@@ -28,12 +28,12 @@ class Assembly {
 
   /// Sets the pressures that belong to a correction's displacement.
   void complete_correction(State& correction) const;
-  /// For a linear body's next correction: the pressures of the state it starts from are balanced.
+  /// Takes the pressures of the current state as balanced, for a linear body's next correction.
   void pressures_are_balanced();
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state);
   /// Adds this rank's cells to fields on the body's own mesh.
-  /// @param n_refinements  of the discretisation's mesh
+  /// @param n_refinements  number of refinements from the body's own mesh to the discretisation's
   void add_fields(const State& state, int n_refinements, ElementFields& fields);
   void add_norms(const State& state, DisplacementNorms& norms);
 

@@ -17,14 +17,14 @@ enum class Backend {
 };
 
 /// What `automatic` means for a scene's body and element.
-/// @param n_nodes  of the elements, after fem.refine; the scene's own mesh may be without nodes
+/// @param n_nodes  number of the elements' nodes after fem.refine; the scene's own mesh may have no nodes
 Backend choose_backend(const cases::Scene& scene, double n_nodes);
 
-/// The backend of a scene with its mesh: what is asked for, or what `automatic` means for it.
-/// @throws InputError where the grid's is asked for and cannot be
+/// The backend of a scene with its mesh: the one asked for, or what `automatic` means for the scene.
+/// @throws InputError if the grid backend is asked for and cannot serve this scene
 Backend backend_of(const cases::Scene& scene, Backend asked);
 
-/// What an answer says that the assembled backend gave in place of the grid's.
+/// Remark on a solution that the assembled backend gave in place of the grid backend.
 constexpr const char* by_assembled_tangent =
     "by the assembled tangent: the matrix-free multigrid does not converge for this body";
 
@@ -38,11 +38,11 @@ constexpr long direct_solver_limit = 120000;
 /// can be factorised: 25 a linear solve at 1000, Newton's method fails at 5000.
 constexpr double most_incompressible = 1500;
 
-/// How often the elements' nodes halve the edges of a mesh's cells: by fem.refine, and by quadratic elements.
+/// Number of times the edges of a mesh's cells are halved by nodes: by fem.refine, and by quadratic elements.
 int n_halvings(const cases::Fem& fem);
 
-/// About, of the elements of a mesh as fem.refine divides it: the number that choices go by.
-/// @param n_nodes  of the mesh
+/// Approximate number of element nodes after fem.refine, which decides between backends and solvers.
+/// @param n_nodes  number of the mesh's nodes
 double n_element_nodes(const cases::Fem& fem, double n_nodes);
 inline double n_element_nodes(const cases::Scene& scene) {
   return n_element_nodes(scene.definition.fem, double(scene.mesh.nodes.size()));

@@ -76,7 +76,7 @@ void Constraints::prescribe_at(double time, std::vector<double>& displacement) c
   prescribe_moved([=](const cases::Moved& motion) { return motion.history.at(time); }, displacement);
 }
 
-/// @param factor  of a motion
+/// Sets the moved degrees of freedom.  @param factor  returns the factor of a motion (Moved)
 template<class Factor>
 void Constraints::prescribe_moved(const Factor& factor, std::vector<double>& displacement) const {
   for (const auto& [node, rest, motion] : moved_) {

@@ -7,7 +7,7 @@ namespace springproof::fem_reference {
 
 namespace {
 
-/// On the unit interval, at one point: the shape functions and their slopes.
+/// Shape functions on the unit interval and their slopes, at one point.
 struct Interval {
   double value[3], slope[3];
 };

@@ -96,9 +96,8 @@ void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& 
     add(load, node, cases::mass_of(added, nodes.mesh_node[index(node)]) * gravity);
 }
 
-/// Holds what a vector (N per owned degree of freedom) has of the scene's loads as a whole against what they
-/// are: a load that elements do not apply is no load, in motion too, where nothing holds reactions against
-/// it.
+/// Compares the resultant of a load vector (N per owned degree of freedom) with that of the scene's loads.
+/// Elements that leave out a load must not go unnoticed, in motion either, where reactions do not show it.
 /// @throws SolveError
 void check_resultant(const cases::Scene& scene, const std::vector<double>& load, MPI_Comm communicator) {
   constexpr double tolerance = 1e-6; // far above what quadrature and rounding leave

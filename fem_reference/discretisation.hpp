@@ -24,16 +24,16 @@ class Discretisation {
   Nodes nodes;
   Geometry geometry;
   Constraints constraints;
-  std::vector<double> load; ///< N per owned degree of freedom: of the scene's loads, and the body force
+  std::vector<double> load;          ///< N per owned degree of freedom: the scene's loads and the body force
   std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
 
-  /// Loads at full load of a scene that differs from this one's in them alone, N per owned degree of freedom.
+  /// Full load of a scene that differs from this one in its loads alone, N per owned degree of freedom.
   std::vector<double> load_of(const cases::Scene& scene) const;
 
   /// A ghosted vector of displacements or forces, zero.
   Vector make_vector() const { return nodes.make_vector(communicator); }
-  /// For those who assemble the tangent: a zero matrix with its sparsity, which takes values at local degrees
-  /// of freedom. Rows and columns of constrained degrees of freedom have their diagonal alone.
+  /// A zero matrix with the tangent's sparsity, which takes values at local degrees of freedom. Rows and
+  /// columns of constrained degrees of freedom have their diagonal alone.
   Matrix make_tangent_matrix() const;
 };
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cassert>
 
-/// Of BLAS: C = A B, each as it is ("N") or transposed ("T"), by columns.
+/// BLAS's product C = A B, each factor as it is ("N") or transposed ("T"), stored by columns.
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* rows, const int* columns,
                        const int* inner, const double* alpha, const double* a, const int* stride_a,
                        const double* b, const int* stride_b, const double* beta, double* c,

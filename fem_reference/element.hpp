@@ -21,7 +21,7 @@ enum class Pressure {
 /// One row of the table of elements.
 struct ElementType {
   cases::Element name;
-  int degree; ///< of the displacement, per direction
+  int degree; ///< the displacement's, per direction
   Pressure pressure;
   int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, discontinuous
 };
@@ -65,11 +65,11 @@ class CellKernel {
   /// @return valid until the next call
   const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* pressure,
                              Wanted wanted);
-  /// Strain energy of the cell in a state that evaluate() finds valid, N mm; with pressure modes, of the
-  /// volume ratios that belong to the pressures.
+  /// Strain energy of the cell in a state that evaluate() finds valid, N mm. With pressure modes the volume
+  /// ratios follow from the pressures.
   virtual double energy(const CellGeometry& geometry, const double* displacement,
                         const double* pressure) const = 0;
-  /// Volume that the cell has where its nodes have gone, mm³, whatever the kinematics of its law.
+  /// Volume of the cell with its nodes displaced, mm³, whatever the kinematics of its law.
   static double deformed_volume(const CellGeometry& geometry, const double* displacement);
 
  protected:

@@ -61,8 +61,8 @@ void ElementFields::add(const ElementState& element) {
 
 namespace {
 
-/// Loads that elements share out among nodes as the scene does: all, but for what regions of a refined mesh
-/// share by its own nodes, and the weight of cells that are no boxes.
+/// Whether elements give each node the same load as the scene does. They do not for forces and masses that a
+/// region's nodes share on a refined mesh, nor for the weight of cells that are no boxes.
 mechanics::Balance balance_of(const cases::Scene& scene) {
   const bool has_gravity = !cases::gravity(scene).isZero(0);
   bool is_shared_by_nodes = has_gravity && !scene.masses.empty();
@@ -86,7 +86,7 @@ cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_f
 
 namespace {
 
-/// On the unit interval, the polynomial that is 1 at one of the nodes 0, 1/degree, ... 1 and 0 at the others.
+/// Lagrange's polynomial on the unit interval: 1 at one of the nodes 0, 1/degree, ... 1 and 0 at the others.
 double lagrange(int degree, double node, double x) {
   double value = 1;
   for (int other = 0; other <= degree; ++other)

@@ -16,7 +16,7 @@ struct ElementPlace {
 /// number's last three bits being the octant.
 ElementPlace place_of(std::size_t refined_cell, int n_refinements);
 
-/// What one element adds to the fields. Arrays as of CellKernel::evaluate().
+/// What one element adds to the fields. Arrays are laid out as in CellKernel::evaluate().
 struct ElementState {
   ElementPlace place;
   CellGeometry geometry;
@@ -30,13 +30,13 @@ struct ElementState {
 /// support's force on every mesh, and a node's has a limit under refinement.
 class ElementFields {
  public:
-  /// @param scene  on the body's own mesh    @param nodes  of an element, in its unit cube
-  /// @param cells  that hold those of all elements that are added here
+  /// @param scene  the scene on the body's own mesh    @param nodes  an element's nodes in its unit cube
+  /// @param cells  range that contains the body's cells of all elements to be added
   ElementFields(const cases::Scene& scene, Kinematics kinematics, std::vector<Eigen::Vector3d> nodes,
                 const cases::Range& cells);
 
   void add(const ElementState& element);
-  /// Of an equilibrium under the scene's loads times a factor: mechanics::fields_of(). Once.
+  /// Fields of an equilibrium under the scene's loads times a factor: mechanics::fields_of(). Call it once.
   cases::Fields fields(const cases::Sharing* sharing, double load_factor);
 
  private:
@@ -49,9 +49,9 @@ class ElementFields {
 /// Norms of the elements' own displacement over the body at rest, of all of its nodes.
 class DisplacementNorms {
  public:
-  /// @param nodes  of an element, in its unit cube
+  /// @param nodes  an element's nodes in its unit cube
   DisplacementNorms(int degree, const std::vector<Eigen::Vector3d>& nodes);
-  /// @param displacement  mm, as of CellKernel::evaluate()
+  /// @param displacement  mm, as in CellKernel::evaluate()
   void add(const CellGeometry& geometry, const double* displacement);
   /// Collective.
   cases::FieldNorms norms(const cases::Sharing* sharing) const;
@@ -61,7 +61,7 @@ class DisplacementNorms {
   double integral_ = 0, volume_ = 0, largest_ = 0;
 };
 
-/// Whether a case measures norms of the displacement that the nodes of the body's mesh do not tell.
+/// Whether a case measures displacement norms that need more than the nodes of the body's mesh.
 bool has_own_norms(const cases::Case& definition, int degree);
 
 } // namespace springproof::fem_reference

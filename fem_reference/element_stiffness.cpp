@@ -46,7 +46,7 @@ ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertice
   const CellResult& result = kernel.evaluate({8, 8, gradients.data(), weights.data(), constant_mode.data()},
                                              rest.data(), rest.data(), Wanted::stress_and_tangent);
   ElementStiffness stiffness;
-  for (int row = 0; row < 24; ++row) // of degree of freedom i*8 + a in the kernel
+  for (int row = 0; row < 24; ++row) // the kernel numbers degrees of freedom i*8 + a
     for (int column = 0; column < 24; ++column)
       stiffness(3 * (row % 8) + row / 8, 3 * (column % 8) + column / 8) = result.tangent(row, column);
   return stiffness;

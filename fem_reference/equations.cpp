@@ -118,7 +118,7 @@ void EquilibriumEquations::set_step(const mechanics::StepTerms& terms) {
   has_tangent_ = false;
 }
 
-/// On free degrees of freedom of this rank; 0 elsewhere.
+/// Multiplies on free degrees of freedom of this rank; the product is 0 elsewhere.
 void EquilibriumEquations::multiply(const LocalMatrix& matrix, const State& motion, State& product) {
   const auto n = static_cast<Eigen::Index>(n_dofs());
   {
@@ -153,13 +153,13 @@ void EquilibriumEquations::complete(State& motion) {
   assembly_.complete_correction(motion);
 }
 
-/// N, of a degree of freedom of this rank.
+/// Load on a degree of freedom of this rank, N.
 double EquilibriumEquations::load(std::size_t dof, double load_factor) const {
   return step_ ? step_->force[static_cast<Eigen::Index>(dof)] : load_factor * discretisation_.load[dof];
 }
 
-/// To the internal force; and where a tangent is wanted, to it and to the right side, which knows what the
-/// gap will add.
+/// Adds the step's inertia and damping to the internal force. If a tangent is wanted, adds them to it and to
+/// the right side as well, there with the part that the gap will add.
 void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
   const auto n = static_cast<Eigen::Index>(n_dofs());
   const auto add = [&](const State& way, Vec to) {
@@ -201,12 +201,12 @@ void EquilibriumEquations::add_to_tangent(const LocalMatrix& added) {
   check(MatAssemblyEnd(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
 }
 
-/// With the tangent and the right side; but a tangent that cannot have changed since it was last assembled, a
-/// linear body's, is left as it is. The state's pressures are balanced: at rest or solved for.
+/// Evaluates with the tangent and the right side. A linear body's tangent, once assembled, is left as it is:
+/// it cannot have changed. The state's pressures are balanced: at rest or solved for.
 void EquilibriumEquations::evaluate_for_direction(const State& state, double load_factor) {
   if (is_linear() && has_tangent_) {
     evaluate(state, load_factor, Wanted::stress);
-    // Supports that have to move ask the tangent for the forces of that; supports that a step in time has
+    // The tangent is needed for the forces of supports that have to move; supports that a step in time has
     // moved leave pressures behind.
     if (largest_gap_ == 0 && (!step_ || size_.constraints_hold)) {
       assembly_.pressures_are_balanced();

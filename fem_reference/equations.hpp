@@ -15,7 +15,7 @@ constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's cond
 /// have no inertia.
 class EquilibriumEquations : public mechanics::petsc::DistributedProblem<ElementEquations> {
  public:
-  /// @param formulations  of each of the discretisation's materials: one formulation, several materials
+  /// @param formulations  one for each of the discretisation's materials, which alone differ
   EquilibriumEquations(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
   State rest() const override {
@@ -30,7 +30,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
   /// exact.
   mechanics::Merit merit() const override;
-  /// Of the tangent last solved with.
+  /// Stability by the tangent last solved with.
   std::optional<bool> is_stable(const State& at) override;
   Work work() const override { return {solver_.n_iterations(), solver_.n_factorisations(), n_evaluations_}; }
 
@@ -40,9 +40,9 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
 
   std::optional<int> negative_eigenvalues() const override { return negative_eigenvalues_; }
 
-  /// Gives the body the masses, damping and loads in time of a scene: the functions below are about these.
-  /// @param scene        that the discretisation is of: already refined
-  /// @param formulations  as of the constructor
+  /// Gives the body a scene's masses, damping and loads in time, which the functions below use.
+  /// @param scene         the discretisation's, already refined
+  /// @param formulations  as in the constructor
   void set_in_motion(const cases::Scene& scene, const std::vector<Formulation>& formulations);
   void mass_product(const State& motion, State& product) override {
     multiply(motion_->inertia.mass, motion, product);
@@ -52,16 +52,16 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   }
   void external_force(double time, State& force) override;
   void supports_at(double time, State& displacement) const override;
-  /// Of a velocity whose own degrees of freedom are given: those of other ranks, and the pressures that
-  /// belong to them in a linear body.
+  /// Completes a velocity whose own degrees of freedom are given: sets those of other ranks and, in a linear
+  /// body, the pressures that belong to them.
   void complete(State& motion) override;
-  /// Residuals are from now on those of the step, whatever the load factor, relative to its scale.
+  /// Makes residuals those of the step, relative to its scale, whatever the load factor.
   void set_step(const mechanics::StepTerms& terms) override;
 
   /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
   std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
   void add_norms(const State& state, DisplacementNorms& norms) { assembly_.add_norms(state, norms); }
-  /// As of Assembly.
+  /// See Assembly.
   void add_fields(const State& state, int n_refinements, ElementFields& fields) {
     assembly_.add_fields(state, n_refinements, fields);
   }
@@ -78,11 +78,11 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   void measure(std::optional<double> volume_mismatch, double load_factor);
 
   const Discretisation& discretisation_;
-  Formulation formulation_; ///< of the first material
+  Formulation formulation_; ///< the first material's
   Assembly assembly_;
   LinearSolver solver_;
   Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
-  Vector right_hand_side_; ///< of the Newton system
+  Vector right_hand_side_; ///< the Newton system's
   Vector correction_;      ///< its solution
   Vector inertia_force_;   ///< what a step in time adds
   struct Motion {
@@ -91,12 +91,12 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
     LocalMatrix added; ///< mass M + damping C of the step, N/mm; its pattern is part of the tangent's
     Vector moved;      ///< with ghosts
   };
-  std::optional<Motion> motion_; ///< of a body in motion
+  std::optional<Motion> motion_; ///< present for a body in motion
   std::optional<mechanics::StepTerms> step_;
   double load_norm_ = 0;
   long n_evaluations_ = 0, n_tangents_ = 0;
-  bool has_tangent_ = false; ///< one that was assembled at a valid state
-  // of the state last evaluated
+  bool has_tangent_ = false; ///< it was assembled at a valid state
+  // results for the state last evaluated
   bool has_right_hand_side_ = false;
   Size size_ = {};                     ///< not finite: inverted at a quadrature point, or not a number
   std::vector<double> prescribed_gap_; ///< mm per local degree of freedom

@@ -7,8 +7,8 @@
 
 namespace springproof::fem_reference {
 
-/// A row and a column for every local degree of freedom, constrained ones too; what this rank's cells and
-/// nodes add to them.
+/// A matrix with a row and a column for every local degree of freedom, constrained ones too. It holds what
+/// this rank's cells and nodes add.
 using LocalMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct Inertia {
@@ -16,8 +16,8 @@ struct Inertia {
   LocalMatrix damping; ///< N s/mm: mass_damping M + stiffness_damping K(rest), cell by cell
 };
 
-/// @param scene         that the discretisation is of: already refined
-/// @param formulations  of each of its materials
+/// @param scene         the discretisation's, already refined
+/// @param formulations  one for each of its materials
 Inertia make_inertia(const cases::Scene& scene, const Discretisation& discretisation,
                      const std::vector<Formulation>& formulations);
 

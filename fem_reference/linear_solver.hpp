@@ -33,7 +33,7 @@ class LinearSolver {
   TangentSymmetry symmetry_;
   bool is_direct_;
   long n_iterations_ = 0, n_factorisations_ = 0;
-  long tangent_number_ = 0; ///< of the tangent last solved with
+  long tangent_number_ = 0; ///< number of the tangent last solved with
 };
 
 } // namespace springproof::fem_reference

@@ -11,7 +11,7 @@ namespace springproof::fem_reference {
 
 namespace {
 
-/// Rows and columns of free degrees of freedom.  @param number  of each among them, or -1
+/// Extracts rows and columns of free degrees of freedom.  @param number  each one's among the free, or -1
 Eigen::SparseMatrix<double> on_free_dofs(const LocalMatrix& all, const std::vector<int>& number, int n_free) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < all.rows(); ++row)
@@ -31,7 +31,7 @@ struct Model::Implementation {
   virtual cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings) = 0;
   virtual void back_to_rest() = 0;
   virtual cases::Fields fields(const cases::Sharing* sharing) = 0;
-  virtual std::vector<double> node_displacements() const = 0; ///< of this rank, as of the bodies
+  virtual std::vector<double> node_displacements() const = 0; ///< this rank's, as from the bodies
 };
 
 template<class Body>
@@ -51,7 +51,7 @@ struct Model::Of : Model::Implementation, SolvedBody<Body> {
   std::vector<double> node_displacements() const override { return body.node_displacements(last); }
 };
 
-/// On the grid, until its multigrid is found not to serve.
+/// A model on the grid, until its multigrid proves not to serve.
 struct Model::OnGrid : Model::Implementation {
   OnGrid(const cases::Scene& scene, MPI_Comm communicator) : grid(scene, communicator) {}
   cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings) override;
@@ -70,10 +70,10 @@ struct Model::OnGrid : Model::Implementation {
   std::unique_ptr<Of<AssembledBody>> assembled;
 };
 
-/// Where the path fails, and multigrid fails the body at rest too or is known to, the body is not to blame.
-/// Nor may it be where no load at all was reached: bending a long body of nu = 0.499 is too much for
-/// multigrid, which its first small step from rest does not show. Bodies that can be factorised are asked
-/// once more.
+/// Blames multigrid and not the body for a failed path if multigrid fails the body at rest too, or is known
+/// to. It may be to blame if no load at all was reached: bending a long body of nu = 0.499 is too much for
+/// multigrid, which the first small step from rest does not show. A body that can be factorised is then
+/// solved once more.
 cases::Solution Model::OnGrid::solve(double load_factor, const mechanics::EquilibriumSettings& settings) {
   const cases::Scene& scene = grid.body.scene;
   if (!assembled) try {

@@ -36,10 +36,10 @@ class Model {
                                       const mechanics::EquilibriumSettings& settings = default_settings());
 
   /// Stress, strain, energy and reactions in the equilibrium last found, on the body's own mesh. Collective.
-  /// @param sharing  of its solution
+  /// @param sharing  its solution's
   virtual cases::Fields fields(const cases::Sharing* sharing);
 
-  /// Of every node of the elements, those between vertices too, in the equilibrium last found; in any order.
+  /// Displacements of all element nodes, also between vertices, in the equilibrium last found; in any order.
   virtual std::vector<NodeDisplacement> node_displacements() const;
 
  private:
@@ -57,8 +57,7 @@ mechanics::IntegrationSettings default_steps();
 /// The motion of a scene's finite elements through the time of its [dynamics], over the ranks of a
 /// communicator. Collective: they share the end of the motion, and each has the whole trajectory.
 /// @param backend  automatic: the grid's where choose_backend() says so, and the assembled one where the
-/// grid's
-///                 linear solver fails
+///                 grid's linear solver fails
 /// @return the end of the motion, with its trajectory
 /// @throws InputError as Model
 /// @throws SolveError with the time reached when the motion cannot be followed, or with the load reached when

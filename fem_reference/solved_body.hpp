@@ -19,14 +19,14 @@ struct SolvedBody {
 
   Body body;
   mechanics::Vector last;
-  double last_load_factor = 0; ///< of an equilibrium; 0: at rest
+  double last_load_factor = 0; ///< the equilibrium's; 0: at rest
 
   void back_to_rest() {
     last = body.equations.rest();
     last_load_factor = 0;
   }
 
-  /// As Model::solve_again().
+  /// See Model::solve_again().
   cases::Solution solve(double load_factor, mechanics::EquilibriumSettings settings) {
     const cases::Case& definition = body.scene.definition;
     settings.from = last_load_factor;
@@ -44,8 +44,8 @@ struct SolvedBody {
     return solution;
   }
 
-  /// As follow().
-  /// @param settings  an equilibrium that the motion starts in is found with those of Newton's method
+  /// See fem_reference::follow().
+  /// @param settings  its Newton settings also find the equilibrium that a motion starts in
   cases::Solution follow(const mechanics::IntegrationSettings& settings) {
     body.set_in_motion(settings.newton);
     last = start_of_motion(settings.newton);
@@ -53,7 +53,7 @@ struct SolvedBody {
   }
 
  private:
-  /// The state when the motion begins: of the static scene, whose states are of the same nodes and cells.
+  /// State at the start of the motion: rest, or the static scene's equilibrium on the same nodes and cells.
   mechanics::Vector start_of_motion(const mechanics::EquilibriumSettings& settings) const {
     if (body.scene.definition.dynamics->start == cases::MotionStart::rest) return body.equations.rest();
     SolvedBody still(cases::scene_before_start(body.scene), body);

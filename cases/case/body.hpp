@@ -27,8 +27,8 @@ struct MeshFile {
 };
 SPRINGPROOF_FIELDS(MeshFile, file, scale)
 
-/// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts at the lower corner
-/// of the surface's bounding box.
+/// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts where the surface's
+/// bounding box has its lower corner.
 struct Voxels {
   NamedFile file;
   double edge;      ///< mm, > 0
@@ -38,7 +38,7 @@ SPRINGPROOF_FIELDS(Voxels, file, edge, scale)
 
 /// A class of voxels, and of the cells that they fill.
 struct LabelClass {
-  std::string name;    ///< no face's, and another than the other classes'
+  std::string name;    ///< unique; not the name of a face
   double lower, upper; ///< intensities, closed, lower <= upper
   bool is_rigid;       ///< bone: nodes of its cells are held unless something moves them; one class at most
 };
@@ -47,19 +47,19 @@ SPRINGPROOF_FIELDS(LabelClass, name, lower, upper, is_rigid)
 /// Which of the pieces that share no face is the body.
 SPRINGPROOF_ENUMERATION(Keep,
                         all,     ///< there is but one
-                        largest, ///< the one of the most cells
+                        largest, ///< the one with the most cells
                         seed     ///< the one with a point
 )
 
 /// The cells of a picture in three dimensions (NIfTI, InVesalius) that are of some class.
 struct Labels {
   NamedFile file;
-  double edge;                                        ///< mm, > 0, of a cell
-  std::vector<LabelClass> classes;                    ///< 1 to 255; a voxel is of the first that has it
+  double edge;                                        ///< a cell's, mm, > 0
+  std::vector<LabelClass> classes;                    ///< 1 to 255; the first that fits a voxel has it
   std::optional<std::array<Eigen::Vector3d, 2>> crop; ///< mm: two corners, the lower one first
   Keep keep = Keep::all;
   Eigen::Vector3d seed = Eigen::Vector3d::Zero(); ///< mm
-  double scale = 1;                               ///< on the lengths that the file says
+  double scale = 1;                               ///< factor on the lengths in the file
 };
 SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale)
 

@@ -3,10 +3,10 @@
 #include "cases/case/body.hpp"
 #include "cases/case/dynamics.hpp"
 
-/// What holds, moves and loads a body, and the regions of it that are meant. Units: mm, N, MPa, degrees.
+/// Supports, motions, loads and added masses of a body, and their regions. Units: mm, N, MPa, degrees.
 namespace springproof::cases {
 
-/// The nodes of a body, or of the cells of one class of it, that lie in a box and on or beyond a plane.
+/// The nodes that lie in a box and on or beyond a plane: all of them, or those of one class of cells.
 struct Part {
   std::string cell_class;                           ///< a three-dimensional group's name; empty: every cell
   Eigen::Vector3d lower, upper;                     ///< mm; infinite where the box has no end
@@ -18,7 +18,7 @@ SPRINGPROOF_FIELDS(Part, cell_class, lower, upper, point, normal)
 /// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, a
 /// patch of the surface around a point, or the nodes of a class, in a box or beyond a plane.
 struct Region {
-  std::string name;                      ///< as written; of a patch or part for messages; empty for a node
+  std::string name;                      ///< as written; for messages if a patch or part; empty for a node
   std::optional<Eigen::Vector3d> near{}; ///< mm
   Where where{};
   std::optional<double> radius{}; ///< mm, > 0: the boundary faces whose centre is at most that far from near
@@ -40,7 +40,7 @@ struct ScaledDisplacement {
   double length;          ///< mm, > 0
   Where where;
 
-  /// In [0, 1], of a place in the body at rest (mm).
+  /// Returns the factor, in [0, 1], at a place in the body at rest (mm).
   double factor(const Eigen::Vector3d& rest) const {
     return std::clamp((rest - point).dot(normal) / length, 0.0, 1.0);
   }
@@ -113,7 +113,7 @@ SPRINGPROOF_FIELDS(Gravity, value)
 
 using Kind = std::variant<NodalForce, TotalForce, Traction, Torque, Gravity>;
 
-/// action(the kind) of a load that acts there; of another, a Result{}.
+/// Returns action(kind) if the load acts there, else a Result{}.
 template<On on, class Result, class Action>
 Result of_those_on(const Kind& kind, const Action& action) {
   const auto if_there = [&](const auto& one) -> Result {

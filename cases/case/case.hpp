@@ -19,7 +19,7 @@ struct PictureContour {
 };
 SPRINGPROOF_FIELDS(PictureContour, intensity, n_smoothing, most_triangles)
 
-/// A surface that the body takes along: of a skin, say, which the cells follow in steps. Triangles of a file
+/// A surface that the body takes along, such as a skin that the cells follow in steps: triangles of a file
 /// (STL, VTP), or the contour of the picture that the body is made of.
 struct BodySurface {
   NamedFile file; ///< surface or picture
@@ -31,7 +31,7 @@ SPRINGPROOF_FIELDS(BodySurface, file, contour, scale)
 /// A place of the body's surface at which the surfaces of both models are compared.
 struct Landmark {
   std::string name;
-  Eigen::Vector3d point; ///< mm, of the body at rest, on its surface or near it
+  Eigen::Vector3d point; ///< mm, with the body at rest, on its surface or near it
 };
 SPRINGPROOF_FIELDS(Landmark, name, point)
 
@@ -42,7 +42,7 @@ struct Case {
   Body body;
   Material material;
   MaterialDynamics material_dynamics;
-  std::vector<RegionMaterial> region_materials; ///< a cell in several of them is of the last one
+  std::vector<RegionMaterial> region_materials; ///< a cell in several of them has the last one's
   std::vector<Fixed> fixed;
   std::vector<Fixed> symmetry; ///< region = a face of a box, components = its normal alone
   std::vector<Moved> moved;
@@ -71,8 +71,8 @@ void serialize(Archive& archive, Case& definition) {
   if constexpr (has_places<Archive>) archive(file);
 }
 
-/// Degrees. Small strains know where a turned region ends, and nothing of the way: what turns further ends
-/// where a smaller turn the other way does.
+/// Degrees. Small strains depend on where a turned region ends, not on its way: a larger turn ends where a
+/// smaller one the other way does.
 constexpr double largest_turn_of_small_strain = 180;
 
 /// The largest angle that a region is turned by, degrees, >= 0.

@@ -14,7 +14,7 @@ SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid,
 /// The spring laws that a design goes with.
 enum class DesignLaw {
   any,
-  hooke,       ///< it fits Hooke's springs to curves, so that its stiffnesses are of no other law
+  hooke,       ///< it fits Hooke's springs to curves: its stiffnesses suit no other law
   fitted,      ///< Hooke's, or power-log springs, whose exponents it fits when none are given
   power_log,   ///< it finds the exponents itself
   biquadratic, ///< energies of squared lengths
@@ -48,7 +48,7 @@ struct DesignFacts {
   DesignMaterial material = DesignMaterial::isotropic;
 };
 
-/// In the order in which messages and tables list them.
+/// Lists the designs in the order of messages and tables.
 const std::vector<DesignFacts>& all_designs();
 
 const DesignFacts& facts_of(Design design);

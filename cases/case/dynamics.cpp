@@ -15,7 +15,7 @@ double between(const TimedFactor& from, const TimedFactor& to, double time) {
   return (1 - way) * from[1] + way * to[1];
 }
 
-/// @param next  the first of the points that is later, or not earlier, than a time
+/// @param next  first point that is later, or not earlier, than the time
 double value_before(const std::vector<TimedFactor>& points, std::vector<TimedFactor>::const_iterator next,
                     double time) {
   if (next == points.begin()) return points.front()[1];

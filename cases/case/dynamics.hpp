@@ -65,7 +65,7 @@ SPRINGPROOF_FIELDS(MaterialDynamics, density, mass_damping, stiffness_damping)
 
 /// Mass matrix of the finite elements.
 SPRINGPROOF_ENUMERATION(ElementMass, consistent,
-                        lumped ///< what the nodes of an element have of its mass, on the diagonal
+                        lumped ///< each node's share of its element's mass, on the diagonal
 )
 
 /// Masses of the springs' points.

@@ -54,7 +54,7 @@ struct NamedFile {
 
   /// @throws InputError, at the name, with the path before the reason
   [[noreturn]] void refuse(const std::string& reason) const { throw InputError(where, path + ": " + reason); }
-  /// The same of a reason that may have the path, as VTK's have.
+  /// The same for a reason that may name the path, as VTK's do.
   [[noreturn]] void refuse_once(const std::string& reason) const {
     if (reason.find(path) == std::string::npos) refuse(reason);
     throw InputError(where, reason);
@@ -70,7 +70,7 @@ void serialize(Archive& archive, NamedFile& named) {
 /// A solve that could not be completed (exit status 1). It becomes a failed row; the other cases go on.
 class SolveError : public std::runtime_error {
  public:
-  /// @param so_far  the load reached, the residual there, the outcome, and what the work done has counted
+  /// @param so_far  the load reached, the residual there, the outcome, and the counters of the work done
   SolveError(const std::string& reason, Solution so_far)
       : std::runtime_error(reason), so_far_(std::move(so_far)) {
     so_far_.status = Status::failed;

@@ -22,7 +22,7 @@ struct ExpectedOutcome {
   Side side;
   std::optional<Design> design; ///< springs in place of the case's own with all its settings
   Outcome outcome;
-  std::optional<std::array<double, 2>> load_reached; ///< closed, of the full load
+  std::optional<std::array<double, 2>> load_reached; ///< closed interval; 1: the full load
   std::optional<int> inverted_cells;
 };
 SPRINGPROOF_FIELDS(ExpectedOutcome, model, side, design, outcome, load_reached, inverted_cells)

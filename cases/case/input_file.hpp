@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-/// How every file of a stranger's is opened that is read here and not by a library.
+/// Opens all files of strangers that are read here and not by a library.
 namespace springproof::cases {
 
 inline constexpr std::uint64_t largest_case = 64'000'000, largest_text = 2'000'000'000,

@@ -12,8 +12,8 @@ struct LinearElastic {
 };
 SPRINGPROOF_FIELDS(LinearElastic, youngs_modulus, poissons_ratio)
 
-/// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) of the isochoric stretches
-/// + kappa/4 (J² - 1 - 2 ln J). Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
+/// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) + kappa/4 (J² - 1 - 2 ln J), where
+/// l1, l2, l3 are the isochoric stretches. Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
 struct Ogden {
   std::vector<double> mu;             ///< MPa; the sum is the initial shear modulus, > 0
   std::vector<double> alpha;          ///< as many, none 0
@@ -49,8 +49,8 @@ inline bool is_isotropic(const Material& material) {
   return !std::holds_alternative<TransverselyIsotropic>(material);
 }
 
-/// A material of a part of the body, in place of the body's own: of the cells of a physical group, or of
-/// those whose centre lies in a box.
+/// A material for a part of the body, in place of the body's own. The part is the cells of a physical group,
+/// or those whose centre lies in a box.
 struct RegionMaterial {
   Material material;            ///< the same model as the body's own
   std::string group;            ///< empty: the box

@@ -15,16 +15,16 @@ SPRINGPROOF_ENUMERATION(Component, x, y, z, norm)
 SPRINGPROOF_ENUMERATION(TensorComponent, xx, yy, zz, xy, yz, xz, von_mises, principal_1, principal_2,
                         principal_3)
 
-/// What a measure can be. A kind has its `name` in case files, its `unit`, what of an answer it is taken
-/// `from`, and the `regions` that it names.
+/// The kinds of measures. A kind has its `name` in case files, its `unit`, the part of a solution that it is
+/// taken `from`, and the `regions` that it names.
 namespace measures {
 
 enum class From {
   nodes,              ///< displacements of single nodes; followed in time
   volume,             ///< volumes of cells; followed in time
-  displacement_field, ///< a norm of all displacements, of the end of a motion
-  body,               ///< any displacements, of statics alone
-  fields              ///< Solution::fields, which a displacement alone does not tell; of statics alone
+  displacement_field, ///< a norm of all displacements, at the end of a motion
+  body,               ///< any displacements; statics alone
+  fields              ///< Solution::fields, which a displacement alone does not tell; statics alone
 };
 
 template<class Kind>
@@ -102,10 +102,10 @@ struct StrainEnergy {
   static constexpr NoRegions<StrainEnergy> regions{};
 };
 
-/// A component of the cells' tensors: of the cells that hold a point, or a statistic of several cells.
+/// A component of the cells' tensors: in the cells that hold a point, or a statistic over several cells.
 struct OfCells {
   TensorComponent component = TensorComponent::xx;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< mm, of the body at rest
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< mm, with the body at rest
   Where point_where{};
   std::optional<Statistic> statistic{}; ///< over the cells with a face in the region, in place of the point's
   Region region{};                      ///< no name: all cells
@@ -142,19 +142,19 @@ inline From from_of(const Kind& kind) {
   return std::visit([](const auto& one) { return one.from; }, kind);
 }
 
-/// Whether a motion has it: forces, stresses and curvatures are of statics alone.
+/// Whether a motion has it: forces, stresses and curvatures are measured in statics alone.
 inline bool is_in_time(const Kind& kind) {
   return from_of(kind) != From::fields && from_of(kind) != From::body;
 }
 
 } // namespace measures
 
-/// Whether a measure is one of Solution::fields, which a displacement alone does not tell.
+/// Whether a measure needs Solution::fields, which a displacement alone does not tell.
 inline bool is_of_fields(const measures::Kind& kind) {
   return from_of(kind) == measures::From::fields;
 }
 
-/// Whether a measure's error is that of a difference of fields.
+/// Whether a measure's error is the norm of a difference of fields.
 inline bool is_field_norm(const measures::Kind& kind) {
   return from_of(kind) == measures::From::displacement_field;
 }
@@ -163,7 +163,7 @@ struct Measure {
   std::string name;
   measures::Kind kind;
   Where where{};
-  std::optional<OverTime> over_time{}; ///< dynamic cases only, but for norms of fields
+  std::optional<OverTime> over_time{}; ///< dynamic cases only; not for norms of fields
 };
 SPRINGPROOF_FIELDS(Measure, name, kind, where, over_time)
 

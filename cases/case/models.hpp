@@ -15,7 +15,7 @@ namespace springproof::cases {
 SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
 SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q2, q2_p1)
 
-/// What a side that converged must not be, unless its case accepts it.
+/// Properties that a converged side must not have, unless its case accepts them.
 SPRINGPROOF_ENUMERATION(Doubt,
                         inverted, ///< has cells with a corner Jacobian <= 0
                         unstable  ///< its tangent has negative eigenvalues
@@ -27,7 +27,7 @@ struct Fem {
   int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
   bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
-  std::vector<Doubt> accepted;       ///< not held against the side
+  std::vector<Doubt> accepted;       ///< doubts not held against the side
   ElementMass mass = ElementMass::consistent;
   Where where;
 };
@@ -52,12 +52,12 @@ SPRINGPROOF_ENUMERATION(
     snes           ///< PETSc's Newton method with an assembled matrix, on all ranks
 )
 
-/// How often force scaling moves the points, whether that is enough or not: some steps of the load, and
-/// further iterations at full load.
+/// Number of times that force scaling moves the points, whether that is enough or not: in some load steps,
+/// and in further iterations at full load.
 struct RelaxationCounts {
   int load_steps = 1;
   int per_step = 0; ///< iterations after every load step
-  int further = 0;  ///< iterations after the last one's
+  int further = 0;  ///< iterations after those of the last load step
   long all() const { return static_cast<long>(load_steps) * per_step + further; }
 };
 SPRINGPROOF_FIELDS(RelaxationCounts, load_steps, per_step, further)
@@ -70,7 +70,7 @@ struct Msm {
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   /// N/m: k_e along x, y, z; k_f in the faces across x, y, z; k_d; design = "given", in place of stiffness
   std::optional<std::array<double, 7>> axis_stiffness;
-  std::optional<double> uniform_stiffness; ///< N/m, of every spring; design = "uniform"
+  std::optional<double> uniform_stiffness; ///< every spring's, N/m; design = "uniform"
   double volume_stiffness = 0;             ///< MPa: k_v; design = "given"
   std::optional<NamedFile> network;        ///< design = "network", CSV: cases/scene/network.hpp
   SpringLaw law = SpringLaw::hooke;
@@ -80,11 +80,11 @@ struct Msm {
   std::vector<double> weights;                   ///< multi_load; one per path, >= 0; empty: all 1
   std::optional<std::array<double, 2>> strain_range; ///< matched, multi_load, nonlinear_method: logarithmic
   bool has_volume_term = true;                       ///< multi_load: springs and k_v, or springs alone
-  std::vector<Doubt> accepted;                       ///< not held against the side
+  std::vector<Doubt> accepted;                       ///< doubts not held against the side
   PointMass mass = PointMass::cells;
-  std::optional<int> iterations_per_step; ///< in time: of conjugate gradients, as a simulator's step has them
+  std::optional<int> iterations_per_step; ///< conjugate gradients in a step in time, as in a simulator
   Where where;
-  std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: until it is in equilibrium
+  std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: it runs until equilibrium
 };
 SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, stiffness, axis_stiffness, uniform_stiffness,
                    volume_stiffness, network, law, exponent, paths, weights, strain_range, has_volume_term,

@@ -19,7 +19,7 @@ namespace springproof::cases {
     archive(__VA_ARGS__);                                                                                    \
   }
 
-/// What a name has between its words. An enumeration may have an overload of its own.
+/// Character between the words of a name. An enumeration may have an overload of its own.
 template<class Enum>
 char between_words(Enum) {
   return '_';
@@ -41,7 +41,7 @@ std::string name_of(Enum value) {
   return all_names<Enum>().at(static_cast<std::size_t>(value));
 }
 
-/// Enumerator of that name, if there is one.
+/// Enumerator with that name, if there is one.
 template<class Enum>
 std::optional<Enum> value_of(const std::string& name) {
   for (std::size_t n = 0; n < all_names<Enum>().size(); ++n)
@@ -49,8 +49,8 @@ std::optional<Enum> value_of(const std::string& name) {
   return std::nullopt;
 }
 
-/// The kinds of a thing as the types of a variant, each with its `name` in case files. What is to be done
-/// with every kind is an overload for each of these types: a kind that is forgotten does not compile.
+/// The kinds of a thing as the types of a variant, each with its `name` in case files. Code that treats every
+/// kind overloads a function for each of these types: a kind that is forgotten does not compile.
 template<class Variant>
 struct Kinds;
 template<class... Kind>

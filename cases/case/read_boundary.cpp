@@ -15,7 +15,7 @@ namespace {
 const Vector read_point{"a point of three finite numbers (mm)"},
     read_force{"a force of three finite numbers (N)"};
 
-/// "near 5 5 10".
+/// Reads "near 5 5 10".
 Eigen::Vector3d read_near_words(const Entry& entry, const std::string& text) {
   std::istringstream stream(text);
   std::string near;
@@ -50,7 +50,7 @@ std::array<bool, 3> read_components(const Entry& entry) {
   return components;
 }
 
-/// { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }
+/// Reads { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }.
 Region read_part(const Entry& entry, const Body& body) {
   const std::string allowed = "the name of a region, or a table with one or more of class, box and beyond";
   Table table(entry, allowed);
@@ -114,7 +114,7 @@ Fixed read_symmetry(Table& table) {
   return {{face, std::nullopt, entry.where}, {face[0] == 'x', face[0] == 'y', face[0] == 'z'}};
 }
 
-/// { point = [...], normal = [...], length = 10 }
+/// Reads { point = [...], normal = [...], length = 10 }.
 ScaledDisplacement read_scaled(Table& table) {
   ScaledDisplacement scaled;
   scaled.where = table.where();
@@ -126,7 +126,7 @@ ScaledDisplacement read_scaled(Table& table) {
   return scaled;
 }
 
-/// How the region moves: where its motion fades out, and in how many steps of the load.
+/// Reads how the region moves: where its motion fades out, and in how many steps of the load.
 void read_way(Table& table, Moved& moved, const std::optional<Dynamics>& dynamics) {
   table.know({"scaled_displacement", "steps"});
   table.refuse_unless(!dynamics, {"steps"}, "left out in a dynamic case, whose steps are those of time");
@@ -200,7 +200,7 @@ Load read_load(Table& table, const Case& definition) {
   const bool is_gravity =
       table.has("kind") && table.entry("kind").value<std::string>() == loads::Gravity::name;
   if (is_gravity)
-    load.region.where = table.entry("kind").where; // which messages point to
+    load.region.where = table.entry("kind").where; // messages point there
   else
     load.region = read_region(table, definition.body);
   load.kind = table.required("kind", read_kind<loads::Kind>);

@@ -20,7 +20,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 /// Names label rows of reports and files of results.
 std::string read_case_name(const Entry& entry) {
   const std::string name = read_text(entry);
-  constexpr std::size_t longest = 200; // of a file's name 255 bytes are allowed, endings included
+  constexpr std::size_t longest = 200; // a file's name may have 255 bytes, endings included
   const auto is_of_word = [](char c) {
     return c < 0 || c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
   };
@@ -220,7 +220,7 @@ void read_surface(Table& root, Case& result) {
   });
 }
 
-/// What is asked of the finite elements and of their accuracy has to fit together.
+/// Checks that the settings of the finite elements and of their accuracy fit together.
 void check_accuracy(Table& root, const Case& definition) {
   const auto asks_of_fem = [](const Expectation& e) { return e.quantity != Quantity::msm; };
   const auto& expectations = definition.expectations;
@@ -292,7 +292,7 @@ Outcome read_outcome(const Entry& entry) {
   return *value_of<Outcome>(entry.word(allowed));
 }
 
-/// What may be expected of a hard case's models: the table, and what is solved for it.
+/// Models of a hard case that outcomes can be expected of: the table, and what is solved for it.
 struct HardModel {
   const char* name;
   Side side;
@@ -316,7 +316,7 @@ ExpectedOutcome read_expected(Table& table, const HardModel& model) {
   return expected;
 }
 
-/// A table that may be left out.
+/// Reads a table that may be left out.
 template<class Reader>
 auto read_if_there(Table& table, const std::string& key, const Reader& read) {
   table.know({key.c_str()});
@@ -334,8 +334,8 @@ void read_start(Table& table, Stress& result) {
   table.know({"amplitude", "seed"});
 }
 
-/// [stress] of a hard case.
-/// @param msm  the case's springs, whose design gives way to stiffnesses if there are any
+/// Reads [stress] of a hard case.
+/// @param msm  the case's springs; stiffnesses, if there are any, replace their design
 Stress read_stress(Table& table, Msm& msm) {
   Stress result;
   result.is_heavy = table.optional("heavy", read_truth).value_or(false);

@@ -36,7 +36,7 @@ TimeScheme read_scheme(Table& table) {
   return result;
 }
 
-/// A whole number of steps, but for what rounding makes of the quotient.
+/// Whether a number of steps is whole, up to the rounding of the quotient.
 bool are_whole(double n_steps) {
   return std::abs(n_steps - std::round(n_steps)) <= 1e-6;
 }
@@ -62,7 +62,7 @@ Dynamics read_section(Table& table) {
 
 constexpr auto is_time = [](double time) { return time >= 0; };
 
-/// [[time, factor], ...]
+/// Reads [[time, factor], ...].
 std::vector<std::array<double, 2>> read_points(const Entry& entry) {
   const std::string allowed = "a list of [time (s), factor], with times from 0 that do not descend and of "
                               "which at most two in a row are equal";

@@ -9,7 +9,7 @@ namespace springproof::cases {
 
 namespace {
 
-/// MPa. Squares and cubes are taken of it.
+/// A modulus, MPa. The limits leave room for its squares and cubes.
 const Number modulus{"a number above 0 (MPa), from 1e-12 to 1e12",
                      [](double value) { return value >= 1e-12 && value <= 1e12; }};
 

@@ -27,7 +27,7 @@ std::vector<Element> elements_of(Formulation formulation) {
   return {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1};
 }
 
-/// @param model  of the material, as in a case file
+/// Lists the formulations for a material.  @param model  material.model of a case file
 std::vector<Formulation> formulations_of(const std::string& model) {
   using F = Formulation;
   if (model == "ogden") return {F::hyperelastic};
@@ -149,7 +149,7 @@ std::string design_needed(const Msm& msm, const Material& material) {
   return "";
 }
 
-/// What the designs that are fitted to curves are fitted to.
+/// Reads what a design by fits to curves is fitted to.
 void read_fit(Table& table, Msm& msm) {
   msm.paths = table.optional("paths", read_names<LoadPath>).value_or(std::vector<LoadPath>{});
   const std::size_t n_paths = msm.paths.empty() ? all_names<LoadPath>().size() : msm.paths.size();
@@ -217,8 +217,7 @@ void read_law(Table& table, Msm& msm) {
     msm.exponent = read_exponent(table.entry("exponent"));
 }
 
-/// The stiffnesses that a file gives: of the kinds of springs, of the kinds along every axis, or of all
-/// springs.
+/// Reads given stiffnesses: for the kinds of springs, for the kinds along every axis, or one for all springs.
 void read_stiffness(Table& table, Msm& msm) {
   table.know({"stiffness", "axis_stiffness"});
   if (msm.design == Design::uniform) {
@@ -258,8 +257,8 @@ std::vector<Material> materials_in(const Case& definition) {
   return all;
 }
 
-/// What a design that is asked for requires of the material. A default is refused when springs are designed:
-/// nobody may ask for them.
+/// Checks that a design that is asked for suits the material. A default design is refused only when springs
+/// are designed, which may never happen.
 void check_is_for(const Entry& design, const Msm& msm, const Material& material) {
   if (!is_for(msm.design, is_isotropic(material)))
     design.refuse(fmt::format("{} with model = \"{}\"", designs_for(is_isotropic(material)),
@@ -269,7 +268,7 @@ void check_is_for(const Entry& design, const Msm& msm, const Material& material)
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
-/// How often force scaling moves the points, where that is given.
+/// Reads how often force scaling moves the points, where that is given.
 void read_relaxation(Table& table, Msm& msm) {
   const std::vector<const char*> keys{"relaxation_steps", "relaxation_iterations", "further_iterations"};
   for (const char* key : keys)
@@ -331,7 +330,7 @@ Msm read_msm(Table& table, const Case& definition) {
   return msm;
 }
 
-/// What the element and the design require of the materials of regions.
+/// Checks the materials of regions against the element and the design.
 void check_region_materials(const Case& definition) {
   for (const RegionMaterial& region : definition.region_materials) {
     if (facts_of(definition.msm.design).source == DesignSource::file)

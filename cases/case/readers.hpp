@@ -9,7 +9,7 @@ namespace springproof::cases {
 
 // [body]
 
-/// Reads [body].  @param case_path  of the case file, which names of files are relative to
+/// Reads [body].  @param case_path  the case file's; names of files are relative to it
 Body read_body(Table& table, const std::string& case_path);
 
 std::vector<std::string> names_of(const std::vector<LabelClass>& classes);
@@ -30,13 +30,13 @@ void read_materials(Table& root, Case& result);
 
 // Regions, supports, motions, loads and masses
 
-/// A region in a text: "z+ x-", "near 5 5 10", or the name of a physical group.
+/// Reads a region from a text: "z+ x-", "near 5 5 10", or the name of a physical group.
 Region read_region_text(const Entry& entry, const Body& body);
 
-/// A unit vector: "x", "y", "z", or any direction.
+/// Reads a unit vector: "x", "y", "z", or any direction.
 Eigen::Vector3d read_direction(const Entry& entry);
 
-/// A region as a table gives it: `region`, a text or a table of a part, or the node nearest to `near`, or
+/// Reads a region from a table: `region`, a text or a table of a part, or the node nearest to `near`, or
 /// with `radius` the patch around it.
 Region read_region(Table& table, const Body& body);
 
@@ -48,20 +48,20 @@ void check_boundary(Table& root, const Case& result);
 
 // [dynamics], and what a case says of time elsewhere
 
-/// [dynamics], where there is one.
+/// Reads [dynamics], where there is one.
 std::optional<Dynamics> read_dynamics(Table& root);
 
-/// density, mass_damping and stiffness_damping of a material's table.
+/// Reads density, mass_damping and stiffness_damping in a material's table.
 MaterialDynamics read_material_dynamics(Table& table, bool has_dynamics);
 
-/// history of a load or motion; the key is refused in a static case.
+/// Reads the history of a load or motion; the key is refused in a static case.
 History read_history(Table& table, bool has_dynamics);
 
-/// over_time of a measure.
+/// Reads over_time of a measure.
 std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind, bool has_dynamics);
 
-/// Checks a case that is read but for what is below it: densities where masses are asked for, motions that
-/// have a beginning, and what a motion does not have.
+/// Checks a case that is read up to here: densities where masses are asked for, motions that have a
+/// beginning, and keys that have no meaning in a motion.
 void check_dynamics(Table& root, const Case& definition);
 
 // [fem] and [msm]
@@ -71,11 +71,11 @@ void check_dynamics(Table& root, const Case& definition);
 /// exist for it
 void read_models(Table& root, Case& result);
 
-/// The design that we recommend for a body of these materials, which is the one of [msm] without `design` and
-/// of `design` without --method. Transversely isotropic: "transverse". Otherwise "matched" where its lattice
-/// is stable over the strains of its exponents: logarithmic strain with nu from 0.25 to 0.35, and Ogden; else
-/// "hybrid", and with nu < 0, which that has not, "moduli".
-/// @param materials  at least one    @param poissons_ratio  of the design, in place of the materials'
+/// The design that we recommend for a body of these materials: the default of [msm] without `design`, and
+/// that for `design` without --method. Transversely isotropic: "transverse". Otherwise "matched" where its
+/// lattice is stable over the strains of its exponents: logarithmic strain with nu from 0.25 to 0.35, and
+/// Ogden; else "hybrid", and with nu < 0, which that has not, "moduli".
+/// @param materials  at least one    @param poissons_ratio  the design's, in place of the materials'
 Design default_design(const std::vector<Material>& materials,
                       std::optional<double> poissons_ratio = std::nullopt);
 

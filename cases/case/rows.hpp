@@ -14,7 +14,7 @@
 /// Numbers and rows of numbers in texts of strangers.
 namespace springproof::cases {
 
-/// The number that all of a text is. Nothing for an empty text, for a rest behind the number, and for one
+/// Parses a whole text as a number. Returns nothing for an empty text, a rest behind the number, or a number
 /// that the type cannot hold: 4294967296 is no int, and 1e400, inf and nan are no double here.
 template<class Number>
 std::optional<Number> number_in(std::string_view text) {
@@ -27,7 +27,7 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-/// The letters of ASCII small; others as they are.
+/// Makes the letters of ASCII small, and leaves others as they are.
 inline std::string in_small_letters(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -48,7 +48,7 @@ enum class Between { commas, commas_or_blanks };
 
 /// Reads a table row by row. Empty lines and those that begin with # are left out. The first of the others is
 /// a heading if it begins with a letter and has no number; no later one is.
-/// @param name  of the file, for messages   @return whether there was a heading
+/// @param name  the file's, for messages   @return whether there was a heading
 bool read_rows(const std::string& text, const std::string& name, Between between,
                const std::function<void(const TextRow&)>& heading,
                const std::function<void(const TextRow&)>& row);

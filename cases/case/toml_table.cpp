@@ -43,8 +43,8 @@ Where place_of(const toml::source_region& source, const std::string& key) {
   return {*source.path, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column), key};
 }
 
-/// How a table gets rid of a key of the file that another one, of the command line, leaves without a meaning.
-/// Empty: none is of the command line, or the refused one is too.
+/// Says how to drop a key of the file that a key from the command line leaves without a meaning. Empty: no
+/// key comes from the command line, or the refused one does too.
 std::string how_to_replace(const toml::table& table, const std::string& name, const Where& refused) {
   std::vector<std::string> given;
   for (const auto& [key, value] : table)
@@ -90,7 +90,7 @@ toml::path parse_path(const std::string& path, const Where& where) {
 /// One line of UTF-8 without control characters.
 bool is_line_of_text(const std::string& text) {
   try {
-    return toml::parse("#" + text).empty(); // what TOML allows in a comment
+    return toml::parse("#" + text).empty(); // TOML allows the same in a comment
   } catch (const toml::parse_error&) {
     return false;
   }

@@ -11,7 +11,7 @@
 /// value, and what is allowed. Only the readers of case files include this.
 namespace springproof::cases {
 
-/// Parses TOML 1.0 of at most 100 points a line.  @param path  what messages call it   @throws InputError
+/// Parses TOML 1.0 with at most 100 points a line.  @param path  its name in messages   @throws InputError
 toml::table parse_document(const std::string& text, const std::string& path);
 /// The same for a file, whose name must be a line of UTF-8, so that it can stand in messages and JSON, with
 /// settings of the command line: "fem.refine=1", "load[0].value=[0, 0, 0.01]", "fem.element=q2". A value is
@@ -35,8 +35,7 @@ struct Entry {
   }
   /// A word out of a list; refuses anything else, with the nearest one as a suggestion.
   std::string word(const std::vector<std::string>& allowed) const;
-  /// The elements of an array; refuses anything else, and another number of them than `count`, if that is not
-  /// 0.
+  /// The elements of an array; refuses anything else, and, unless `count` is 0, any other number of them.
   std::vector<Entry> elements(const std::string& allowed, std::size_t count = 0) const;
 };
 
@@ -51,12 +50,11 @@ inline constexpr auto is_not_negative = [](double value) { return value >= 0; };
 std::string read_text(const Entry& entry);
 
 /// The name of a file that exists, relative to the case file.
-/// @param endings  that are allowed    @param allowed  completes "must be ..."    @param case_path  of the
-/// case
+/// @param endings  allowed ones    @param allowed  completes "must be ..."    @param case_path  the case's
 NamedFile read_file_name(const Entry& entry, const std::vector<std::string>& endings,
                          const std::string& allowed, const std::string& case_path);
 
-/// The same of a file that need not be there before the body is made: a package's data.
+/// The same for a file that need not be there before the body is made: a package's data.
 NamedFile read_file_path(const Entry& entry, const std::vector<std::string>& endings,
                          const std::string& allowed, const std::string& case_path);
 
@@ -166,7 +164,7 @@ class Table {
  private:
   [[noreturn]] void refuse_key(const toml::key& key, const toml::node& value,
                                const std::string& problem) const;
-  /// Where a key would be that is missing.
+  /// Place for a missing key.
   Where place_of(const std::string& key) const;
 
   const toml::table* table_;

@@ -14,7 +14,7 @@ struct Turn {
   double degrees, begin; ///< the step with the largest turn; s
 };
 
-/// In steps of equal length.
+/// Finds the largest turn among steps of equal length.
 Turn largest_turn_of_steps(const Moved& moved, double end, long n_steps) {
   Turn largest{0, 0};
   const auto time = [&](long step) {
@@ -32,7 +32,7 @@ bool is_small(const Turn& turn) {
   return turn.degrees <= largest_turn_of_step * (1 + rounding);
 }
 
-/// Steps to the end that are short enough; nothing: more than a case may have.
+/// Number of steps to the end that makes them short enough; nothing: more than a case may have.
 std::optional<long> enough_steps(const Moved& moved, double end, long n_steps) {
   while (static_cast<double>(n_steps) <= most_time_steps) {
     const Turn turn = largest_turn_of_steps(moved, end, n_steps);

@@ -2,19 +2,19 @@
 
 #include "cases/case/case.hpp"
 
-/// How far supports go between two times of a motion: their histories may have factors above 1 and below 0.
+/// Ways of supports between two times of a motion: their histories may have factors above 1 and below 0.
 namespace springproof::cases {
 
-/// Degrees, of one step of the load or of time. Where a turned support ends says nothing of whole turns: only
-/// small steps lead the body around with it. A straight guess then leaves the arc by 15 % of the radius.
+/// Degrees in one step of the load or of time. Where a turned support ends says nothing about whole turns:
+/// only small steps lead the body around with it. A straight guess then leaves the arc by 15 % of the radius.
 constexpr double largest_turn_of_step = 30;
 
-constexpr double most_time_steps = 1e7; ///< in a case
+constexpr double most_time_steps = 1e7; ///< per case
 
 /// The smallest and the largest factor of a history from one time to another (s), ends included.
 std::array<double, 2> factors_between(const History& history, double begin, double end);
 
-/// The factor of the largest size in a whole motion; 1 in a static case.
+/// The factor with the largest magnitude in a whole motion; 1 in a static case.
 double largest_factor(const Moved& moved, const std::optional<Dynamics>& dynamics);
 
 /// @throws InputError for a region that turns by more than largest_turn_of_step within a step in time, with

@@ -25,8 +25,8 @@ bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point)
   return at && (at->array() >= -on_boundary).all() && (at->array() <= 1 + on_boundary).all();
 }
 
-/// Numbers of the cells of a grid whose cells are all present that touch the point's neighbourhood,
-/// ascending.
+/// Finds the cells that touch the point's neighbourhood, in ascending order, in a grid whose cells are all
+/// present.
 std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
   const auto place_of = [&](int axis, double aside) {
     const double at = (point[axis] - grid.origin[axis]) / grid.spacing[axis] + aside;
@@ -65,7 +65,7 @@ CellPoint refine(const CellPoint& point) {
 }
 
 std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const HexMesh& mesh) {
-  std::map<int, double> weight; // of nodes
+  std::map<int, double> weight; // by node
   for (const auto& [point, part] : points) {
     const std::array<int, 8> nodes = mesh.cells[point.cell];
     const std::array<double, 8> weights = weights_at(point);
@@ -95,7 +95,7 @@ std::vector<std::size_t> cells_at(const HexMesh& mesh, const Vector3d& point, co
     if (holds(cell_vertices(mesh, cell), point)) cells.push_back(cell);
   };
   const auto [begin, end] = among.common({0, mesh.cells.size()});
-  if (mesh.nodes.rule && mesh.cells.rule && mesh.grid) { // of 10^7 cells a look at eight is enough
+  if (mesh.nodes.rule && mesh.cells.rule && mesh.grid) { // a look at eight cells out of 10^7 is enough
     for (const std::size_t cell : cells_near(*mesh.grid, point))
       if (among.has(cell)) look_at(cell);
     return cells;

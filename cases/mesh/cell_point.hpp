@@ -7,11 +7,11 @@
 
 namespace springproof::cases {
 
-/// A point that a body takes along by one of its cells.
+/// A point that moves with a cell of the body.
 struct CellPoint {
   std::size_t cell;
-  Eigen::Vector3d at;     ///< in the cell's unit cube: the point, or the nearest place of the body
-  Eigen::Vector3d beyond; ///< from there to the point, in the cube's coordinates to first order
+  Eigen::Vector3d at;     ///< the point or the nearest place of the body, in the cell's unit cube
+  Eigen::Vector3d beyond; ///< the way from there to the point, in the cube's coordinates to first order
 };
 
 /// Weights of the cell's nodes in the point's displacement u = sum_v w_v u_v: the trilinear shape functions
@@ -19,7 +19,7 @@ struct CellPoint {
 /// reproduced and weights grow with the distance and no faster. They add up to 1.
 std::array<double, 8> weights_at(const CellPoint& point);
 
-/// The same point by the cell of refine(mesh) that has its place: there the unit cube is half as large.
+/// The same point in the cell of refine(mesh) that has its place, whose unit cube is half as large.
 CellPoint refine(const CellPoint& point);
 
 struct WeightedPoint {

@@ -145,14 +145,14 @@ class MeshCheck {
                       n_pieces));
   }
 
-  /// A node on a cell that it is no vertex of.
+  /// A node on a cell without being its vertex.
   struct Stray {
     int node;
     std::size_t cell;
     Vector3d at; ///< in the cell's unit cube
   };
 
-  /// No node of the surface lies on a cell that it is no vertex of.
+  /// Checks that nodes of the surface lie only on cells that they are vertices of.
   void check_surface() const {
     std::vector<double> shortest(mesh_.nodes.size(), std::numeric_limits<double>::infinity()),
         of_cell; ///< edge, of nodes and cells
@@ -191,7 +191,7 @@ class MeshCheck {
       return ((stray.at.array() - 0.5).abs() >= 0.5 - touching).all();
     };
     std::vector<int> nodes;
-    const Stray* first = nullptr; // that hangs; where none does, that lies where a vertex is
+    const Stray* first = nullptr; // first that hangs; if none does, first that lies where a vertex is
     for (const Stray& stray : strays) {
       nodes.push_back(stray.node);
       if (first == nullptr || (is_at_vertex(*first) && !is_at_vertex(stray))) first = &stray;

@@ -14,14 +14,14 @@ struct CellFace {
 /// The six faces of every cell, so that those of the same vertices follow each other, the lowest cell first.
 std::vector<CellFace> faces_of_cells(const HexMesh& mesh);
 
-/// Numbers that a file gives what a mesh was made from, for messages.
+/// Numbers of a mesh's nodes and cells in the file that it was made from, for messages.
 struct MeshNumbers {
   std::vector<std::size_t> of_nodes, of_cells;
 };
 
-/// What every mesh of a body has to be, whatever it was made from; one that is a grid of cells is so by
-/// construction. The models take what is not for a crack, or for more material than there is.
-/// @param faces  of the mesh's cells
+/// Checks that a mesh is sound, whatever it was made from; a grid of cells is so by construction. The models
+/// would take a mistake for a crack, or for more material than there is.
+/// @param faces  faces_of_cells() of the mesh
 /// @throws std::runtime_error with the first of these, by the file's numbers: cells that are inverted or
 /// degenerate, listed twice, on one side of the face between them, or three at a face; pieces that share no
 /// node; nodes at the surface that lie on a cell (to 1 % of the shortest edge there) of which they are no

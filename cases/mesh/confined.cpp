@@ -72,7 +72,7 @@ void lower(__rlimit_resource resource, rlim_t most) {
   setrlimit(resource, &limit);
 }
 
-/// The child's life. Nothing of the parent's is cleaned up here.
+/// Runs the work in the child, and ends it. Nothing that is the parent's is cleaned up here.
 [[noreturn]] void work_confined(const std::function<std::string()>& work, const Limits& limits, int out) {
   prctl(PR_SET_PDEATHSIG, SIGKILL); // it would go on, and keep its parent's folder of results claimed
   const int nowhere = open("/dev/null", O_RDWR);
@@ -100,7 +100,7 @@ void lower(__rlimit_resource resource, rlim_t most) {
   _exit(0);
 }
 
-/// All that comes through a pipe until it is closed; whether that happened in time.
+/// Reads all that comes through a pipe until it is closed.  @return whether that happened in time
 bool read_all(int in, int seconds, std::string& bytes) {
   using std::chrono::steady_clock;
   const auto end = steady_clock::now() + std::chrono::seconds(seconds);

@@ -12,7 +12,7 @@ struct Limits {
   std::uint64_t bytes; ///< memory, besides what this process has
 };
 
-/// Enough to read a file of so many bytes, far less than one can claim that it has.
+/// Limits that let a file of so many bytes be read, far below what a file can claim to contain.
 Limits limits_to_read(std::uint64_t file_size);
 
 /// Runs a function in a child process that can compute, read files and answer, and nothing else: the kernel

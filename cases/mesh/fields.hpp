@@ -85,7 +85,7 @@ load_minimal(const StrictInputArchive&, T&& value,
   value = static_cast<Enum>(read);
 }
 
-namespace traits::detail { // which archive writes what this one reads
+namespace traits::detail { // names the archive that writes what this one reads
 template<>
 struct get_output_from_input<StrictInputArchive> {
   using type = PortableBinaryOutputArchive;

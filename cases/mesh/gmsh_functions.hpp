@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// What is asked of gmsh, for callers that include none of its headers. Tags are gmsh's numbers of nodes and
+/// gmsh's functions for callers that include none of its headers. Tags are gmsh's numbers of nodes and
 /// elements.
 namespace springproof::cases {
 
@@ -24,7 +24,7 @@ struct GmshNodes {
   std::vector<double> coordinates; ///< three for each tag
 };
 
-/// A physical group; of no name, where it has only a number.
+/// A physical group; its name is empty where it has only a number.
 struct GmshGroup {
   int dimension, number;
   std::string name;
@@ -34,9 +34,9 @@ struct GmshGroup {
 /// The functions of the shared object springproof_gmsh. They are about the one model that gmsh has open, and
 /// throw std::runtime_error with gmsh's message.
 struct GmshFunctions {
-  /// Quiet and without configuration files.  @param is_geometry  a .geo, to be meshed, and no mesh
+  /// Opens a file, quietly and without configuration files.  @param is_geometry  a .geo to be meshed, no mesh
   void (*open)(const std::string& path, bool is_geometry);
-  /// @param entity  of that dimension; -1: of all of them
+  /// @param entity  one of that dimension; -1: all of them
   std::vector<GmshElements> (*elements_of)(int dimension, int entity);
   std::string (*type_name)(int type);
   GmshNodes (*nodes)();

@@ -37,8 +37,7 @@ std::size_t number_of(int i, int j, int k, const std::array<int, 3>& counts) {
   return index(i) + index(counts[0]) * (index(j) + index(counts[1]) * index(k));
 }
 
-/// A position in steps of a spacing, if it is a whole number of them in each direction. It may be off by 1e-8
-/// of the spacing.
+/// A position in steps of a spacing, if these are whole numbers in each direction, to 1e-8 of the spacing.
 std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vector3d& spacing) {
   std::array<int, 3> whole{};
   for (int a = 0; a < 3; ++a) {
@@ -51,7 +50,7 @@ std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vecto
   return whole;
 }
 
-/// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid of that spacing.
+/// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid with that spacing.
 std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t cell, const Vector3d& spacing) {
   const auto vertices = cell_vertices(mesh, cell);
   const Vector3d lower = bounding_box(vertices).min();
@@ -258,7 +257,7 @@ bool find_grid(HexMesh& mesh) {
       if (node_at.emplace(point, node).first->second != node) return false;
     }
   }
-  // The spacing of the first cell carries its rounding; that of the whole body less.
+  // The first cell's spacing carries its rounding; that from the whole body carries less.
   grid.spacing = body.sizes().cwiseQuotient(Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
 
   if (mesh.cells.size() < grid.n_lattice_cells()) grid.present.assign(grid.n_lattice_cells(), false);
@@ -318,7 +317,7 @@ double smallest_corner_jacobian(const std::array<Vector3d, 8>& vertices) {
                    z = vertices[index(v ^ 4)] - here;
     const bool mirrored = (v ^ (v >> 1) ^ (v >> 2)) & 1; // an odd number of the edges leads backwards
     const double determinant = x.dot(y.cross(z));
-    if (std::isnan(determinant)) return determinant; // which std::min would drop
+    if (std::isnan(determinant)) return determinant; // std::min would drop it
     smallest = std::min(smallest, mirrored ? -determinant : determinant);
   }
   return smallest;

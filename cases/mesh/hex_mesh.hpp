@@ -13,7 +13,7 @@
 
 namespace springproof::cases {
 
-/// A number of a node, a cell, ..., which is not negative, as the standard library's containers want it.
+/// Converts the number of a node, a cell, ..., which is not negative, to the containers' index type.
 inline std::size_t index(std::ptrdiff_t i) {
   return static_cast<std::size_t>(i);
 }
@@ -26,7 +26,7 @@ struct Selection {
   std::vector<std::array<int, 4>> faces; ///< around the face, seen from outside anticlockwise
 };
 
-/// The grid of cubes or cuboids that a mesh was made from, when it was: node (i, j, k) lies at
+/// The grid of cubes or cuboids that a mesh was made from: node (i, j, k) lies at
 /// origin + (i, j, k) * spacing, and cells are numbered with x running fastest over the present ones.
 struct Grid {
   std::array<int, 3> cells{1, 1, 1};                 ///< along x, y, z, > 0
@@ -49,7 +49,7 @@ struct HexMesh {
   RuledList<GridNodes> nodes;              ///< rest positions, mm
   RuledList<GridCells> cells;              ///< vertex v = i + 2j + 4k sits at (i, j, k) in the reference cube
   std::map<std::string, Selection> groups; ///< physical groups of a mesh file
-  std::vector<std::string> group_of_cell; ///< name of the three-dimensional physical group; empty: none named
+  std::vector<std::string> group_of_cell; ///< name of its three-dimensional physical group; empty: none named
   std::optional<Grid> grid;               ///< set when the mesh is a grid of cells
 };
 
@@ -68,7 +68,7 @@ Grid cropped(const Grid& grid);
 
 /// The present cells of a grid, in pieces that hang together by faces.
 struct Pieces {
-  std::vector<int> piece_of_cell; ///< for every place of the grid, -1 where no cell is
+  std::vector<int> piece_of_cell; ///< piece at every place of the grid, -1 where no cell is
   std::vector<std::size_t> sizes; ///< cells of each piece
 };
 

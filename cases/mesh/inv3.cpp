@@ -22,7 +22,7 @@ constexpr std::uint64_t most_bytes_of_list = 1'000'000, most_bytes_of_project = 
 }
 
 /// The content of the first file of a gzipped tar for which `is_wanted(name in its folder)`.
-/// @param allowed  of its size in bytes
+/// @param is_allowed  whether it may have a size in bytes
 template<class IsWanted, class IsAllowed>
 std::string unpacked(const std::string& path, const std::string& what, const IsWanted& is_wanted,
                      const IsAllowed& is_allowed) {

@@ -36,7 +36,7 @@ struct Overlap {
   double part;
 };
 
-/// Along one axis, the voxels of every cell. Both ends of a voxel are cut off at those of the crop.
+/// The voxels of every cell along one axis. Both ends of a voxel are cut off at those of the crop.
 std::vector<std::vector<Overlap>> overlaps(int n_cells, double origin, double edge, int n_voxels,
                                            double spacing) {
   std::vector<std::vector<Overlap>> of_cell(index(n_cells));
@@ -51,7 +51,7 @@ std::vector<std::vector<Overlap>> overlaps(int n_cells, double origin, double ed
   return of_cell;
 }
 
-/// 0: none, else one more than the place of the first class that has the intensity.
+/// Returns for every voxel one more than the place of the first class that has its intensity; 0: none.
 std::vector<std::uint8_t> class_of_voxels(const Volume& volume, const Labels& labels) {
   std::vector<std::uint8_t> classes(volume.intensities.size(), 0);
   for (std::size_t v = 0; v < classes.size(); ++v)
@@ -75,7 +75,7 @@ std::pair<float, float> range_of(const Volume& volume) {
   return range.value_or(std::pair(0.F, 0.F));
 }
 
-/// A wrong order of bytes shows in them.
+/// Text about the intensities, in which a wrong order of bytes shows.
 std::string intensities_text(const LabelGrid& grid) {
   return fmt::format("the picture's intensities are from {:.6g} to {:.6g}", grid.lowest, grid.highest);
 }
@@ -139,7 +139,7 @@ std::vector<bool> near_body(const LabelGrid& grid) {
   return near;
 }
 
-/// Voxels of one axis whose centre lies in the grid, and the cell that it lies in.
+/// Voxels along one axis whose centre lies in the grid, and the cells of these centres.
 struct Centres {
   int first = 0;
   std::vector<std::size_t> cells; ///< one per voxel
@@ -201,7 +201,7 @@ LabelGrid label_cells(const Volume& volume, const Labels& labels) {
         filled[0] = 1;
         for (std::size_t c = 1; c < filled.size(); ++c) filled[0] -= filled[c];
         std::size_t most = 0;
-        constexpr double rounding = 1e-9; // of sums of parts
+        constexpr double rounding = 1e-9; // error in sums of parts
         for (std::size_t c = filled.size(); c-- > 1;)
           if (filled[c] >= filled[most] - rounding) most = c;
         grid.class_of_cell[cell++] = static_cast<std::uint8_t>(most);

@@ -128,7 +128,7 @@ class Builder {
 
   void add_to_group(const std::string& name, const GmshElements& elements, Selection& group) {
     for (std::size_t e = 0; e < elements.tags.size(); ++e) {
-      std::vector<int> nodes; // -1: of no hexahedron
+      std::vector<int> nodes; // -1: in no hexahedron
       for (const std::size_t tag : elements.nodes[e])
         nodes.push_back(node_number_.count(tag) > 0 ? node_number_[tag] : -1);
       // Points and lines of the geometry may lie off the body; a group's surface must not.

@@ -55,7 +55,7 @@ Corners corners_of(const std::array<Eigen::Vector3d, 3>& triangle) {
   return corners;
 }
 
-/// Leaves every triangle once.  @return how many there were more
+/// Leaves every triangle once.  @return number of those removed
 std::size_t leave_once(Surface& surface) {
   std::set<Corners> seen;
   const auto is_known = [&](const auto& triangle) { return !seen.insert(corners_of(triangle)).second; };

@@ -6,14 +6,14 @@
 /// file says that it has.
 namespace springproof::cases {
 
-/// A file .stl, text or binary; coordinates are rounded to single precision. What follows the last triangle
-/// of a binary file and a triangle that is there twice are left out.
+/// Reads a file .stl, text or binary; coordinates are rounded to single precision. Anything after a binary
+/// file's last triangle, and a triangle that is there twice, are left out.
 /// @param remarks  receives what was left out, and how many triangles have no area
 /// @throws std::runtime_error with VTK's message; if the file has no triangles or a position that is not
 /// finite
 Surface read_triangles(const std::string& path, std::vector<std::string>* remarks = nullptr);
 
-/// @param content  of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk
+/// @param content  the content of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk
 /// @throws std::runtime_error with VTK's message; if it has no points
 PointCloud read_point_cloud(const std::string& content);
 
@@ -23,20 +23,20 @@ CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh);
 
 /// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
 /// not be closed.
-/// @param remarks  as of read_triangles()
+/// @param remarks  as in read_triangles()
 /// @throws std::runtime_error with VTK's message; if it has no triangles or a position that is not finite
 TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks = nullptr);
 
-/// The surface that divides a picture's points of a value above the level from the others: closed, because
+/// The surface that divides a picture's points with a value above the level from the others: closed, because
 /// beyond its borders a picture is below the level; seen from outside anticlockwise, outside being below.
 /// @throws std::runtime_error if there is none; if the sizes of the picture are not as many as its values
 TriangleMesh contour(const Picture& picture, const ContourSettings& settings);
 
-/// A surface in about so many triangles, where it has more, by quadric decimation, in 20 s or not at all.
+/// Reduces a surface with more triangles to about so many, by quadric decimation, in 20 s or not at all.
 /// @throws std::runtime_error with VTK's message; if it takes longer, or no triangle is left
 TriangleMesh decimated(const TriangleMesh& surface, std::size_t n_triangles);
 
-/// What the confined process answered, which may be anything; bytes_of() makes them.
+/// Values in the bytes that a confined process answered, which may be anything; bytes_of() makes them.
 /// @throws std::exception if the bytes are no such value: a field of another length than the points, no
 /// triangles, a position that is not finite, a weight of a point that does not exist
 Surface surface_from(const std::string& bytes);

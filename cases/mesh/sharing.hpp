@@ -22,7 +22,7 @@ struct Range {
 /// each rank; on a grid, whose numbers run through plane after plane, that is a slab.
 struct Share {
   Range own_nodes, cells; ///< each node and each cell is one rank's
-  Range nodes;            ///< whose values the rank has: its own ones, and the vertices of its cells
+  Range nodes;            ///< nodes with values on this rank: its own ones, and the vertices of its cells
 };
 Share share_of(const HexMesh& mesh, int rank, int n_ranks);
 
@@ -50,17 +50,17 @@ class Sharing {
   Sharing& operator=(const Sharing&) = delete;
 
   const Share& here() const { return here_; }
-  virtual double sum(double value) const = 0;     ///< in the ranks' order
+  virtual double sum(double value) const = 0;     ///< added up in the ranks' order
   virtual double largest(double value) const = 0; ///< NaN if one is
-  /// The value of a node, whoever has it.  @param held  of here().nodes
+  /// The value of a node, whoever has it.  @param held  values of here().nodes
   virtual Eigen::Vector3d at(std::size_t node, const std::vector<Eigen::Vector3d>& held) const = 0;
 
   /// Brings values to the ranks whose share they are in. Ranks that both give a node agree about it; what
   /// they give of a cell is added up, in the ranks' order.
-  /// @return of here().nodes, or of here().cells
+  /// @return values of here().nodes, or of here().cells
   virtual std::vector<Eigen::Vector3d> deal(std::vector<Numbered<Eigen::Vector3d>> of_nodes) const = 0;
   virtual std::vector<double> deal(std::vector<Numbered<double>> of_cells) const = 0;
-  /// Adds up what ranks give of a node, in the ranks' order.  @return of here().nodes
+  /// Adds up the ranks' values of each node, in the ranks' order.  @return sums at here().nodes
   virtual std::vector<Eigen::Vector3d> add_up(std::vector<Numbered<Eigen::Vector3d>> of_nodes) const = 0;
 
   /// Values of all nodes, or of all cells, on every rank.
@@ -71,7 +71,7 @@ class Sharing {
   Share here_;
 };
 
-/// deal() and gather() of cells that have several numbers each, one number after the other.
+/// deal() and gather() for cells that have several numbers each, one number after the other.
 template<std::size_t N>
 std::vector<std::array<double, N>> deal(const Sharing& sharing,
                                         const std::vector<Numbered<std::array<double, N>>>& of_cells) {
@@ -98,7 +98,7 @@ std::vector<std::array<double, N>> gather(const Sharing& sharing,
   return all;
 }
 
-/// What is here of an answer: all of it, where nobody shares it.
+/// This rank's share of a solution: all of it, where nobody shares it.
 inline Share share_here(const HexMesh& mesh, const Sharing* sharing) {
   const Range nodes{0, mesh.nodes.size()}, cells{0, mesh.cells.size()};
   return sharing ? sharing->here() : Share{nodes, cells, nodes};

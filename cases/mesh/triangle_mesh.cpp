@@ -48,7 +48,7 @@ TriangleMesh outer_surface(const HexMesh& mesh) {
 
 TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
   TriangleMesh outer;
-  Numbering<int> numbers; // of nodes
+  Numbering<int> numbers; // nodes' numbers
   for (const std::array<int, 4>& face : faces) {
     std::array<int, 4> vertices;
     for (std::size_t v = 0; v < 4; ++v) {

@@ -13,7 +13,7 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles; ///< numbers of vertices, seen from outside anticlockwise
 };
 
-/// The same surface with vertices of equal coordinates joined, and without triangles that have two of one.
+/// Joins vertices with equal coordinates, and drops triangles that have one of these twice.
 TriangleMesh joined(const Surface& surface);
 
 /// The faces of a body that belong to one cell only, each as two triangles.

@@ -19,14 +19,14 @@ struct Volume {
 /// What a picture's file can hold.
 struct VolumeBytes {
   std::uint64_t in_file;
-  std::uint64_t of_voxels; ///< deflate makes of a byte 1032 at most
+  std::uint64_t of_voxels; ///< deflate makes at most 1032 bytes from one
   bool is_compressed;      ///< by gzip, from the first byte on
 };
 
 /// @throws std::runtime_error if it is no regular file
 VolumeBytes bytes_of_volume(const std::string& path);
 
-/// @param most_bytes  of voxels that the file can hold
+/// @param most_bytes  most bytes of voxels that the file can hold
 /// @throws std::runtime_error unless there are voxels of a finite size above 0, no more than the file can
 /// hold, and so few that they can be numbered
 /// @return how many there are

@@ -62,7 +62,7 @@ double doubled_area(const Vector3d& a, const Vector3d& b, double x, double y) {
   return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
 }
 
-/// The columns of centres below and above a triangle's shadow get their crossings.
+/// Adds the crossings of a triangle to the columns of centres below and above its shadow.
 void cast(const std::array<Vector3d, 3>& t, const Grid& grid, const Vector3d& first,
           std::vector<std::vector<Crossing>>& columns) {
   std::array<int, 2> from, to;
@@ -88,8 +88,8 @@ void cast(const std::array<Vector3d, 3>& t, const Grid& grid, const Vector3d& fi
 /// cells where parts do not overlap; where they do, it counts crossings and leaves a hole.
 void fill(Grid& grid, const Surface& surface) {
   const double edge = grid.spacing.x();
-  // A ray along the common edge of two triangles would miss both. Edges of drawn bodies pass through centres
-  // of cells, but hardly through these points beside them.
+  // A ray along the common edge of two triangles would miss both. Edges of drawn bodies pass through cells'
+  // centres, but hardly through these points beside them.
   const Vector3d first = grid.origin + edge * Vector3d(0.5 + 1.37e-7, 0.5 + 2.71e-7, 0.5);
   std::vector<std::vector<Crossing>> columns(index(grid.cells[0]) * index(grid.cells[1]));
   for (const auto& triangle : surface) cast(triangle, grid, first, columns);
@@ -123,7 +123,7 @@ Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
 
 std::size_t n_open_edges(const Surface& surface) {
   using Point = std::array<double, 3>;
-  std::map<std::array<Point, 2>, long> balance; // of the edges between two points: one way less the other way
+  std::map<std::array<Point, 2>, long> balance; // edges between two points: one way minus the other way
   const auto point = [](const Vector3d& v) {
     return Point{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
   }; // -0 is 0
@@ -140,7 +140,7 @@ std::size_t n_open_edges(const Surface& surface) {
 
 VoxelCounts count_voxels(const Voxels& voxels) {
   const Surface surface = scaled_surface(voxels);
-  double volume = 0; // of the tetrahedra from the origin to the triangles
+  double volume = 0; // sum over the tetrahedra from the origin to the triangles
   for (const auto& [a, b, c] : surface) volume += a.dot(b.cross(c)) / 6;
   const Eigen::AlignedBox3d body = box_of(surface);
   VoxelCounts counts{std::abs(volume) / (voxels.edge * voxels.edge * voxels.edge), {}};

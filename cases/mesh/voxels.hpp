@@ -9,7 +9,7 @@ namespace springproof::cases {
 
 /// Reads a surface in STL, text or binary; coordinates are rounded to single precision.
 /// @throws InputError if it cannot be read, ends within a triangle, has none or a position that is not finite
-/// @param remarks  as of read_triangles()
+/// @param remarks  as in read_triangles()
 Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks = nullptr);
 
 /// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
@@ -18,8 +18,8 @@ Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks = null
 /// @return how many edges have no such partner; 0: closed
 std::size_t n_open_edges(const Surface& surface);
 
-/// About how many cubes make_voxel_mesh() makes, of the volume within the surface, and how many its grid has
-/// along the axes (a million where there are more).
+/// Approximate number of cubes that make_voxel_mesh() makes, from the volume within the surface, and its
+/// grid's numbers of cubes along the axes (a million where there are more).
 /// @throws InputError if the surface is no STL
 struct VoxelCounts {
   double in_body;
@@ -30,14 +30,13 @@ VoxelCounts count_voxels(const Voxels& voxels);
 /// The grid of cubes of a voxel body: a cube belongs to it when its centre is inside the surface (winding
 /// number other than 0, by a ray along z through the centre). All cubes hang together by faces.
 /// @throws InputError, at the place of the surface in the case file, if the surface is no STL or not closed,
-/// if no centre is inside, if the cubes fall into pieces, or if the grid would have more than 50 million of
-/// them
-/// @param remarks  as of read_triangles()
+/// if no centre is inside, if the cubes fall into pieces, or if the grid would have over 50 million cubes
+/// @param remarks  as in read_triangles()
 HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
-/// The same of a surface that has been read and scaled.
+/// The same for a surface that has been read and scaled.
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
 
-/// For messages about a body that is too small or too large for its cells.
+/// Hint in messages about a body that is too small or too large for its cells.
 /// @param size  along the axes, mm
 inline std::string scale_hint(const Eigen::Vector3d& size) {
   return fmt::format("the file's body is {:.4g} x {:.4g} x {:.4g} mm; where its unit is another, body.scale "

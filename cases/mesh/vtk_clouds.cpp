@@ -56,7 +56,7 @@ DataSet read_legacy(const std::string& content) {
   return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
 }
 
-/// The type that an XML file says it has; empty if it is none.
+/// The type that an XML file states; empty if it is no such file.
 std::string xml_type(const std::string& content) {
   const std::size_t tag = content.find("<VTKFile"), end = content.find('>', tag);
   if (tag == std::string::npos || end == std::string::npos) return "";

@@ -63,7 +63,7 @@ Surface read_triangles(const std::string& path) {
   constexpr std::uintmax_t head = 84, per_triangle = 50; // bytes of a binary file
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
-  reader->MergingOff(); // which must not see a position that is not finite
+  reader->MergingOff(); // merging must not see a position that is not finite
   run(*reader);
   vtkPolyData& body = *reader->GetOutput();
   Surface surface(static_cast<std::size_t>(body.GetNumberOfPolys()));

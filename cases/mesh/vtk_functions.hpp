@@ -53,7 +53,7 @@ struct CellCloud {
 /// A number at every point of a regular grid, such as the mask of a body or the density of a tissue.
 struct Picture {
   std::array<int, 3> n_points;     ///< along x, y, z, > 0
-  Eigen::Vector3d origin, spacing; ///< mm: of the first point, and from one to the next
+  Eigen::Vector3d origin, spacing; ///< mm: the first point, and the way from one to the next
   std::vector<float> values;       ///< x fastest
 
   float largest() const { return *std::max_element(values.begin(), values.end()); }
@@ -64,7 +64,7 @@ struct ContourSettings {
   int n_smoothing = 0; ///< passes of VTK's windowed sinc filter, which takes the steps of a mask and shrinks
                        ///< little; 0: as the picture has it
   std::size_t n_triangles = 0; ///< at most about so many, by quadric decimation; 0: all
-  bool has_one_piece = false;  ///< only the piece of the most triangles
+  bool has_one_piece = false;  ///< only the piece with the most triangles
 };
 
 /// The cell of a body at rest that holds a point or is nearest to it.
@@ -85,7 +85,7 @@ struct GridFields {
 struct VtkFunctions {
   /// Content of a .vtu: doubles, appended raw.
   std::string (*write_unstructured_grid)(const HexMesh&, const GridFields&);
-  /// The same of lines between points, which are its cells.
+  /// The same with lines between points as cells.
   std::string (*write_lines)(const std::vector<Eigen::Vector3d>& points,
                              const std::vector<std::array<int, 2>>& lines, const GridFields&);
   /// Content of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk, in any encoding.
@@ -102,7 +102,7 @@ struct VtkFunctions {
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
   /// The triangles of a file .vtp's content.
   Surface (*read_polygons)(const std::string& content);
-  /// cases::contour(), of as many values as points.
+  /// cases::contour() for as many values as points.
   Surface (*contour)(const Picture&, const ContourSettings&);
   /// The place nearest to each position.  @param mesh  with at least one cell
   std::vector<PlaceInCell> (*nearest_in_cells)(const HexMesh& mesh,

@@ -11,7 +11,7 @@ namespace springproof::cases {
 /// @throws std::runtime_error with its first error, without the place in VTK's source
 void run(vtkAlgorithm& algorithm);
 
-/// The same of a reader that reads no more than what its file says of its content.
+/// The same for a reader that reads no more than what its file says about its content.
 void run_information(vtkAlgorithm& algorithm);
 
 PointCloud read_points(const std::string& content);

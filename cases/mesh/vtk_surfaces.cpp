@@ -50,7 +50,7 @@ Surface triangles_of(vtkPolyData& data) {
   return surface;
 }
 
-/// The picture with a point more at each side, of a value below the level.
+/// The picture with one more point at each side, whose value is below the level.
 vtkNew<vtkImageData> with_border(const Picture& picture, double level) {
   vtkNew<vtkImageData> image;
   const auto& n = picture.n_points;
@@ -70,7 +70,7 @@ vtkNew<vtkImageData> with_border(const Picture& picture, double level) {
   return image;
 }
 
-/// The surface in about so many triangles, where it has more.
+/// Reduces a surface with more triangles to about so many.
 vtkSmartPointer<vtkPolyData> with_fewer_triangles(vtkPolyData& surface, std::size_t n_triangles) {
   const auto has = static_cast<double>(surface.GetNumberOfPolys()), wanted = static_cast<double>(n_triangles);
   if (!(wanted < has)) return &surface;
@@ -142,8 +142,8 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) {
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  // Where a flat face bends it needs triangles too: a field of the vertices that bends everywhere, and that
-  // the triangles left must interpolate.
+  // A flat face needs triangles too, to be able to bend. So the vertices get a field that bends everywhere,
+  // which the triangles left must interpolate.
   const vtkNew<vtkFloatArray> bent;
   bent->SetNumberOfComponents(3);
   const Eigen::AlignedBox3d box = bounding_box(surface.vertices);

@@ -20,8 +20,7 @@ namespace springproof::cases {
 
 namespace {
 
-/// What two statements of a length may differ by, relative, and an angle from a right one: half a voxel in
-/// 500.
+/// Tolerance on two statements of a length, relative, and on right angles: half a voxel in 500.
 constexpr double voxel_tolerance = 1e-3;
 
 /// The edges of a voxel from the steps between voxels.
@@ -84,13 +83,13 @@ void check_size_of_header(const std::string& path) {
   const auto number = [&](auto begin) {
     return begin[0] + 256 * (begin[1] + 256 * (begin[2] + 256L * begin[3]));
   };
-  for (const long size : {348L, 540L}) // of NIfTI-1 and NIfTI-2
+  for (const long size : {348L, 540L}) // NIfTI-1's and NIfTI-2's
     if (is_read && (number(bytes.begin()) == size || number(bytes.rbegin()) == size)) return;
   throw std::runtime_error(
       "is no NIfTI file: its first number, the size of its header, is neither 348 nor 540");
 }
 
-/// VTK takes other magic words for its elders, and what is no length for 1 mm.
+/// Checks what VTK does not: it takes other magic words for older formats, and what is no length for 1 mm.
 void check_header(vtkNIFTIImageReader& reader, const std::string& path) {
   check_size_of_header(path);
   vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
@@ -109,8 +108,8 @@ void check_header(vtkNIFTIImageReader& reader, const std::string& path) {
     throw std::runtime_error("has a scale of its intensities that is no number");
 }
 
-/// What a compressed file may hold: its header, as many voxels as that says, and any number of pictures one
-/// after the other in time, the first of which is read.
+/// Checks the size of a compressed file: it may hold its header, as many voxels as that says, and further
+/// pictures that follow in time and are not read.
 void check_compressed(const std::string& path, vtkNIFTIImageHeader& header, const VolumeBytes& bytes,
                       std::uint64_t of_voxels) {
   const std::uint64_t least =
@@ -124,7 +123,7 @@ void check_compressed(const std::string& path, vtkNIFTIImageHeader& header, cons
   check_gzip(path, least, static_cast<std::uint64_t>(most));
 }
 
-/// VTK's messages name the file, objects and addresses, in several lines.
+/// Shortens VTK's messages, which name the file, objects and addresses, in several lines.
 std::string in_one_line(std::string message, const std::string& path) {
   if (message.find("returned failure for request") != std::string::npos)
     return "is damaged or no such file, says VTK";
@@ -132,7 +131,7 @@ std::string in_one_line(std::string message, const std::string& path) {
   return "VTK: " + message.substr(0, message.find('\n'));
 }
 
-/// What VTK says when it does something with a file.
+/// Runs an action on a file, and throws VTK's errors in one line.
 template<class Action>
 void run_on(const std::string& path, const Action& action) {
   try {

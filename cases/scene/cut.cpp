@@ -37,7 +37,7 @@ Block block_of(const Grid& grid, const Removed& removed) {
 
 template<class Action>
 void for_each_cell(const Grid& grid, const Action& action) {
-  std::size_t number = 0; // of all places, with or without a cell
+  std::size_t number = 0; // counts all places, with or without a cell
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i) action(std::array<int, 3>{i, j, k}, number++);
@@ -47,7 +47,7 @@ void for_each_cell(const Grid& grid, const Action& action) {
 struct CutSide {
   std::vector<int> free;   ///< nodes that are to be joined
   std::vector<int> held;   ///< nodes whose displacement along the axis is prescribed
-  double displacement = 0; ///< mm, of these at full load
+  double displacement = 0; ///< the held nodes' at full load, mm
 };
 
 /// The displacement that supports prescribe for a node at full load; nothing where it is free.
@@ -68,7 +68,7 @@ CutSide side_of(const Scene& scene, const Removed& removed, const Block& block, 
   const Grid& grid = *scene.mesh.grid;
   const auto axis = static_cast<std::size_t>(*removed.join);
   const int layer =
-      plane == block.first[axis] ? block.first[axis] : block.end[axis] - 1; // of the gap's cells
+      plane == block.first[axis] ? block.first[axis] : block.end[axis] - 1; // the gap's layer of cells
   CutSide side;
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
     const Vector3d place = (scene.mesh.nodes[n] - grid.origin).cwiseQuotient(grid.spacing);

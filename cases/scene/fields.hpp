@@ -36,7 +36,7 @@ SPRINGPROOF_FIELDS(springproof::cases::Vibration, omega, damping_ratio)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
                    unfinished_steps, largest_residual, slowest)
 
-/// Who shares it is for the reader to know.
+/// Leaves out `sharing`, which the reader has to know.
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Solution& solution) {
   auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,

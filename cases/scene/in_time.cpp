@@ -6,7 +6,7 @@ namespace springproof::cases {
 
 namespace {
 
-/// After the one time and before the other.
+/// Whether the history jumps after `begin` and before `end`.
 bool jumps_between(const History& history, double begin, double end) {
   const auto is_jump = [&](const auto& from, const auto& to) {
     return from[0] == to[0] && from[1] != to[1] && from[0] > begin && from[0] < end;

@@ -51,7 +51,7 @@ class Forces {
   std::vector<NodeVector> forces;
 };
 
-/// The force on a node.  @param here, all  the node's share of what the region has, and the sum of them
+/// The force on a node.  @param here, all  the node's share of the region, and the sum of all shares
 Vector3d on_node(const loads::NodalForce& load, double here, double) {
   return load.value * here;
 }
@@ -82,8 +82,8 @@ void add_point_forces(const Scene& scene, const std::vector<Scene::AppliedLoad>&
   }
 }
 
-/// Area that a patch's sphere cuts from the case's [surface], mm²; without one, of a flat circle of its
-/// radius, or the modelled half or quarter of it where planes of symmetry go through its centre.
+/// Area that a patch's sphere cuts from the case's [surface], mm². Without one it is that of a flat circle of
+/// its radius, or of the modelled half or quarter where planes of symmetry go through its centre.
 double area_within(const Scene& scene, const Region& region) {
   if (!scene.surface.triangles.empty()) {
     double sum = 0;
@@ -141,7 +141,7 @@ void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
   patch.part.clear();
   for (const auto& [node, weight] : on_nodes(patch.points, mesh)) {
     patch.selection.nodes.push_back(node);
-    patch.part.push_back(weight / share(node)); // which the load's sum multiplies by
+    patch.part.push_back(weight / share(node)); // the load's sum multiplies by the share
   }
 }
 
@@ -165,7 +165,7 @@ double area(const HexMesh& mesh, const Selection& selection) {
 }
 
 std::vector<std::string> warnings_of_loads(const Scene& scene) {
-  constexpr double most = 0.1; // of the area
+  constexpr double most = 0.1; // relative to the area
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const auto& [selection, load, part, points] = scene.loads[i];

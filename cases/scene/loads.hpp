@@ -11,9 +11,9 @@ namespace springproof::cases {
 /// the node: halved by each symmetry plane through it.
 std::function<double(int node)> modelled_share(const Scene& scene);
 
-/// Makes nodes and parts of a patch's load from its points: a nodal force that is shared by their weights,
-/// and is all of it on the modelled part of a symmetric scene.
-/// @param mesh  that the points are of     @param share  modelled_share() of the scene
+/// Makes nodes and parts of a patch's load from its points: a nodal force shared by their weights, all of it
+/// on the modelled part of a symmetric scene.
+/// @param mesh  the points' mesh     @param share  modelled_share() of the scene
 void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
                    const std::function<double(int node)>& share);
 
@@ -28,14 +28,14 @@ struct NodeVector {
 /// torques integrated with bilinear shape functions on the rest faces. Gravity is none of them: models have
 /// masses of their own.
 std::vector<NodeVector> loaded_nodes(const Scene& scene);
-/// The same of some of the scene's loads alone.
+/// The same for some of the scene's loads alone.
 std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads);
 
-/// Area of a selection's faces at rest, mm²; 0 of nodes and edges. Exact for planar faces.
+/// Area of a selection's faces at rest, mm²; 0 for nodes and edges. Exact for planar faces.
 double area(const HexMesh& mesh, const Selection& selection);
 
-/// One sentence for each traction on a patch whose faces have another area, by more than a tenth, than the
-/// sphere cuts from the case's [surface] or than a flat circle has: faces of voxels are stairs.
+/// One sentence for each traction on a patch whose faces' area differs by more than a tenth from that which
+/// the sphere cuts from the case's [surface], or from a flat circle's: faces of voxels are stairs.
 std::vector<std::string> warnings_of_loads(const Scene& scene);
 
 /// The point forces (nodal_force, total_force) alone.
@@ -48,8 +48,8 @@ std::vector<Eigen::Vector3d> on_all_nodes(const std::vector<NodeVector>& some, s
 std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
-/// The dead surface traction (MPa) of a load on an area, as a function of the point (mm) of its region at
-/// rest; empty for other loads.
+/// The dead surface traction (MPa) of a load on an area, as a function of a point (mm) of its region at rest;
+/// empty for other loads.
 std::function<Eigen::Vector3d(const Eigen::Vector3d& point)>
 surface_traction(const HexMesh& mesh, const Scene::AppliedLoad& applied);
 

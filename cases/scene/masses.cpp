@@ -16,7 +16,7 @@ Eigen::Vector3d acceleration(const loads::Gravity& gravity) {
 }
 
 /// Shares a value of every cell out to the points.
-/// @param of_volume  of a cell, per mm³
+/// @param of_volume  returns a cell's value per mm³
 template<class OfVolume>
 std::vector<double> shared_out(const Scene& scene, PointMass shared, const OfVolume& of_volume) {
   const HexMesh& mesh = scene.mesh;
@@ -47,7 +47,7 @@ CellDynamics dynamics_of(const Scene& scene, std::size_t cell) {
 
 std::vector<NodeMass> added_masses(const Scene& scene) {
   if (scene.masses.empty()) return {};
-  std::map<int, double> masses; // of nodes
+  std::map<int, double> masses; // by node
   const auto share = modelled_share(scene);
   for (const auto& [selection, added] : scene.masses) {
     double divisor = 0;

@@ -2,7 +2,7 @@
 
 #include "cases/scene/loads.hpp"
 
-/// What has mass in a scene: kg/m³, kg and m/s² of the case become t/mm³, t and mm/s² here, and nowhere else.
+/// Masses of a scene: kg/m³, kg and m/s² of the case become t/mm³, t and mm/s² here, and nowhere else.
 namespace springproof::cases {
 
 /// Damping and density of a cell's material, t/mm³; without a density in the case nothing has mass.
@@ -19,27 +19,27 @@ struct NodeMass {
   double mass;
 };
 
-/// What [[mass]] adds to nodes of the mesh, in ascending order: shared equally by a region's nodes; a node on
-/// symmetry planes has the modelled part alone, as of a force.
+/// Masses that [[mass]] adds to nodes, in ascending order. A region's nodes share its mass equally; a node on
+/// symmetry planes has the modelled part alone, as with a force.
 std::vector<NodeMass> added_masses(const Scene& scene);
 /// The mass of a node; 0 where the list has none.
 double mass_of(const std::vector<NodeMass>& added, int node);
 
-/// Masses of the springs' points, t: as msm.mass shares out the cells', and what is added to them; or as
-/// `shared` does.
+/// Masses of the springs' points, t: the cells' masses, which msm.mass or `shared` shares out, and what
+/// [[mass]] adds.
 std::vector<double> point_masses(const Scene& scene);
 std::vector<double> point_masses(const Scene& scene, PointMass shared);
 
-/// Factors of the mass in C that belong to these points, t/s: of every cell's mass its material's
-/// mass_damping. What is added by [[mass]] is not damped.
+/// Masses of these points times mass_damping, their part of C, t/s. Every cell's mass has its material's
+/// factor; masses added by [[mass]] are not damped.
 std::vector<double> point_mass_damping(const Scene& scene);
 
-/// The acceleration of a load that acts on masses, mm/s², at a factor of 1; and of all of a scene's together.
+/// The acceleration by a load that acts on masses, mm/s², at a factor of 1; and that by all loads of a scene.
 Eigen::Vector3d acceleration_of(const Load& load);
 Eigen::Vector3d gravity(const Scene& scene);
 
 /// All loads of the case as nodal forces, N, at factors of 1: loaded_nodes(), and gravity on point_masses(),
-/// which in finite elements are those of the cells.
+/// shared as PointMass::cells for finite elements.
 std::vector<NodeVector> applied_forces(const Scene& scene, PointMass shared = PointMass::cells);
 
 /// Forces on all points in an acceleration (mm/s²), N.  @param masses  point_masses()

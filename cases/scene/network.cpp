@@ -10,7 +10,7 @@ namespace springproof::cases {
 
 namespace {
 
-/// A row, and what it may have.
+/// A row and the checks of its fields.
 struct Row {
   const TextRow& row;
 
@@ -73,7 +73,7 @@ std::vector<NetworkSpring> read_network(const std::string& text, const std::stri
 
 std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
                                    const std::function<Eigen::Vector3d(int)>& node) {
-  constexpr double far = 0.1; // of the distance
+  constexpr double far = 0.1; // relative to the distance
   std::vector<std::array<int, 2>> pairs;
   std::size_t n_far = 0;
   double farthest = 0;

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-/// A spring network of the user's own: `design = "network"`, `file = "NAME.csv"` in [msm].
+/// A user's own spring network: `design = "network"`, `file = "NAME.csv"` in [msm].
 namespace springproof::cases {
 
 /// A spring between two nodes of the mesh, by their numbers.
@@ -15,16 +15,16 @@ struct NetworkSpring {
   std::optional<double> exponent{};    ///< power-log law; absent: Hooke's
 };
 
-/// Lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes), stiffness in
-/// N/m, and perhaps rest length in mm and exponent of the power-log law; a field of these two may be empty.
+/// Reads lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes),
+/// stiffness in N/m, and perhaps rest length in mm and exponent of the power-log law. These two may be empty.
 /// Empty lines, those that begin with #, and a heading (the first line alone may be one) are skipped.
-/// @param text  the file's content    @param name  of the file, for messages    @param n_nodes  of the mesh
+/// @param text  the file's content    @param name  the file's, for messages    @param n_nodes  the mesh's
 /// @throws InputError with the line and the field
 std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,
                                         std::size_t n_nodes);
 
-/// What looks like a mistake of a network, with the number of springs: nodes that several springs join, and
-/// rest lengths more than 10 % from the distance of the nodes.
+/// Likely mistakes in a network, with the number of springs: nodes that several springs join, and rest
+/// lengths more than 10 % from the distance of the nodes.
 std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
                                    const std::function<Eigen::Vector3d(int)>& node);
 

@@ -51,7 +51,7 @@ void keep_each_once(std::vector<std::array<int, 4>>& faces) {
   faces.erase(std::remove_if(faces.begin(), faces.end(), is_known), faces.end());
 }
 
-/// As select_on_planes() on a grid whose cells are all present, without a look at the inner ones.
+/// Does the same as select_on_planes() on a grid whose cells are all present, without a look at inner ones.
 Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
                               const std::vector<std::string>& faces) {
   std::array<int, 3> first{0, 0, 0}, last = grid.cells; // places of selected nodes along each axis
@@ -74,7 +74,7 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
   in_planes(first, last, [&](int i, int j, int k) {
     selection.nodes.push_back(static_cast<int>(number(i, j, k, grid.cells[0] + 1, grid.cells[1] + 1)));
   });
-  std::array<int, 3> first_cell, last_cell; // that have selected vertices
+  std::array<int, 3> first_cell, last_cell; // they have selected vertices
   for (std::size_t a = 0; a < 3; ++a) {
     first_cell[a] = std::max(first[a] - 1, 0);
     last_cell[a] = std::min(last[a], grid.cells[a] - 1);

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-/// What the kinds of regions select on a mesh; select() in scene.hpp knows which kind one is.
+/// Selections by the kinds of regions on a mesh; select() in scene.hpp finds the kind.
 namespace springproof::cases {
 
 /// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
@@ -13,13 +13,13 @@ Selection select_near(const HexMesh& mesh, const Region& region);
 
 /// Nodes, edges and faces on all of these planes of the mesh's bounding box. On a grid whose cells are all
 /// present they follow from numbers, without a look at the inner ones.
-/// @param faces  of the box, such as "z+" and "x-"
+/// @param faces  names of the box's faces, such as "z+" and "x-"
 Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces);
 
 /// Bits of the planes of symmetry that each node is on, by their place in the list; empty without planes.
 std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
 
-/// Faces of the body's surface: of one cell only, and on no plane of symmetry, beyond which the body goes on.
+/// Faces of the body's surface: they have one cell, and lie on no plane of symmetry, where the body goes on.
 std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
 
 /// The faces of the surface whose centre lies in the region's sphere, with their edges and nodes.
@@ -27,11 +27,11 @@ std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::ve
 Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
                        const Region& region);
 
-/// Nodes with the edges and faces between them of some of the cells, or of all.
+/// Selected nodes, and the edges and faces between them of some cells or of all.
 Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
                          const std::function<bool(std::size_t cell)>& is_of_cells = {});
 
-/// The nodes of the region's part, and the edges and faces between them of the cells that it is a part of.
+/// The nodes of the region's part, and the edges and faces between them of that part's cells.
 Selection select_part(const HexMesh& mesh, const Region& region);
 
 } // namespace springproof::cases

@@ -86,7 +86,7 @@ void resolve_supports(Scene& scene) {
   }
 }
 
-/// What nothing holds or moves of the nodes of rigid cells is held.
+/// Holds nodes of rigid cells that nothing else holds or moves.
 void hold_rigid_nodes(Scene& scene) {
   if (rigid_class(scene.definition.body) == nullptr) return;
   const std::vector<bool> is_taken = constrained_dofs(scene);
@@ -300,7 +300,7 @@ bool is_rigid(const Scene& scene, std::size_t cell) {
 
 namespace {
 
-/// @throws InputError also when a spring of no rest length of its own joins nodes in one place
+/// @throws InputError also when a spring without a rest length of its own joins nodes in one place
 void resolve_network(Scene& scene) {
   const auto& file = scene.definition.msm.network;
   if (!file) return;

@@ -54,7 +54,7 @@ std::vector<Material> materials_of(const Case& definition);
 /// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
 
-/// Whether a cell is of the class of a labelled volume that is rigid.
+/// Whether a cell belongs to the rigid class of a labelled volume.
 bool is_rigid(const Scene& scene, std::size_t cell);
 
 /// Builds or reads the body's mesh and resolves every region of the case (those of measures too).
@@ -62,13 +62,13 @@ bool is_rigid(const Scene& scene, std::size_t cell);
 Scene make_scene(const Case& definition);
 
 /// The same scene on the mesh refined n times. Nodal forces stay on the nodes of the body's own mesh; those
-/// of patches stay at their points, and go to the nodes of the fine cells there.
+/// on patches stay at their points, and go to the nodes of the fine cells there.
 Scene refine(const Scene& scene, int n);
 
 /// Whether degree of freedom 3*node + component is constrained, for every node of the mesh.
 std::vector<bool> constrained_dofs(const Scene& scene);
 
-/// Displacement (mm) that a motion prescribes at a load factor for a point of rest position `rest` (mm); 0
+/// Displacement (mm) that a motion prescribes at a load factor for a point with rest position `rest` (mm); 0
 /// on components that the motion leaves free. Where it is scaled, that is as at a smaller load factor.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 

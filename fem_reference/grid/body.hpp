@@ -10,25 +10,25 @@ namespace springproof::fem_reference::grid {
 
 /// A body made of equal cuboids, as the kernels see it: the cells and nodes of a slab.
 struct Body {
-  /// @param cells  of the whole grid    @param slab  of its planes of nodes
+  /// @param cells  the whole grid's    @param slab  the planes of nodes that this rank holds
   Body(const std::array<int, 3>& cells, const Slab& slab, const Eigen::Vector3d& spacing, Law law,
        bool has_modes);
 
-  std::array<int, 3> cells; ///< of the slab
+  std::array<int, 3> cells; ///< the slab's
   Eigen::Vector3d spacing;  ///< mm
   Layout layout;
   Slab slab;
   Law law;
   bool has_modes;                 ///< a pressure of its own in every cell
   std::vector<float> weight;      ///< per cell entry of the layout: 1, or 0 where there is none
-  int n_parameters = 0;           ///< of the law
+  int n_parameters = 0;           ///< the law's
   std::vector<double> parameters; ///< n_parameters for all cells, or [parameter][cell entry]
   Field<float> free;              ///< 0 where constrained or without a cell, else 1
 
   bool has_one_material() const { return parameters.size() == static_cast<std::size_t>(n_parameters); }
   std::array<int, 3> cells_of_grid() const { return {cells[0], cells[1], slab.n_planes_of_grid() - 1}; }
   Space space(int n_threads) const { return {layout, slab, n_threads}; }
-  /// For the kernels; points into this body.
+  /// Returns what the kernels need; it points into this body.
   Cells view() const;
 };
 
@@ -39,7 +39,7 @@ Layout make_layout(const std::array<int, 3>& cells);
 /// Whether node (i, j, k) touches a cell that is held.
 bool has_cell(const Body& body, int i, int j, int k);
 
-using Place = Eigen::Vector3i; ///< of a node in its grid
+using Place = Eigen::Vector3i; ///< a node's indices in its grid
 
 /// Where the nodes of a grid are, and which of them a rank has.
 struct Places {
@@ -53,7 +53,7 @@ struct Places {
   Eigen::Vector3d rest(const Place& at) const { return origin + at.cast<double>().cwiseProduct(spacing); }
   bool holds(const Place& at) const { return is_in({0, body.slab.n_planes()}, at); }
   bool owns(const Place& at) const { return is_in(body.slab.computed(), at); }
-  /// Of a node that is held.
+  /// Entry of a node that is held, in the body's layout.
   std::ptrdiff_t entry(const Place& at) const {
     return body.layout.at(at.x(), at.y(), at.z() - body.slab.first_of_grid());
   }
@@ -75,7 +75,7 @@ struct Places {
 };
 
 /// A rank's slab of a grid; the whole grid on every rank when it is small.
-/// @param multiple  of which each rank's first plane is one
+/// @param multiple  each rank's first plane is a multiple of it
 Slab deal(const std::array<int, 3>& cells, MPI_Comm communicator, int multiple);
 
 /// The slab of the grid that is coarser along some axes: gathered when it is small or the ranks run out of

@@ -33,7 +33,7 @@ Field<double> inject(const Field<double>& fine, const Body& from, const Body& to
   return coarse;
 }
 
-/// Loads by the transpose of interpolation; supports as those of the fine nodes in the same place.
+/// Coarsens loads by the transpose of interpolation; supports are those of the fine nodes in the same place.
 /// @param from, to  must outlive the result
 Supported coarsen(const Supported& fine, const Body& from, const Body& to, const std::array<int, 3>& factor,
                   int n_threads) {

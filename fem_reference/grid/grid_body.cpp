@@ -19,16 +19,16 @@ bool is_quadratic(const cases::Scene& scene) {
   return scene.definition.fem.element == cases::Element::q2;
 }
 
-/// An element of those that the cells of a body's own mesh are divided into.
+/// An element: a part of a cell of the body's own mesh.
 struct Part {
-  std::size_t cell;           ///< of the body's own mesh
+  std::size_t cell;           ///< number in the body's own mesh
   std::array<int, 3> in_cell; ///< 0 to along - 1
-  std::array<int, 3> at;      ///< of the grid of elements
-  int layer;                  ///< of those that are held
+  std::array<int, 3> at;      ///< indices in the grid of elements
+  int layer;                  ///< index among the layers that are held
 };
 
 /// Calls action(Part) cell by cell, for the parts in a range of the layers that are held.
-/// @param along  parts along an edge of a cell   @param first  of the grid's layers of parts, the first held
+/// @param along  parts along an edge of a cell   @param first  first held layer of parts, by its grid index
 template<class Action>
 void for_each_part(const cases::Grid& grid, int along, int first, const Slab::Range& layers,
                    const Action& action) {
@@ -55,7 +55,7 @@ std::array<int, 3> cells_along(const cases::Scene& scene, int along) {
 }
 
 /// @param along        elements along an edge of a cell
-/// @param first_layer  of the grid's layers of cells, the first that the slab holds
+/// @param first_layer  first layer of cells that the slab holds, by its grid index
 Body make_body(const cases::Scene& scene, int along, const Slab& of_nodes, int first_layer) {
   const cases::Element element = scene.definition.fem.element;
   const auto materials = cases::materials_of(scene.definition);
@@ -97,7 +97,7 @@ std::unique_ptr<QuadraticElements> make_quadratic(const cases::Scene& scene, int
 
 } // namespace
 
-/// What refers to each other.
+/// Parts that refer to each other.
 struct GridBody::Parts {
   Parts(const cases::Scene& scene, MPI_Comm communicator, int n_threads, int cell_factor)
       : factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
@@ -197,7 +197,7 @@ void GridBody::set_in_motion(const mechanics::EquilibriumSettings& settings) {
 }
 
 bool GridBody::can_leave_rest() {
-  constexpr double part = 1e-6; // of the load: so small that Newton's step is the answer to it
+  constexpr double part = 1e-6; // share of the load: so small that Newton's step is the answer to it
   constexpr double forcing = 1e-3, enough = 0.1;
   const Vector rest = equations.rest();
   parts->equations.forget_tangent();

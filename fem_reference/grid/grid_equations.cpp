@@ -14,13 +14,13 @@ namespace {
 
 using cases::index;
 
-/// 15 iterations in all for the sheared cube of 40^3 cells, 19 with a polynomial of degree 2; quadratic
-/// elements gain nothing from the better one, because trilinear ones are only near them.
+/// Smoothers. The sheared cube of 40^3 cells takes 15 iterations in all, 19 with a polynomial of degree 2.
+/// Quadratic elements gain nothing from the better one, because trilinear ones only approximate them.
 constexpr mechanics::grid::Chebyshev linear_smoother{3, 12}, quadratic_smoother{2, 6};
 constexpr int max_linear_iterations = 500;
-/// Of a residual an iteration leaves no more.
+/// Largest share of a residual that is left by an iteration that gains much.
 constexpr double much_gained = 0.2;
-/// Of GMRES; twice as many vectors are kept.
+/// Limits on GMRES iterations. It keeps two vectors for each iteration until it restarts.
 constexpr int max_unsymmetric_iterations = 400, max_indefinite_iterations = 80;
 constexpr int restart_of(std::ptrdiff_t n) {
   return n < 1000000 ? 80 : 30;
@@ -59,7 +59,7 @@ bool GridEquations::add_force(const Vector& at, Field<double>& force) {
   return is_valid;
 }
 
-/// Of a step in time: to the force, and to that with the pressures' imbalance.
+/// Adds the inertia and damping of a step in time to the force, and to that with the pressures' imbalance.
 void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
   Field<double> way = at.head(n_displacements()) - step_->origin.head(n_displacements());
   space_.slab.update_ghosts(space_.layout, way.data());
@@ -85,7 +85,7 @@ void GridEquations::supports_at(double time, Vector& displacement) const {
   for (std::size_t m = 0; m < values.size(); ++m) displacement[supported_.moved[m]] = values[m];
 }
 
-/// On free degrees of freedom; 0 elsewhere.
+/// Multiplies on free degrees of freedom; the product is 0 elsewhere.
 void GridEquations::multiply(const Inertia::Factors& factors, const Vector& motion, Vector& product) {
   motion_ = motion.head(n_displacements());
   space_.slab.update_ghosts(space_.layout, motion_.data());
@@ -101,7 +101,7 @@ void GridEquations::set_step(const mechanics::StepTerms& terms) {
   if (inertia_->set_step({terms.mass, terms.damping})) has_tangent_ = false;
 }
 
-/// What a residual is relative to, N. A body moved by prescribed displacements alone is measured against its
+/// Scale of residuals, N. A body moved by prescribed displacements alone is measured against its
 /// reactions; one in motion that is moved by them, against these if they are the larger.
 double GridEquations::scale() const {
   if (step_) return supported_.prescribed ? std::max(step_->scale, reaction_) : step_->scale;
@@ -245,14 +245,14 @@ std::size_t GridEquations::n_unknowns() const {
   return static_cast<std::size_t>(grid::dot(space_, free, free)); // ones and zeros: exact
 }
 
-/// The planes of nodes of each component, and the layers of cells; all that vectors have where they are
-/// whole.
+/// Runs of this rank's own entries: each component's planes of nodes, and the layers of cells. Nothing where
+/// vectors are whole.
 std::vector<GridEquations::Run> GridEquations::runs() const {
   if (!space_.slab.is_shared()) return {};
   const Layout &here = body_.layout, whole = make_layout(body_.cells_of_grid());
   const int first = space_.slab.first_of_grid();
   std::vector<Run> runs;
-  Eigen::Index end = 0; // of the run before, in whole vectors
+  Eigen::Index end = 0; // end of the run before, in whole vectors
   const auto add = [&](Eigen::Index from, Eigen::Index n, Eigen::Index in_whole) {
     runs.push_back({from, n, in_whole - end});
     end = in_whole + n;

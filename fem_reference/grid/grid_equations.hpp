@@ -8,13 +8,13 @@
 
 namespace springproof::fem_reference::grid {
 
-/// What a cell's pressure may leave of its volume, relative, where residuals have a tolerance.
+/// Relative volume that a cell's pressure may leave unbalanced, at a tolerance on residuals.
 constexpr double volume_tolerance_of(double residual_tolerance) {
   return 1e-2 * residual_tolerance;
 }
 
 /// The equations of a body on a grid, in equilibrium or in motion, without a factorisation. A state is the
-/// displacement of the nodes (mm), then the pressures of the cells (MPa), where they have one; of a rank,
+/// displacement of the nodes (mm), then the pressures of the cells (MPa), where they have one; a rank has
 /// those of all nodes and cells that its slab holds. Forces are right in the planes that a rank computes.
 /// Supports are part of the equations, as in EquilibriumEquations; pressures have no inertia. Every member
 /// function that evaluates a state is collective.
@@ -22,8 +22,8 @@ class GridEquations : public ElementEquations {
  public:
   /// @param body, supported  must outlive this
   /// @param quadratic  elements on the body's nodes in place of its own, or null; must outlive this
-  /// @param volume_tolerance  on what a cell's pressure leaves of its volume, relative; as of the assembled
-  ///                          equations
+  /// @param volume_tolerance  relative volume that a cell's pressure may leave unbalanced; the assembled
+  ///                          equations have the same default
   GridEquations(const Body& body, const Supported& supported, int n_threads,
                 QuadraticElements* quadratic = nullptr, double volume_tolerance = 1e-12);
 
@@ -40,14 +40,14 @@ class GridEquations : public ElementEquations {
                  mechanics::Convexity convexity, Vector& step) override;
   mechanics::Merit merit() const override;
   std::optional<bool> is_stable(const Vector& at) override;
-  double dot(const Vector& left, const Vector& right) const override; ///< of the displacements
+  double dot(const Vector& left, const Vector& right) const override; ///< the displacements alone
   bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
   std::vector<Run> runs() const override;
   Work work() const override { return work_; }
   std::size_t n_unknowns() const override; ///< collective
 
-  /// Gives the body the masses, damping and loads in time of a scene: the functions below are about these.
-  /// @param scene   with the mesh of the elements   @param places  of the body
+  /// Gives the body a scene's masses, damping and loads in time, which the functions below use.
+  /// @param scene   the scene on the elements' mesh   @param places  the body's
   void set_in_motion(const cases::Scene& scene, const Places& places);
   void mass_product(const Vector& motion, Vector& product) override { multiply({1, 0}, motion, product); }
   void damping_product(const Vector& motion, Vector& product) override { multiply({0, 1}, motion, product); }
@@ -55,10 +55,10 @@ class GridEquations : public ElementEquations {
   void supports_at(double time, Vector& displacement) const override;
   /// Pressures follow from displacements in each step.
   void complete(Vector& motion) override { body_.slab.update_ghosts(body_.layout, motion.data()); }
-  /// Residuals are from now on those of the step, whatever the load factor, relative to its scale.
+  /// Makes residuals those of the step, relative to its scale, whatever the load factor.
   void set_step(const mechanics::StepTerms& terms) override;
 
-  /// The next direction is of its own state's tangent, and of nothing that was learnt on the way.
+  /// Makes the next direction use the tangent of its own state, and nothing learnt before.
   void forget_tangent() {
     has_tangent_ = false;
     multigrid_.forget();
@@ -79,16 +79,16 @@ class GridEquations : public ElementEquations {
   double load_norm_, volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;
-  double norm_before_ = 0;           ///< of the right side that the tangent was last used for, N
-  std::unique_ptr<Inertia> inertia_; ///< of a body in motion
+  double norm_before_ = 0;           ///< norm of the right side last solved for, N
+  std::unique_ptr<Inertia> inertia_; ///< null unless the body is in motion
   std::vector<mechanics::LoadInTime> loads_;
   Field<double> motion_, product_;
   std::optional<mechanics::StepTerms> step_;
-  bool begins_step_ = false;    ///< no direction yet of this step
+  bool begins_step_ = false;    ///< this step has had no direction yet
   bool is_easy_ = true;         ///< every iteration of the step gained much
-  bool carries_tangent_ = true; ///< from the step before
-  Field<double> condensed_;     ///< of the state last evaluated: force with the pressures' imbalance, N
-  std::vector<double> gap_;     ///< of the moved entries there, mm
+  bool carries_tangent_ = true; ///< a step begins with the tangent of the one before
+  Field<double> condensed_;     ///< force with the pressures' imbalance in the state last evaluated, N
+  std::vector<double> gap_;     ///< gaps of the moved entries there, mm
   double largest_gap_ = 0, reaction_ = 0, volume_mismatch_ = 0;
   bool is_valid_ = false, has_failed_ = false;
   std::optional<int> negative_eigenvalues_;

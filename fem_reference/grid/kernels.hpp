@@ -13,7 +13,7 @@ namespace springproof::fem_reference::grid {
 
 using mechanics::grid::Layout;
 
-/// A matrix of 3x3 blocks between each node and its 27 neighbours: of every row of nodes (j, k) the entries
+/// A matrix of 3x3 blocks between each node and its 27 neighbours: for every row of nodes (j, k) the entries
 /// [(9*neighbour + 3*c + d)][i], neighbour = (dx+1) + 3(dy+1) + 9(dz+1). Rows begin stencil_row(layout)
 /// apart.
 constexpr int n_stencil = 27 * 9;
@@ -21,7 +21,7 @@ inline std::ptrdiff_t stencil_row(const Layout& layout) {
   return n_stencil * layout.row + 16;
 }
 
-/// Cell matrices: the upper triangle of 24x24, row 3*corner + component. Of every row of cells (j, k) the
+/// Cell matrices: the upper triangle of 24x24, row 3*corner + component. Every row of cells (j, k) has the
 /// entries [upper(r, s)][i].
 constexpr int n_upper = 300;
 constexpr int upper(int r, int s) {
@@ -34,31 +34,31 @@ struct Cells {
   Law law;
   bool has_modes;                ///< a constant pressure of its own in every cell; otherwise pointwise
   double gradients[8][8][3];     ///< dN_a/dX at Gauss point q: [q][a], 1/mm
-  double point_volume;           ///< of one Gauss point, mm³
+  double point_volume;           ///< one Gauss point's, mm³
   const float* weight;           ///< per cell: 1, 0 where there is none, between on coarser grids
   int n_parameters;              ///< as parameters_of() of mechanics has them
-  const double* parameters;      ///< of all cells; or null
+  const double* parameters;      ///< the same for all cells; or null
   const double* cell_parameters; ///< [parameter][cell]
 };
 
 /// Triquadratic elements; without pressures of their own.
 struct Quadratic {
-  Cells cells;                 ///< the elements; of these the layout's cells, weights and parameters are used
-  Layout nodes;                ///< the grid of their nodes: of cells of half the edge
+  Cells cells;                 ///< the elements; their layout's cells, weights and parameters are used
+  Layout nodes;                ///< the grid of their nodes, with cells of half the edge
   double gradients[27][27][3]; ///< dN_a/dX at Gauss point q: [q][a], 1/mm
-  double weights[27];          ///< of the Gauss points, mm³
+  double weights[27];          ///< the Gauss points', mm³
 };
 
 /// Masses of trilinear elements, or any multiple of them.
 struct Masses {
   const double* of_cell; ///< per cell, 16 entries more than there are; 0 where there is none
-  double part[8][8];     ///< between a cell's corners, of the cell's mass: symmetric, in sum 1
+  double part[8][8];     ///< shares of the cell's mass between its corners: symmetric, in sum 1
 };
 
 /// Results of a layer of cells.
 struct Checks {
   bool valid = true;          ///< false: J <= 0 or not a number at a Gauss point of some cell
-  double volume_mismatch = 0; ///< largest relative one of a cell's pressure
+  double volume_mismatch = 0; ///< the largest that a cell's pressure leaves, relative
 };
 
 struct ForceFields {
@@ -80,7 +80,7 @@ struct TangentFields {
 
 /// A grid in cells twice as large along some axes.
 struct Coarsening {
-  Layout layout; ///< of the coarser grid
+  Layout layout; ///< the coarser grid's
   bool axes[3];
   int first, first_coarse; ///< layers of the two grids before those of the layouts
 };

@@ -9,7 +9,7 @@ SPRINGPROOF_INLINE std::ptrdiff_t quadratic_node(const Layout& layout, int a) {
   return a % 3 + a / 3 % 3 * layout.row + a / 9 * layout.plane;
 }
 
-/// Every second number.
+/// Loads every second number.
 SPRINGPROOF_INLINE PackD load_second(const double* from) {
   PackD result;
   for (int l = 0; l < pack_size<double>; ++l) result[l] = from[2 * l];
@@ -24,7 +24,7 @@ SPRINGPROOF_INLINE void load_nodes(const Layout& layout, const double* field, st
       u[a][c] = weight > PackD{} ? value : PackD{};
     }
 }
-/// Differences to the lowest node, which are what single precision can hold.
+/// Loads differences to the lowest node, which single precision can hold.
 SPRINGPROOF_INLINE void load_differences(const Quadratic& elements, const double* field, std::ptrdiff_t cell,
                                          std::ptrdiff_t first, Nodes<PackF>& u) {
   const Layout& layout = elements.nodes;

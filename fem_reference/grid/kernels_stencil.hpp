@@ -2,7 +2,7 @@
 #pragma once
 
 /// Adds cell matrices to a matrix's rows.
-/// @param entry  of the pack's cell matrices: (row, column)
+/// @param entry  returns entry (row, column) of the pack's cell matrices
 /// @param first  place of the lowest cell in its row
 template<class Entry>
 SPRINGPROOF_INLINE void add_to_stencil(const Layout& layout, const Entry& entry, float* stencil, int first,
@@ -19,13 +19,13 @@ SPRINGPROOF_INLINE void add_to_stencil(const Layout& layout, const Entry& entry,
   }
 }
 
-/// The weights of a coarse cell's lower corner along an axis, of its fine cell's two corners; those of the
-/// upper corner are what is missing to 1.
+/// Weights of a coarse cell's lower corner along an axis at the two corners of its fine cell. Those of the
+/// upper corner are 1 minus these.
 struct Weights {
   PackF of_lower, of_upper;
 };
 
-/// matrix = P^T matrix P along one axis. Rows and columns that differ in the bit `axis` of their corner.
+/// matrix = P^T matrix P along one axis: mixes rows and columns whose corners differ in the bit `axis`.
 SPRINGPROOF_INLINE void interpolate(PackF (&matrix)[24][24], int axis, const Weights& w) {
   const PackF lower[2] = {w.of_lower, 1 - w.of_lower}, upper_[2] = {w.of_upper, 1 - w.of_upper};
 #pragma GCC unroll 1
@@ -54,7 +54,7 @@ SPRINGPROOF_INLINE Weights weights_of(bool upper_child) {
   return upper_child ? Weights{constant<PackF>(0.5), constant<PackF>(0)}
                      : Weights{constant<PackF>(1), constant<PackF>(0.5)};
 }
-/// Of neighbouring cells, the first of which is a lower child.
+/// Weights of neighbouring cells, the first of which is a lower child.
 SPRINGPROOF_INLINE Weights weights_of_row() {
   Weights w{};
   for (int l = 0; l < pack_size<float>; ++l) {
@@ -120,7 +120,7 @@ SPRINGPROOF_INLINE PackF load_as(const float* from, float) {
   return load(from);
 }
 
-/// n packs of a row of nodes.
+/// Computes the product for n packs of a row of nodes.
 template<int n, class Real>
 SPRINGPROOF_INLINE void product_of_packs(const Layout& layout, const float* row, const Real* field,
                                          const float* free, Real* product) {

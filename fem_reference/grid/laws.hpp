@@ -11,7 +11,7 @@ namespace springproof::fem_reference::grid {
 /// The isotropic laws of mechanics/laws.
 enum class Law { small_strain, saint_venant_kirchhoff, log_strain, ogden };
 
-/// action(law) of the law as a type.
+/// Returns action(law), the law being a type.
 template<class Action>
 SPRINGPROOF_INLINE auto with_law(Law law, const Action& action) {
 #pragma GCC diagnostic error "-Wswitch" // a law that is forgotten here must not compile

@@ -98,14 +98,14 @@ class Lanczos {
     return field;
   }
 
-  /// Against all vectors so far, in the preconditioner's inner product.
+  /// Makes a vector orthogonal to all vectors so far, in the preconditioner's inner product.
   void orthogonalise(Field<double>& right) const {
     for (int pass = 0; pass < 2; ++pass)
       for (const auto* vectors : {&found_, &basis_})
         for (const Pair& pair : *vectors) right -= dot(space_, right, pair.primal) * pair.dual.cast<double>();
   }
 
-  /// Whether the signs of the negative values and of the lowest other one are.
+  /// Whether the signs of the negative values and of the lowest other one are known.
   static bool is_known(const Eigen::VectorXd& values, const Eigen::VectorXd& errors) {
     for (Eigen::Index r = 0; r < values.size(); ++r) {
       if (!(errors[r] <= sign_is_known * std::abs(values[r]))) return false;

@@ -8,7 +8,7 @@ namespace springproof::fem_reference::grid {
 
 namespace {
 
-constexpr std::size_t most_terms = 8; ///< of Ogden's law
+constexpr std::size_t most_terms = 8; ///< in Ogden's law
 
 } // namespace
 

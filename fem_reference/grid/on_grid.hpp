@@ -16,10 +16,10 @@ double bulk_over_shear(const cases::Scene& scene);
 
 Law law_of(cases::Formulation formulation);
 
-/// Of a law, in the order that Cells asks for.
+/// Parameters of the material's law, in the order that Cells asks for.
 std::vector<double> parameters_of(const cases::Material& material);
 
-/// Of what each of the kernels' laws is in small strains.
+/// Moduli of the material in small strains, the same for each of the kernels' laws.
 mechanics::ElasticModuli moduli_at_rest(const cases::Material& material);
 
 } // namespace springproof::fem_reference::grid

@@ -11,7 +11,7 @@ namespace {
 
 using cases::index;
 
-constexpr int fewest_planes = 2; ///< of a rank
+constexpr int fewest_planes = 2; ///< per rank
 
 template<class Real>
 MPI_Datatype type_of() {
@@ -42,7 +42,7 @@ class Messages {
   MPI_Request& next() { return requests_[index(n_++)]; }
 };
 
-/// A plane of the three components, in one piece.
+/// Copies a plane of the three components into one piece.
 template<class Real>
 std::vector<Real> copy_of_plane(const Layout& layout, const Real* field, int plane) {
   std::vector<Real> copy(index(3 * layout.plane));
@@ -59,8 +59,8 @@ void write_plane(const Layout& layout, const std::vector<Real>& from, Real* fiel
                 field + c * layout.size + layout.at(0, 0, plane));
 }
 
-/// Every rank's pieces to all.
-/// @param begins  of the ranks' pieces, in units of n numbers
+/// Sends every rank's piece to all ranks.
+/// @param begins  beginnings of the ranks' pieces, in units of n numbers
 template<class Real>
 void gather(const std::vector<int>& begins, Real* all, std::ptrdiff_t n, MPI_Comm communicator) {
   std::vector<int> counts, places;

@@ -13,14 +13,14 @@ namespace springproof::fem_reference::grid {
 /// the first that is held; where a name says `of_grid`, from the grid's first.
 class Slab {
  public:
-  /// All planes, which each rank computes for itself.
+  /// Makes a slab of all planes, which each rank computes for itself.
   explicit Slab(int n_planes);
-  /// Dealt out to the ranks of a communicator, about the same number to each; all to each where they are
-  /// few.
-  /// @param multiple  of which each rank's first plane is one
+  /// Deals planes out to the ranks of a communicator, about the same number to each. Where they are few, each
+  /// rank has all of them.
+  /// @param multiple  each rank's first plane is a multiple of it
   Slab(int n_planes, MPI_Comm communicator, int multiple = 1);
-  /// Of a grid with every second plane of this one, or all of them. A rank computes the coarse planes that it
-  /// has the fine ones of, and the coarse layers that it has all fine layers of.
+  /// Returns the slab of a grid with every second plane of this one, or with all of them. A rank computes a
+  /// coarse plane if it has the fine one, and a coarse layer if it has all of its fine layers.
   /// @param is_gathered  every rank holds the whole coarse grid, and computes all of it for itself; only what
   ///                     comes from the finer one is computed in parts, and completed by complete_*()
   Slab coarser(bool along_z, bool is_gathered) const;
@@ -43,7 +43,7 @@ class Slab {
   bool can_be_halved() const;
 
   /// Brings the planes that others own up to date: the ghosts, or all of a gathered grid.
-  /// @param field  of three components
+  /// @param field  three components
   template<class Real>
   void complete(const Layout& layout, Real* field) const;
   /// The same where every rank computes a gathered grid itself.
@@ -51,20 +51,20 @@ class Slab {
   void update_ghosts(const Layout& layout, Real* field) const {
     if (is_shared()) complete(layout, field);
   }
-  /// As complete() for layers of `n` numbers each.
+  /// Does the same as complete() for layers of `n` numbers each.
   template<class Real>
   void complete_layers(Real* layers, std::ptrdiff_t n) const;
-  /// Adds what was summed in the first plane that is the next rank's to that plane there.
+  /// Adds this rank's sums in the next rank's first own plane to that plane on the next rank.
   void add_to_next(const Layout& layout, double* field) const;
 
-  /// Over the ranks that share the grid.
+  /// Largest value and sum over the ranks that share the grid.
   double largest(double value) const;
   double total(double value) const;
   /// Sum of one number of every computed plane, in their order: it does not depend on the number of ranks.
   double total(const std::vector<double>& of_planes) const;
 
  private:
-  std::vector<int> begins_, layer_begins_; ///< of each rank's own, of the grid; and their number
+  std::vector<int> begins_, layer_begins_; ///< each rank's first own one in the grid; last, their number
   int rank_ = 0;
   MPI_Comm communicator_ = MPI_COMM_SELF;
   bool is_gathered_ = false;

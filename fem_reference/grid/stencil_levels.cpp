@@ -9,7 +9,7 @@ using cases::index;
 namespace {
 
 constexpr std::ptrdiff_t most_coarsest_nodes = 125;
-constexpr std::ptrdiff_t own_block = 9 * 13; ///< of a node's row of the stencil
+constexpr std::ptrdiff_t own_block = 9 * 13; ///< a node's own block begins there in its row of the stencil
 
 std::ptrdiff_t n_nodes(const std::array<int, 3>& cells) {
   return std::ptrdiff_t{cells[0] + 1} * (cells[1] + 1) * (cells[2] + 1);
@@ -21,7 +21,7 @@ std::ptrdiff_t n_nodes(const std::array<int, 3>& cells) {
 class StencilLevels::StencilLevel : public mechanics::grid::Level {
  public:
   /// @param finer, factor  null and ones: this is the finest level
-  /// @param body, state    of the finest level; must outlive this
+  /// @param body, state    the finest level's; must outlive this
   StencilLevel(const Space& space, StencilLevel* finer, const std::array<int, 3>& factor, const Body& body,
                const State& state)
       : Level(3 * space.layout.size, space.n_threads), space_(space), finer_(finer), body_(body),
@@ -137,7 +137,7 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
         [&](std::ptrdiff_t first, std::ptrdiff_t n) { std::fill_n(values.begin() + first, n, 0.0f); });
   }
 
-  /// The tangent of the body, with what inertia adds, and its cells' matrices on the coarser grid.
+  /// Adds the tangent of the body, with its inertia, and its cells' matrices on the coarser grid.
   void add_tangent() {
     const auto add = [&](const Cells& cells, const double* displacement, const double* pressure,
                          const Masses* masses) {
@@ -153,7 +153,7 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
     if (!inertia) return;
     if (inertia->step_node_masses().size() > 0)
       node_masses_ = inertia->step_node_masses().cwiseProduct(body_.free.cast<double>());
-    if (const auto damping = inertia->step_damping()) { // the tangent at rest of the body that it is made of
+    if (const auto damping = inertia->step_damping()) { // the damping body's tangent at rest
       const Field<double> rest = Field<double>::Zero(3 * layout().size);
       const std::vector<double> no_pressure(index(layout().n_cell_entries()) + 16, 0.);
       add(*damping, rest.data(), no_pressure.data(), nullptr);
@@ -172,7 +172,7 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
     });
   }
 
-  /// Blocks without constrained entries; those, and entries without a cell, become 0.
+  /// Inverts blocks without their constrained entries; those, and entries without a cell, become 0.
   void invert_diagonal() {
     static constexpr int first_of_pair[6] = {0, 1, 2, 1, 0, 0}, second_of_pair[6] = {0, 1, 2, 2, 2, 1};
     for_each_plane(space_.slab.computed(), n_threads_, [&](int k) {

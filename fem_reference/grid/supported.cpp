@@ -11,7 +11,7 @@ namespace {
 
 using cases::index;
 
-/// Nodes on a selection's vertices and, of quadratic elements, on its edges and faces.
+/// Nodes on a selection's vertices and, for quadratic elements, on its edges and faces.
 std::vector<Place> places_on(const cases::Scene& scene, const cases::Selection& selection, bool is_quadratic,
                              const Places& places) {
   const auto place_of = [&](int node) { return places.of(scene.mesh.nodes[index(node)]); };

@@ -9,7 +9,7 @@
 
 namespace springproof::fem_reference::grid {
 
-/// What acts on a body.
+/// Loads and supports of a body.
 struct Supported {
   Field<double> load;                ///< N at full load; 0 on constrained entries
   std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
@@ -19,13 +19,13 @@ struct Supported {
 };
 
 /// The loads and motions of a scene on a rank's part of a grid.
-/// @param scene         with the mesh of the elements
+/// @param scene         the scene on the elements' mesh
 /// @param is_quadratic  elements have nodes on their edges and faces too: places are halves of them
-/// @param body          that places is of; its `free` is set
+/// @param body          the body of `places`; its `free` is set
 Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Places& places, Body& body);
 
-/// @param scene, places  as of make_supported(), after it
-/// The loads of a dynamic scene.
+/// Loads of a dynamic scene. Call it after make_supported().
+/// @param scene, places  as in make_supported()
 std::vector<mechanics::LoadInTime> loads_in_time(const cases::Scene& scene, bool is_quadratic,
                                                  const Places& places);
 

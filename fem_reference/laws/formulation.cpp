@@ -19,7 +19,7 @@ const char* model_of(const cases::TransverselyIsotropic*) {
   return "transversely_isotropic";
 }
 
-/// The one of these laws whose material it is.
+/// Returns the formulation by the one of these laws that takes this material.
 template<class Law, class... Others>
 Formulation with_material(const cases::Fem& fem, const cases::Material& material,
                           std::vector<std::string> models = {}) {

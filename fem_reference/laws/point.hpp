@@ -46,7 +46,7 @@ inline Vector9 flatten(const Matrix3& m) {
   return m.reshaped<Eigen::RowMajor>();
 }
 
-/// A matrix's or vector's numbers as the laws of mechanics have them.
+/// Numbers of a matrix or vector as the plain array that the laws of mechanics take.
 template<int n, class Numbers>
 auto& array_of(Numbers& numbers) {
   static_assert(Numbers::SizeAtCompileTime == n);

@@ -49,8 +49,8 @@ struct LogStretch {
       for (int j = 0; j < 3; ++j) first(i, j) = divided_difference(squares[i], squares[j]);
   }
 
-  /// Of the stress T that does work on E, in the axes N: d(T : dE/dC_pq)/dC_rs at fixed T, entry
-  /// (3*p + q, 3*r + s), symmetric in both pairs.
+  /// Returns d(T : dE/dC_pq)/dC_rs at fixed T as entry (3*p + q, 3*r + s), symmetric in both pairs. T is the
+  /// stress that does work on E, in the axes N.
   Matrix9 curvature(const Matrix3& t) const {
     std::array<std::array<std::array<double, 3>, 3>, 3> second{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -96,8 +96,8 @@ class TransverseLogStrain {
 
   explicit TransverseLogStrain(const Material& material) : elasticity_(material) {}
 
-  /// As of LogStrain, the work on the straight path of logarithmic strain E s, s from 0 to 1, along which U
-  /// keeps its axes: the integral of J^s s E : C' : E.
+  /// Work on the straight path of logarithmic strain E s, s from 0 to 1, along which U keeps its axes, as for
+  /// LogStrain: the integral of J^s s E : C' : E.
   double energy(const Matrix3& h) const {
     const LogStretch log(h);
     const Vector9 strain = flatten(log.axes * log.strains.asDiagonal() * log.axes.transpose());

@@ -5,8 +5,8 @@
 
 namespace springproof::fem_reference {
 
-/// The elasticity tensor of a transversely isotropic material in a part that averaged elements average and
-/// the rest, C = C' + kappa 1 x 1. kappa = 1/(1 : C^-1 : 1) is the largest for which C' has no negative
+/// The elasticity tensor of a transversely isotropic material, C = C' + kappa 1 x 1. Averaged elements
+/// average the second part alone. kappa = 1/(1 : C^-1 : 1) is the largest for which C' has no negative
 /// eigenvalue: C' stores no energy in the strain of a body under pressure from all sides, and stays bounded
 /// when kappa does not. In an isotropic material C' is 2 mu times the deviator and kappa the bulk modulus.
 /// Source of the split: Felippa & Onate 2003, Comput Struct 81:1343.
@@ -15,9 +15,8 @@ class TransverseElasticity {
   explicit TransverseElasticity(const cases::TransverselyIsotropic& material) {
     const mechanics::TransverseModuli c = mechanics::transverse_moduli(material);
     kappa_ = c.bulk_modulus;
-    // Spencer's form, A = a x a of the fibre a: stress = lambda tr(e) 1 + 2 mu_T e + alpha ((a.ea) 1 + tr(e)
-    // A)
-    // + 2 (mu_L - mu_T)(A e + e A) + beta (a.ea) A
+    // Spencer's form with A = a x a, a the fibre: stress = lambda tr(e) 1 + 2 mu_T e
+    // + alpha ((a.ea) 1 + tr(e) A) + 2 (mu_L - mu_T)(A e + e A) + beta (a.ea) A
     const double alpha = c.c13 - c.c12, difference = c.c44 - c.c66;
     const double beta = c.c33 - c.c12 - 2 * c.c66 - 2 * alpha - 4 * difference;
     const Matrix3 one = Matrix3::Identity(), fibre = material.fibre * material.fibre.transpose();

@@ -12,7 +12,7 @@ import csv
 import math
 import sys
 
-SECONDS = 1.0  # of swings: in all three recordings they are above a tenth of the first one
+SECONDS = 1.0  # duration of swings: in all three recordings they are above a tenth of the first one
 
 
 def read(path, model="fem", measure="top"):
@@ -66,7 +66,7 @@ def swings(time, value):
     turned = turning_points(time, value)
     ways = [math.log(abs(b[1] - a[1])) for a, b in zip(turned, turned[1:])]
     each = [damping_ratio((a - b) / 2) for a, b in zip(ways, ways[2:])]
-    q = math.exp(ways[1] - ways[0])  # of the way before
+    q = math.exp(ways[1] - ways[0])  # ratio of a way to the way before
     centre = (turned[2][1] + q * turned[1][1]) / (1 + q)
     return 0.5 / slope([t for t, _ in turned]), damping_ratio(-slope(ways)), each, centre
 
