@@ -41,7 +41,7 @@ void give_springs(Case& definition, const std::array<double, 3>& newtons_per_met
 
 void swap_axes(Case& definition) {
   for (cases::Load& load : definition.loads) {
-    Eigen::Vector3d& force = std::get<cases::loads::NodalForce>(load.kind).value;
+    Eigen::Vector3d& force = std::get<cases::loads::Traction>(load.kind).value;
     std::swap(force.x(), force.z());
   }
 }
