@@ -266,7 +266,7 @@ def test_a_motion(folder):
 def test_a_motion_of_finite_elements(folder):
     """the motion of a grid's finite elements has the same digits on 1, 2 and 3 ranks"""
     body = 'shape = "box"\nsize = [30, 10, 10]\ncells = [9, 8, 11]'
-    motions = [solve(folder, MOTION % (body, "hybrid", "newton"), ranks, "--only", "fem")[0] for ranks in (1, 2, 3)]
+    motions = [solve(folder, MOTION % (body, "hybrid"), ranks, "--only", "fem")[0] for ranks in (1, 2, 3)]
     for document in motions:
         assert document["fem"]["status"] == "converged", document
         assert document["motion"] == motions[0]["motion"]
