@@ -150,7 +150,7 @@ LONG = """
 import os, signal, sys, threading, time, springproof
 def long(side):
     if side == "snes":
-        return springproof.read_case(sys.argv[3], {"body.cells": [40, 40, 40], "msm.design": "uniform", "msm.solver": "snes"}), "msm"
+        return springproof.read_case(sys.argv[3], {"body.cells": [20, 20, 40], "msm.design": "uniform", "msm.solver": "snes"}), "msm"
     return springproof.read_case(sys.argv[1], {"dynamics.end": 6000}), side
 def solve(side):
     case, name = long(side)
