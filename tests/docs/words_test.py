@@ -1,9 +1,9 @@
-"""The pages are readable: no sentence above 40 words, a README of 700 to 900 words, no link that leads nowhere.
+"""The pages are readable: no sentence above 40 words, a README of 700 to 900 words, no link that leads nowhere, whole rows of tables.
 
 words_test.py SOURCE [PAGE...]
 
 Without PAGE: the README, docs/ and the READMEs of the case studies. Links of the other pages of the first folder (CHANGELOG.md,
-SECURITY.md, NOTICE.md) are followed too. Every finding is printed with file and line.
+SECURITY.md, NOTICE.md) are followed too, and so are their tables. Every finding is printed with file and line.
 
 Code blocks, tables and headings are no sentences. A link counts with its text, inline code and a formula as one word each. An item of
 a list ends its sentence. Anchors are GitHub's: lower case, without punctuation, hyphens for spaces, -1 behind the second of a name.
@@ -117,6 +117,19 @@ def dangling_links(source, page, lines):
                 yield f"{page.relative_to(source)}:{number}: a link to {target}: that page has no such heading"
 
 
+def broken_tables(name, lines):
+    """Rows that have another number of cells than the heading, or are wrapped to the next line."""
+    n_cells = None
+    for number, line in enumerate([*without_code_blocks(lines), ""], 1):
+        cells = re.split(r"(?<!\\)\|", re.sub(r"(`+)(?:(?!`).)+?\1", "code", line.strip()))
+        if re.match(r"\s*\|[-:| ]*-[-:| ]*\|\s*$", line):
+            n_cells = len(cells)
+        elif not line.strip():
+            n_cells = None
+        elif n_cells and len(cells) != n_cells:
+            yield f"{name}:{number}: a row of {len(cells) - 2} cells in a table of {n_cells - 2}"
+
+
 def findings(source, page, has_prose):
     lines, name = page.read_text().splitlines(), page.relative_to(source)
     if has_prose:
@@ -125,6 +138,7 @@ def findings(source, page, has_prose):
         if page == source / "README.md" and n not in README_WORDS:
             yield f"{name}:1: {n} words, must have {README_WORDS[0]} to {README_WORDS[-1]}"
     yield from dangling_links(source, page, lines)
+    yield from broken_tables(name, lines)
 
 
 def check_the_linter():
@@ -134,6 +148,9 @@ def check_the_linter():
     assert not list(long_sentences("a", ["| " + long_one + " |"])) and not list(long_sentences("a", ["```", long_one, "```"]))
     assert not list(long_sentences("a", ["x:", "", "    " + long_one])) and not list(long_sentences("a", ["# " + long_one]))
     assert len(list(long_sentences("a", ["- item", "", "    " + long_one]))) == 1
+    table = ["| a | b |", "|---|---|", "| 1 | `x|y` |"]
+    assert not list(broken_tables("a", [*table, "", "text"]))
+    assert [line.split()[0] for line in broken_tables("a", [*table, "| 1 | begun", "here | | 2 | 3 |"])] == ["a:4:", "a:5:"]
     half = " ".join(["word"] * 21)
     assert not list(long_sentences("a", [f"{half}.", f"Then {half}."])) and not list(long_sentences("a", [f"- {half}", f"- {half}"]))
     assert [line.split()[0] for line in long_sentences("a", ["One.", f"Two {half}", f"{half}."])] == ["a:2:"]
