@@ -89,7 +89,14 @@ bool finds_exponents(const cases::Msm& options) {
 
 /// The law that a case gives its springs; nothing: Hooke's, or the design finds the exponents.
 std::optional<Exponents> law_of(const cases::Msm& options) {
-  if (options.law == LawKind::hooke || !options.exponent) return std::nullopt;
+#pragma GCC diagnostic error "-Wswitch" // a law that is forgotten here must not compile
+  switch (options.law) {
+  case LawKind::hooke:
+    return std::nullopt;
+  case LawKind::power_log:
+    break;
+  }
+  if (!options.exponent) return std::nullopt;
   const auto& [edge, face_diagonal, internal_diagonal] = *options.exponent;
   return Exponents{edge, face_diagonal, internal_diagonal, options.law};
 }
