@@ -42,7 +42,7 @@ struct Spring {
 
 /// action(law) with the spring's rest length and parameter.
 template<class Action>
-auto with_law(const Spring& spring, const Action& action) {
+SPRINGPROOF_INLINE auto with_law(const Spring& spring, const Action& action) {
   return with_law<double, Exact>(spring.law.kind, [&](auto law) {
     return action(typename decltype(law)::type(spring.rest_length, spring.law.parameter));
   });
