@@ -12,7 +12,10 @@ namespace springproof::msm {
 struct Exact {
   static constexpr double of_exponential = 1;
   static double length(double squared) { return std::sqrt(squared); }
-  static double over_length(double x, double squared) { return x / std::sqrt(squared); }
+  /// k (1 - l0/|d|), exactly 0 at rest.
+  static double elongation_share(double k, double rest, double squared) {
+    return k * (1 - rest / std::sqrt(squared));
+  }
   static double over_squared(double x, double squared) { return x / squared; }
   /// ln q, without the digits that q = 1.000... would lose.
   static double log_stretch(double squared, double rest, double) {

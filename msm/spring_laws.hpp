@@ -82,7 +82,7 @@ struct Hooke {
   SPRINGPROOF_INLINE Hooke(Real rest, Real) : rest_length(rest) {}
   template<class P>
   SPRINGPROOF_INLINE P transverse(const P& squared, const P& k) const {
-    return k * (Real(1) - Math::over_length(rest_length, squared));
+    return Math::elongation_share(k, rest_length, squared);
   }
   template<Clamp clamp, class P>
   SPRINGPROOF_INLINE SpringTangent<P> tangent(const P& squared, const P& k) const {

@@ -6,6 +6,18 @@
 
 namespace springproof::mechanics::grid {
 
+namespace {
+
+/// Whether the pivots of the symmetric matrix with this lower triangle are positive.
+bool is_definite(const Eigen::Matrix3d& lower) {
+  const double first = lower(0, 0), second = lower(1, 1) - lower(1, 0) * lower(1, 0) / first;
+  const double coupling = lower(2, 1) - lower(2, 0) * lower(1, 0) / first;
+  const double third = lower(2, 2) - lower(2, 0) * lower(2, 0) / first - coupling * coupling / second;
+  return first > 0 && second > 0 && third > 0;
+}
+
+} // namespace
+
 Eigen::Matrix3d inverse_on_free(Eigen::Matrix3d block, const bool (&is_free)[3], double singular_below) {
   for (int c = 0; c < 3; ++c) {
     if (is_free[c]) continue;
@@ -13,12 +25,10 @@ Eigen::Matrix3d inverse_on_free(Eigen::Matrix3d block, const bool (&is_free)[3],
     block.col(c).setZero();
     block(c, c) = 1;
   }
-  // Blocks of log_strain are not symmetric. Judged by their lower triangle, which LLT reads, they are taken
-  // as definite less often: by their minors, cycles of unstable states took twice the iterations.
-  const bool is_definite = block.determinant() > singular_below * block.diagonal().prod() &&
-                           Eigen::LLT<Eigen::Matrix3d>(block).info() == Eigen::Success;
+  // Blocks of log_strain are not symmetric. Judged by their lower triangle, they are taken as definite
+  // less often: by their minors, cycles of unstable states took twice the iterations.
   Eigen::Matrix3d inverse;
-  if (is_definite)
+  if (block.determinant() > singular_below * block.diagonal().prod() && is_definite(block))
     inverse = block.inverse();
   else
     inverse = block.diagonal().cwiseAbs().cwiseInverse().asDiagonal();

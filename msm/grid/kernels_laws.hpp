@@ -20,9 +20,10 @@ struct Fast {
   SPRINGPROOF_INLINE static P length(const P& squared) {
     return squared * inverse_length(squared);
   }
+  /// k (1 - l0/|d|); k l0 is had while the root is still computed.
   template<class P>
-  SPRINGPROOF_INLINE static P over_length(RealOf<P> x, const P& squared) {
-    return x * inverse_length(squared);
+  SPRINGPROOF_INLINE static P elongation_share(const P& k, RealOf<P> rest, const P& squared) {
+    return k - rest * k * inverse_length(squared);
   }
   template<class P>
   SPRINGPROOF_INLINE static P over_squared(const P& x, const P& squared) {
