@@ -25,7 +25,7 @@ PLUGINS = ["Sofa.Component.Constraint.Projective", "Sofa.Component.LinearSolver.
 
 
 def factor_at(history, time):
-    """Of a load or motion; at a jump what comes after it."""
+    """Factor of a load or motion; at a jump what comes after it."""
     if isinstance(history, dict):
         return math.sin(2 * math.pi * history["sine"] * time)
     if not history:

@@ -20,7 +20,7 @@ class Measured:
     name: str
     core_seconds: float  # a solve, per unknown, both cores of a node busy: 100^3 cells on two ranks
     iterations: int  # linear ones, on the finest grid
-    exchanges: int  # of layers in single precision, per level and iteration
+    exchanges: int  # exchanges of layers in single precision, per level and iteration
     solver_bytes: int  # per unknown, divided among the ranks
     axes: int  # along which the grid is dealt out: bricks or slabs
     least_in_all: int  # nodes of a level that is dealt out
@@ -31,7 +31,7 @@ FINITE_ELEMENTS = Measured("finite elements, slabs", 10.3e-6, 18, 8, 720, 1, 500
 PROGRAM_BYTES = 190e6  # on every rank, with buffers of messages
 SCENE_BYTES = 0.5  # per unknown, on every rank
 ANSWER_BYTES = 32 / 3  # per unknown, divided among the ranks
-LEAST_NODES = 2  # of a brick or slab along an axis that is divided
+LEAST_NODES = 2  # number of nodes of a brick or slab along an axis that is divided
 
 
 def times(model, unknowns, ranks):

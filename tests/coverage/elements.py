@@ -72,7 +72,7 @@ class Grid:
         self.is_inner = np.all((np.stack([i, j, k], -1).reshape(-1, 3) > 0) & (np.stack([i, j, k], -1).reshape(-1, 3) < p), -1)
 
     def map(self, points):
-        """Where points of reference are, mm, and the map's gradient [..., i, reference axis]."""
+        """Places of points of reference, mm, and the map's gradient [..., i, reference axis]."""
         if self.body["kind"] != "block":
             return points, np.broadcast_to(np.eye(3), (*points.shape[:-1], 3, 3))
         x, gradient = np.zeros(points.shape), np.zeros((*points.shape, 3))
@@ -141,7 +141,7 @@ class Grid:
         return np.flatnonzero(np.all((self.points > low - tolerance) & (self.points < high + tolerance), -1))
 
     def surface(self, where, n):
-        """Of each element with a face there: its index, shape values [q, node], places [q, i] and areas [q] of Gauss points."""
+        """Index of each element with a face there, its shape values [q, node], places [q, i] and areas [q] of Gauss points."""
         axis, side, low, high = self.on_face(where)
         plane = high[axis] if side else 0.0
         g, w = legendre.leggauss(n)

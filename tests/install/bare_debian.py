@@ -1,4 +1,4 @@
-"""From nothing, in bare Debians 12 (mmdebstrap from this system's sources). The first: `./do tables 4.5` in a clean clone installs the first
+"""Builds from nothing in bare Debians 12 (mmdebstrap from this system's sources). The first: `./do tables 4.5` in a clean clone installs the first
 part of packages.txt alone, and what its program lacks it says; then the RUN lines of the Containerfile's first stage, which build the whole
 and its package. The second: those of the second stage; the installed package prints table 4.5. Some half an hour and 8 GB of disk.
 
@@ -30,7 +30,7 @@ def bare(name):
 
 
 def run(root, command, where="/", check=True):
-    """As a container's engine does, without one."""
+    """Runs a command as a container's engine does, without one."""
     inside = f'mount -t proc proc "{root}/proc"; mount --rbind /dev "{root}/dev"; exec chroot "{root}" sh -euc "cd {where}; $0"'
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive", "HOME": "/root", "OPENBLAS_NUM_THREADS": "1"}
     return subprocess.run(["unshare", "--mount", "sh", "-euc", inside, command], env=environment, check=check, stdout=subprocess.PIPE, text=True)

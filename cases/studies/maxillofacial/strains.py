@@ -29,7 +29,7 @@ def arrays_of(path):
 
 
 def largest_principal(strain):
-    """Of xx, yy, zz, xy, yz, xz; both sides of the block are held in y, so that y is a principal direction."""
+    """Largest principal value of xx, yy, zz, xy, yz, xz; both sides of the block are held in y, so that y is a principal direction."""
     xx, yy, zz, _, _, xz = strain
     return max(yy, (xx + zz) / 2 + ((xx - zz)**2 / 4 + xz**2) ** 0.5)
 

@@ -26,7 +26,7 @@ def read(path, model="fem", measure="top"):
 
 
 def vertex(time, value, i):
-    """Of the parabola through three values at equal intervals."""
+    """Vertex of the parabola through three values at equal intervals."""
     before, here, after = value[i - 1:i + 2]
     curvature = before - 2 * here + after
     shift = (before - after) / (2 * curvature) if curvature else 0
@@ -50,13 +50,13 @@ def turning_points(time, value):
 
 
 def slope(values):
-    """Of the straight line through values at 0, 1, 2, ..."""
+    """Slope of the straight line through values at 0, 1, 2, ..."""
     centre = (len(values) - 1) / 2
     return sum((i - centre) * v for i, v in enumerate(values)) / sum((i - centre) ** 2 for i in range(len(values)))
 
 
 def damping_ratio(decrement):
-    """Of the logarithmic decrement of half a period."""
+    """Damping ratio from the logarithmic decrement of half a period."""
     return decrement / math.hypot(math.pi, decrement)
 
 

@@ -57,7 +57,7 @@ def spheres_of(recording):
 
 
 def over_time(squares):
-    """By trapezoids, of equal steps."""
+    """Root mean square by trapezoids of equal steps."""
     return math.sqrt((sum(squares) - (squares[0] + squares[-1]) / 2) / (len(squares) - 1))
 
 
@@ -66,7 +66,7 @@ def to_limit(before, last):
 
 
 def squared_distances(some, others, nodes):
-    """Of every node, at every step."""
+    """Squared distances of every node at every step."""
     return {node: [math.dist(a[node], b[node]) ** 2 for a, b in zip(some, others)] for node in nodes}
 
 

@@ -45,7 +45,7 @@ displacement = [0, 0, -2]
 design = "hybrid"
 
 [[measure]]
-name = "surface" # of the top, 15 mm beside the patch
+name = "surface" # a point of the top, 15 mm beside the patch
 kind = "displacement"
 node = "near 30 35 20"
 component = "z"

@@ -64,7 +64,7 @@ def test_commands(folder):
 
 
 def test_width_and_names(folder):
-    """On a narrow terminal the line is narrow, and is not cut within a character."""
+    """The line is narrow on a narrow terminal, and is not cut within a character."""
     for columns in (40, 41):  # the name's characters are of two bytes
         case = folder / "case.toml"
         case.write_text(Path(SHEAR).read_text().replace('name = "sweep-cube-shear"', f'name = "{"ü" * 40}"', 1))

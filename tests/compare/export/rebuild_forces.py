@@ -104,7 +104,7 @@ def from_csv(folder, displacement):
 
 
 def from_sofa(folder, displacement):
-    """Of the scene's own objects; mN and mN/mm become N and N/mm."""
+    """Forces of the scene's own objects; mN and mN/mm become N and N/mm."""
     objects = sofa_objects.scene_of(folder)
     of = lambda component: [data for name, data in objects if name == component]
     (state,), (springs,) = of("MechanicalObject"), of("SpringForceField")

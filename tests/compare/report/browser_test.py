@@ -73,7 +73,7 @@ def read_png(path):
 
 
 def share_of_ink(rows, box):
-    """Of a rectangle's pixels, the share that is not of its most frequent colour."""
+    """Share of a rectangle's pixels that do not have its most frequent colour."""
     left, top, width, height = (round(SCALE * length) for length in box)
     counts = {}
     for row in rows[top:top + height]:
@@ -103,7 +103,7 @@ def near(a, b, relative):
 
 
 def check_calculator(found, advice, springproof):
-    """For E = 50 kPa, nu = 0.45 and cells of 1 mm the page names the recommended design, its stiffnesses and its errors; between two
+    """The page names the recommended design, its stiffnesses and its errors for E = 50 kPa, nu = 0.45 and cells of 1 mm; between two
     tabulated ratios its stiffnesses are close to those of the design itself."""
     said = found["tabulated"]
     best, = (row for row in advice if row["poissons_ratio"] == 0.45 and row["recommended"])
