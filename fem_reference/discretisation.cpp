@@ -2,7 +2,6 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 #include "fem_reference/space.hpp"
 
 #include <deal.II/base/mpi.h>
@@ -91,7 +90,7 @@ void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& 
             density * geometry.of(cell).weights[q] * geometry.shape_values[index(q * nodes.per_cell + a)] *
                 gravity);
   }
-  const std::vector<cases::NodeMass> added = cases::added_masses(scene);
+  const cases::NodeMasses added = cases::added_masses(scene);
   for (int node = 0; node < nodes.n_owned; ++node)
     add(load, node, cases::mass_of(added, nodes.mesh_node[index(node)]) * gravity);
 }

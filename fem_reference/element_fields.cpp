@@ -1,6 +1,6 @@
 #include "fem_reference/element_fields.hpp"
 
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 

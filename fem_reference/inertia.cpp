@@ -1,6 +1,6 @@
 #include "fem_reference/inertia.hpp"
 
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 
 namespace springproof::fem_reference {
 
@@ -86,7 +86,7 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
     if (dynamics.stiffness_damping > 0)
       add_stiffness(d, cell, stiffness.of(cell), dynamics.stiffness_damping, damping);
   }
-  const std::vector<cases::NodeMass> added = cases::added_masses(scene);
+  const cases::NodeMasses added = cases::added_masses(scene);
   for (int node = 0; node < d.nodes.n_owned; ++node) {
     const double of_node = cases::mass_of(added, d.nodes.mesh_node[index(node)]);
     for (int i = 0; i < 3 && of_node > 0; ++i) mass.emplace_back(3 * node + i, 3 * node + i, of_node);

@@ -1,7 +1,7 @@
 #include "mechanics/field_sums.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "msm/moving_springs.hpp"
 
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 #include "msm/tangent.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "msm/problem.hpp"
 
 #include "cases/mesh/sharing.hpp"
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <algorithm>
 #include <utility>

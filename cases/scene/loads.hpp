@@ -3,8 +3,10 @@
 #include "cases/scene/scene.hpp"
 
 #include <functional>
+#include <map>
 
-/// Loads of a scene as forces on its nodes.
+/// Loads of a scene as forces on its nodes, and its masses: kg/m³, kg and m/s² of the case become t/mm³, t
+/// and mm/s² here, and nowhere else.
 namespace springproof::cases {
 
 /// Part of a node's load or added mass that the modelled part of a symmetric scene carries, as a function of
@@ -66,5 +68,42 @@ std::vector<FacePoint> gauss_points(const std::array<Eigen::Vector3d, 4>& vertic
 /// Integral of r² over the rest faces of a torque's region (mm⁴), r the distance from its axis, exact for
 /// bilinear planar faces.
 double polar_moment(const HexMesh& mesh, const Selection& selection, const loads::Torque& torque);
+
+/// Damping and density of a cell's material, t/mm³; without a density in the case nothing has mass.
+struct CellDynamics {
+  double density;           ///< t/mm³, >= 0
+  double mass_damping;      ///< 1/s
+  double stiffness_damping; ///< s
+};
+CellDynamics dynamics_of(const Scene& scene, std::size_t cell);
+
+/// Masses (t) of some nodes, by their numbers.
+using NodeMasses = std::map<int, double>;
+
+/// Masses that [[mass]] adds to nodes. A region's nodes share its mass equally; a node on symmetry planes has
+/// the modelled part alone, as with a force.
+NodeMasses added_masses(const Scene& scene);
+/// The mass of a node; 0 where there is none.
+double mass_of(const NodeMasses& added, int node);
+
+/// Masses of the springs' points, t: the cells' masses, which msm.mass or `shared` shares out, and what
+/// [[mass]] adds.
+std::vector<double> point_masses(const Scene& scene);
+std::vector<double> point_masses(const Scene& scene, PointMass shared);
+
+/// Masses of these points times mass_damping, their part of C, t/s. Every cell's mass has its material's
+/// factor; masses added by [[mass]] are not damped.
+std::vector<double> point_mass_damping(const Scene& scene);
+
+/// The acceleration by a load that acts on masses, mm/s², at a factor of 1; and that by all loads of a scene.
+Eigen::Vector3d acceleration_of(const Load& load);
+Eigen::Vector3d gravity(const Scene& scene);
+
+/// All loads of the case as nodal forces, N, at factors of 1: loaded_nodes(), and gravity on point_masses(),
+/// shared as PointMass::cells for finite elements.
+std::vector<NodeVector> applied_forces(const Scene& scene, PointMass shared = PointMass::cells);
+
+/// Forces on all points in an acceleration (mm/s²), N.  @param masses  point_masses()
+std::vector<NodeVector> weights(const std::vector<double>& masses, const Eigen::Vector3d& acceleration);
 
 } // namespace springproof::cases

@@ -1,6 +1,7 @@
 #include "cases/scene/regions.hpp"
 
-#include "cases/case/error.hpp"
+#include "cases/mesh/read_mesh.hpp"
+#include "cases/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +94,7 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
   return selection;
 }
 
-} // namespace
-
+/// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
 Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
   const std::size_t nearest = nearest_node(mesh, point);
@@ -106,6 +106,54 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
                                  near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", ")));
   return {{static_cast<int>(nearest)}, {}, {}};
 }
+
+/// The nodes of the region's part, and the edges and faces between them of that part's cells.
+Selection select_part(const HexMesh& mesh, const Region& region) {
+  const Part& part = *region.part;
+  const auto is_of_class = [&](std::size_t cell) {
+    return part.cell_class.empty() ||
+           (!mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == part.cell_class);
+  };
+  const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
+  const double rounding = 1e-9 * body.sizes().norm(); // as select_on_planes()
+  std::vector<bool> is_in_class(mesh.nodes.size(), part.cell_class.empty());
+  for (std::size_t c = 0; c < mesh.cells.size() && !part.cell_class.empty(); ++c)
+    if (is_of_class(c))
+      for (const int node : mesh.cells[c]) is_in_class[index(node)] = true;
+  std::vector<bool> is_selected(mesh.nodes.size(), false);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const Vector3d node = mesh.nodes[n];
+    is_selected[n] = is_in_class[n] && (node.array() >= part.lower.array() - rounding).all() &&
+                     (node.array() <= part.upper.array() + rounding).all() &&
+                     (node - part.point).dot(part.normal) >= -rounding;
+  }
+  return select_between(mesh, is_selected, is_of_class);
+}
+
+/// Whether these are names of a box's faces.
+bool are_faces(const std::vector<std::string>& words) {
+  return !words.empty() && std::all_of(words.begin(), words.end(), [](const std::string& word) {
+    return std::count(face_names.begin(), face_names.end(), word) > 0;
+  });
+}
+
+/// @throws InputError if physical groups of several dimensions have the region's name
+void check_is_one_group(const HexMesh& mesh, const Region& region) {
+  std::vector<std::string> meant;
+  for (int dimension = 0; dimension < 3; ++dimension)
+    if (const std::string name = name_in_dimension(region.name, dimension); mesh.groups.count(name) > 0)
+      meant.push_back("'" + name + "'");
+  if (meant.empty()) return;
+  const auto& of_cells = mesh.group_of_cell;
+  if (std::count(of_cells.begin(), of_cells.end(), region.name) > 0)
+    meant.push_back(fmt::format("{{ class = \"{}\" }} for the nodes of the volume", region.name));
+  throw InputError(region.where,
+                   fmt::format("'{}' is the name of physical groups of several dimensions; must be {}, or "
+                               "groups of names of their own",
+                               region.name, fmt::join(meant, " or ")));
+}
+
+} // namespace
 
 Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
   if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
@@ -174,26 +222,33 @@ Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_select
   return selection;
 }
 
-Selection select_part(const HexMesh& mesh, const Region& region) {
-  const Part& part = *region.part;
-  const auto is_of_class = [&](std::size_t cell) {
-    return part.cell_class.empty() ||
-           (!mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == part.cell_class);
-  };
-  const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
-  const double rounding = 1e-9 * body.sizes().norm(); // as select_on_planes()
-  std::vector<bool> is_in_class(mesh.nodes.size(), part.cell_class.empty());
-  for (std::size_t c = 0; c < mesh.cells.size() && !part.cell_class.empty(); ++c)
-    if (is_of_class(c))
-      for (const int node : mesh.cells[c]) is_in_class[index(node)] = true;
-  std::vector<bool> is_selected(mesh.nodes.size(), false);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Vector3d node = mesh.nodes[n];
-    is_selected[n] = is_in_class[n] && (node.array() >= part.lower.array() - rounding).all() &&
-                     (node.array() <= part.upper.array() + rounding).all() &&
-                     (node - part.point).dot(part.normal) >= -rounding;
+Selection select(const HexMesh& mesh, const Region& region) {
+  if (region.near && !region.radius) return select_near(mesh, region);
+  Selection selection;
+  if (region.part) {
+    selection = select_part(mesh, region);
+  } else if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
+    selection = group->second;
+  } else if (const auto words = words_of(region.name); are_faces(words)) {
+    selection = select_on_planes(mesh, words);
+  } else {
+    check_is_one_group(mesh, region);
+    std::string known = mesh.groups.empty() ? "" : ", and the mesh's groups";
+    for (const auto& entry : mesh.groups) known += " '" + entry.first + "'";
+    throw InputError(region.where, fmt::format("'{}' names no region; allowed are {} joined by blanks{}",
+                                               region.name, fmt::join(face_names, " "), known));
   }
-  return select_between(mesh, is_selected, is_of_class);
+  if (selection.nodes.empty())
+    throw InputError(region.where, fmt::format("'{}' selects no node", region.name));
+  return selection;
+}
+
+int select_node(const HexMesh& mesh, const Region& region) {
+  const Selection selection = select(mesh, region);
+  if (selection.nodes.size() != 1)
+    throw InputError(region.where, fmt::format("'{}' selects {} nodes, and exactly one is wanted",
+                                               region.name, selection.nodes.size()));
+  return selection.nodes.front();
 }
 
 } // namespace springproof::cases

@@ -8,9 +8,6 @@
 /// Selections by the kinds of regions on a mesh; select() in scene.hpp finds the kind.
 namespace springproof::cases {
 
-/// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
-Selection select_near(const HexMesh& mesh, const Region& region);
-
 /// Nodes, edges and faces on all of these planes of the mesh's bounding box. On a grid whose cells are all
 /// present they follow from numbers, without a look at the inner ones.
 /// @param faces  names of the box's faces, such as "z+" and "x-"
@@ -30,8 +27,5 @@ Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>
 /// Selected nodes, and the edges and faces between them of some cells or of all.
 Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
                          const std::function<bool(std::size_t cell)>& is_of_cells = {});
-
-/// The nodes of the region's part, and the edges and faces between them of that part's cells.
-Selection select_part(const HexMesh& mesh, const Region& region);
 
 } // namespace springproof::cases

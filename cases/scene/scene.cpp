@@ -4,13 +4,12 @@
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
+#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
-#include "cases/scene/surface.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -25,13 +24,6 @@ namespace {
 
 double radians(double degrees) {
   return degrees * std::acos(-1.0) / 180;
-}
-
-/// Whether these are names of a box's faces.
-bool are_faces(const std::vector<std::string>& words) {
-  return !words.empty() && std::all_of(words.begin(), words.end(), [](const std::string& word) {
-    return std::count(face_names.begin(), face_names.end(), word) > 0;
-  });
 }
 
 /// Patches become groups of the mesh, so that refined meshes keep the same patches.
@@ -236,52 +228,7 @@ void check_measure(const Scene& scene, const Measure& measure) {
   std::visit(check_kind, measure.kind);
 }
 
-/// @throws InputError if physical groups of several dimensions have the region's name
-void check_is_one_group(const HexMesh& mesh, const Region& region) {
-  std::vector<std::string> meant;
-  for (int dimension = 0; dimension < 3; ++dimension)
-    if (const std::string name = name_in_dimension(region.name, dimension); mesh.groups.count(name) > 0)
-      meant.push_back("'" + name + "'");
-  if (meant.empty()) return;
-  const auto& of_cells = mesh.group_of_cell;
-  if (std::count(of_cells.begin(), of_cells.end(), region.name) > 0)
-    meant.push_back(fmt::format("{{ class = \"{}\" }} for the nodes of the volume", region.name));
-  throw InputError(region.where,
-                   fmt::format("'{}' is the name of physical groups of several dimensions; must be {}, or "
-                               "groups of names of their own",
-                               region.name, fmt::join(meant, " or ")));
-}
-
 } // namespace
-
-Selection select(const HexMesh& mesh, const Region& region) {
-  if (region.near && !region.radius) return select_near(mesh, region);
-  Selection selection;
-  if (region.part) {
-    selection = select_part(mesh, region);
-  } else if (const auto group = mesh.groups.find(region.name); group != mesh.groups.end()) {
-    selection = group->second;
-  } else if (const auto words = words_of(region.name); are_faces(words)) {
-    selection = select_on_planes(mesh, words);
-  } else {
-    check_is_one_group(mesh, region);
-    std::string known = mesh.groups.empty() ? "" : ", and the mesh's groups";
-    for (const auto& entry : mesh.groups) known += " '" + entry.first + "'";
-    throw InputError(region.where, fmt::format("'{}' names no region; allowed are {} joined by blanks{}",
-                                               region.name, fmt::join(face_names, " "), known));
-  }
-  if (selection.nodes.empty())
-    throw InputError(region.where, fmt::format("'{}' selects no node", region.name));
-  return selection;
-}
-
-int select_node(const HexMesh& mesh, const Region& region) {
-  const Selection selection = select(mesh, region);
-  if (selection.nodes.size() != 1)
-    throw InputError(region.where, fmt::format("'{}' selects {} nodes, and exactly one is wanted",
-                                               region.name, selection.nodes.size()));
-  return selection.nodes.front();
-}
 
 std::vector<Material> materials_of(const Case& definition) {
   std::vector<Material> materials{definition.material};
@@ -299,6 +246,40 @@ bool is_rigid(const Scene& scene, std::size_t cell) {
 }
 
 namespace {
+
+/// Drops triangles on planes of symmetry: no part of the surface, beyond them the body goes on.
+void open_at_symmetry(const HexMesh& mesh, const std::vector<Fixed>& symmetry, TriangleMesh& surface) {
+  for (const Fixed& plane : symmetry) {
+    const int axis = plane.region.name[0] - 'x';
+    const double at = mesh.nodes[index(select_on_planes(mesh, {plane.region.name}).nodes.front())][axis];
+    const auto is_on_plane = [&](const std::array<int, 3>& triangle) {
+      return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
+        return std::abs(surface.vertices[index(vertex)][axis] - at) <= 1e-6 * (1 + std::abs(at));
+      });
+    };
+    auto& triangles = surface.triangles;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_on_plane), triangles.end());
+  }
+}
+
+/// Reads the surface that a scene's case names, if it names one.
+/// @throws InputError, at the place in the case file, if it is none or has more than five million triangles
+void read_surface_of(Scene& scene) {
+  constexpr std::size_t most = 5'000'000;
+  const auto& named = scene.definition.surface;
+  if (!named) return;
+  try {
+    scene.surface = named->contour ? label_surface(std::get<Labels>(scene.definition.body), *named->contour)
+                                   : read_surface(named->file.path, &scene.remarks);
+    for (Eigen::Vector3d& vertex : scene.surface.vertices) vertex *= named->scale;
+  } catch (const std::runtime_error& error) {
+    named->file.refuse_once(error.what());
+  }
+  if (scene.surface.triangles.size() > most)
+    named->file.refuse(
+        fmt::format("has {} triangles, must have at most {}", scene.surface.triangles.size(), most));
+  open_at_symmetry(scene.mesh, scene.definition.symmetry, scene.surface);
+}
 
 /// @throws InputError also when a spring without a rest length of its own joins nodes in one place
 void resolve_network(Scene& scene) {

@@ -1,7 +1,7 @@
 #include "compare/modes/vibrations.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
 #include "msm/moving_springs.hpp"
 

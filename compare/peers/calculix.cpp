@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"

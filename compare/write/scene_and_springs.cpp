@@ -2,7 +2,6 @@
 
 #include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
 #include "compare/table/table.hpp"
 

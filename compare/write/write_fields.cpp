@@ -4,7 +4,7 @@
 #include "cases/mesh/sharing.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/in_time.hpp"
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/of_cells.hpp"
 #include "compare/provenance/machine.hpp"

@@ -1,6 +1,6 @@
 #include "fem_reference/grid/inertia.hpp"
 
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 
 namespace springproof::fem_reference::grid {
@@ -37,7 +37,7 @@ Inertia::Inertia(const cases::Scene& scene, const Places& places, int n_threads)
     damped_mass_of_cell_[entry] = dynamics.mass_damping * mass_of_cell_[entry];
     is_stiffness_damped = is_stiffness_damped || dynamics.stiffness_damping > 0;
   });
-  const std::vector<cases::NodeMass> added = cases::added_masses(scene);
+  const cases::NodeMasses added = cases::added_masses(scene);
   if (!added.empty()) node_mass_.setZero(3 * body_.layout.size);
   for (const auto& [node, mass] : added) {
     const Place at = places.of(scene.mesh.nodes[index(node)]);

@@ -1,7 +1,6 @@
 #include "fem_reference/grid/supported.hpp"
 
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 
 #include <algorithm>
 

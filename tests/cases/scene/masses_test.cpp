@@ -1,4 +1,4 @@
-#include "cases/scene/masses.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -23,7 +23,7 @@ double total(const std::vector<double>& masses) {
   return std::accumulate(masses.begin(), masses.end(), 0.0);
 }
 
-double total(const std::vector<NodeMass>& masses) {
+double total(const NodeMasses& masses) {
   double sum = 0;
   for (const auto& [node, mass] : masses) sum += mass;
   return sum;
@@ -62,7 +62,7 @@ TEST_CASE("a weight is shared by its region's nodes, on the refined mesh too, an
   Case definition = two_cells();
   definition.masses.push_back({Region{"x+ z+"}, 0.052});
   const Scene scene = make_scene(definition);
-  const std::vector<NodeMass> added = added_masses(scene);
+  const NodeMasses added = added_masses(scene);
   CHECK(added.size() == 2);
   for (const auto& [node, mass] : added) {
     const Vector3d at = scene.mesh.nodes[index(node)];
@@ -81,7 +81,7 @@ TEST_CASE("a weight on a symmetry plane is the modelled part's, less at nodes on
   definition.symmetry.push_back({Region{"y-"}, {false, true, false}});
   definition.masses.push_back({Region{"x+ z+"}, 0.03});
   const Scene scene = make_scene(definition);
-  const std::vector<NodeMass> added = added_masses(scene);
+  const NodeMasses added = added_masses(scene);
   CHECK(added.size() == 2);
   for (const auto& [node, mass] : added)
     CHECK(mass == Approx(scene.mesh.nodes[index(node)].y() == 0 ? 0.01e-3 : 0.02e-3).epsilon(1e-13));

@@ -4,7 +4,6 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
-#include "cases/scene/masses.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <catch2/catch.hpp>
