@@ -3,13 +3,16 @@
 #include "cases/case/body.hpp"
 #include "cases/case/dynamics.hpp"
 
+#include <cmath>
+
 /// Supports, motions, loads and added masses of a body, and their regions. Units: mm, N, MPa, degrees.
 namespace springproof::cases {
 
 /// The nodes that lie in a box and on or beyond a plane: all of them, or those of one class of cells.
 struct Part {
-  std::string cell_class;                           ///< a three-dimensional group's name; empty: every cell
-  Eigen::Vector3d lower, upper;                     ///< mm; infinite where the box has no end
+  std::string cell_class; ///< a three-dimensional group's name; empty: every cell
+  Eigen::Vector3d lower = Eigen::Vector3d::Constant(-INFINITY); ///< mm; infinite where the box has no end
+  Eigen::Vector3d upper = -lower;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< mm; on the plane
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit length, towards the part; zero: no plane
 };

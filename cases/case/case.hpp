@@ -71,6 +71,13 @@ void serialize(Archive& archive, Case& definition) {
   if constexpr (has_places<Archive>) archive(file);
 }
 
+/// The body's own material, then those of its regions.
+inline std::vector<Material> materials_of(const Case& definition) {
+  std::vector<Material> materials{definition.material};
+  for (const RegionMaterial& region : definition.region_materials) materials.push_back(region.material);
+  return materials;
+}
+
 /// Degrees. Small strains depend on where a turned region ends, not on its way: a larger turn ends where a
 /// smaller one the other way does.
 constexpr double largest_turn_of_small_strain = 180;
@@ -81,6 +88,17 @@ inline double largest_turn(const Case& definition) {
   for (const Moved& moved : definition.moved) largest = std::max(largest, std::abs(moved.angle));
   return largest;
 }
+
+/// Degrees in one step of the load or of time. Where a turned support ends says nothing about whole turns:
+/// only small steps lead the body around with it. A straight guess then leaves the arc by 15 % of the radius.
+constexpr double largest_turn_of_step = 30;
+
+/// @throws InputError for a region that turns by more than largest_turn_of_step within a step in time, with
+/// the largest step that is short enough
+void check_turns_in_time(const Case& definition);
+
+/// The factor with the largest magnitude in a whole motion; 1 in a static case.
+double largest_factor(const Moved& moved, const std::optional<Dynamics>& dynamics);
 
 /// Load steps that the motions ask for.
 inline int least_load_steps(const Case& definition) {

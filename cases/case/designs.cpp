@@ -1,9 +1,20 @@
 #include "cases/case/designs.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace springproof::cases {
+
+namespace {
+
+template<class Condition>
+std::string designs_that(const Condition& fulfil) {
+  std::vector<Design> found;
+  for (const DesignFacts& facts : all_designs())
+    if (fulfil(facts.design)) found.push_back(facts.design);
+  return alternatives(found);
+}
+
+} // namespace
 
 const std::vector<DesignFacts>& all_designs() {
   using D = Design;
@@ -12,10 +23,7 @@ const std::vector<DesignFacts>& all_designs() {
        "the springs whose linearised stiffness matrix is closest to the finite element's",
        "San-Vicente, thesis, eq. 4.15",
        {"poissons_ratio"},
-       DesignLaw::any,
-       DesignSource::material,
-       DesignCells::four_stiffnesses,
-       true},
+       DesignRatio{{}, true}},
       {D::nonlinear_method,
        "the springs that fit a uniaxial curve and its lateral strain",
        "San-Vicente, thesis, eq. 5.9",
@@ -29,20 +37,13 @@ const std::vector<DesignFacts>& all_designs() {
        "springs and a volume term whose lattice is isotropic with E and nu",
        "the family of Golec et al. 2020, doi 10.1007/s00371-019-01663-0",
        {"poissons_ratio", "split"},
-       DesignLaw::any,
-       DesignSource::material,
-       DesignCells::four_stiffnesses,
-       false,
-       0},
+       DesignRatio{0}},
       {D::matched,
        "the hybrid's stiffnesses with power-log springs that follow the material's law",
        "docs/using/designs.md",
        {"poissons_ratio", "split", "strain_range"},
        DesignLaw::power_log,
-       DesignSource::material,
-       DesignCells::four_stiffnesses,
-       false,
-       0},
+       DesignRatio{0}},
       {D::multi_load,
        "springs and a volume term that fit stresses along several homogeneous paths",
        "docs/using/designs.md",
@@ -58,58 +59,39 @@ const std::vector<DesignFacts>& all_designs() {
        "out",
        "Baudet et al. 2009, hal-00994456",
        {"poissons_ratio"},
-       DesignLaw::any,
-       DesignSource::material,
-       DesignCells::four_stiffnesses,
-       false,
-       -0.25},
+       DesignRatio{-0.25}},
       {D::uniform,
        "one stiffness for every spring, those at the boundary not halved",
        "what simulators ship: SOFA's RegularGridSpringForceField, Vega's MassSpringSystem from cubes",
        {"stiffness"},
-       DesignLaw::any,
-       DesignSource::material,
        DesignCells::terms},
       {D::van_gelder,
        "cells cut into five tetrahedra, every edge of which adds E V/l^2",
        "Van Gelder 1998",
        {},
-       DesignLaw::any,
-       DesignSource::material,
        DesignCells::cut},
       {D::lloyd,
        "the same cut, every edge of a tetrahedron adds a share of E by its volume",
        "Lloyd, Szekely & Harders 2007",
        {},
-       DesignLaw::any,
-       DesignSource::material,
        DesignCells::cut},
       {D::biquadratic,
        "the same cut with biquadratic springs: linear tetrahedra of St. Venant-Kirchhoff",
        "Delingette 2008, in three dimensions",
        {"poissons_ratio"},
        DesignLaw::biquadratic,
-       DesignSource::material,
        DesignCells::cut},
       {D::transverse,
        "springs by axis and a volume term with the moduli nearest to a transversely isotropic material's",
        "docs/using/designs.md",
        {"split"},
-       DesignLaw::any,
-       DesignSource::material,
        DesignCells::terms,
-       false,
-       {},
        DesignMaterial::transversely_isotropic},
       {D::given,
        "the stiffnesses of the case file",
        "the case file",
        {"stiffness", "axis_stiffness", "volume_stiffness"},
-       DesignLaw::any,
        DesignSource::file,
-       DesignCells::four_stiffnesses,
-       false,
-       {},
        DesignMaterial::any},
       {D::network,
        "springs between any nodes of the mesh, one by one",
@@ -118,8 +100,6 @@ const std::vector<DesignFacts>& all_designs() {
        DesignLaw::by_spring,
        DesignSource::file,
        DesignCells::terms,
-       false,
-       {},
        DesignMaterial::any},
   };
   return all;
@@ -133,26 +113,22 @@ std::vector<std::string> keys_of_designs() {
   std::vector<std::string> keys;
   for (const DesignFacts& facts : all_designs())
     for (const std::string& key : facts.keys)
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      if (!contains(keys, key)) keys.push_back(key);
   return keys;
 }
 
 bool takes(Design design, const std::string& key) {
-  const std::vector<std::string>& keys = facts_of(design).keys;
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return contains(facts_of(design).keys, key);
 }
 
 bool is_of_others(Design design) {
   using D = Design;
-  const std::array others{D::ladd_kinney, D::baudet, D::uniform, D::van_gelder, D::lloyd, D::biquadratic};
-  return std::find(others.begin(), others.end(), design) != others.end();
+  return contains(std::array{D::ladd_kinney, D::baudet, D::uniform, D::van_gelder, D::lloyd, D::biquadratic},
+                  design);
 }
 
 std::string designs_with(const std::string& key) {
-  std::vector<std::string> names;
-  for (const DesignFacts& facts : all_designs())
-    if (takes(facts.design, key)) names.push_back(name_of(facts.design));
-  return alternatives(names);
+  return designs_that([&](Design design) { return takes(design, key); });
 }
 
 bool is_for(Design design, bool is_isotropic) {
@@ -161,10 +137,7 @@ bool is_for(Design design, bool is_isotropic) {
 }
 
 std::string designs_for(bool is_isotropic) {
-  std::vector<std::string> names;
-  for (const DesignFacts& facts : all_designs())
-    if (is_for(facts.design, is_isotropic)) names.push_back(name_of(facts.design));
-  return alternatives(names);
+  return designs_that([&](Design design) { return is_for(design, is_isotropic); });
 }
 
 } // namespace springproof::cases

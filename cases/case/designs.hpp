@@ -35,6 +35,12 @@ enum class DesignSource { material, file };
 /// What a design's stiffnesses follow, and so what a material must be.
 enum class DesignMaterial { isotropic, transversely_isotropic, any };
 
+/// Poisson's ratios that a design is refused for when a case is read.
+struct DesignRatio {
+  std::optional<double> least{}; ///< refused below
+  bool is_below_half = false;    ///< refused with an incompressible material
+};
+
 struct DesignFacts {
   Design design;
   const char* what;              ///< a line
@@ -43,9 +49,23 @@ struct DesignFacts {
   DesignLaw law = DesignLaw::any;
   DesignSource source = DesignSource::material;
   DesignCells cells = DesignCells::four_stiffnesses;
-  bool is_refused_at_half = false; ///< with an incompressible material: it needs a Poisson's ratio below 0.5
-  std::optional<double> least_poissons_ratio{}; ///< refused below when a case is read
   DesignMaterial material = DesignMaterial::isotropic;
+  DesignRatio ratio{};
+
+  /// @param differences  values of the types above, where they are others than most designs'
+  template<class... Difference>
+  DesignFacts(Design named, const char* described, const char* source_text, std::vector<std::string> taken,
+              Difference... differences)
+      : design(named), what(described), published_in(source_text), keys(std::move(taken)) {
+    (set(differences), ...);
+  }
+
+ private:
+  void set(DesignLaw other) { law = other; }
+  void set(DesignSource other) { source = other; }
+  void set(DesignCells other) { cells = other; }
+  void set(DesignMaterial other) { material = other; }
+  void set(DesignRatio other) { ratio = other; }
 };
 
 /// Lists the designs in the order of messages and tables.

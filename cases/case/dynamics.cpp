@@ -1,7 +1,8 @@
-#include "cases/case/dynamics.hpp"
+#include "cases/case/case.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace springproof::cases {
 
@@ -21,6 +22,42 @@ double value_before(const std::vector<TimedFactor>& points, std::vector<TimedFac
   if (next == points.begin()) return points.front()[1];
   if (next == points.end()) return points.back()[1];
   return between(*(next - 1), *next, time);
+}
+
+constexpr double rounding = 1e-9; // relative, of turns and steps
+
+struct Turn {
+  double degrees, begin; ///< the step with the largest turn; s
+};
+
+/// Finds the largest turn among steps of equal length.
+Turn largest_turn_of_steps(const Moved& moved, double end, long n_steps) {
+  Turn largest{0, 0};
+  const auto time = [&](long step) {
+    return end * (static_cast<double>(step) / static_cast<double>(n_steps));
+  };
+  for (long step = 0; step < n_steps; ++step) {
+    const auto [least, most] = moved.history.factors_between(time(step), time(step + 1));
+    const double degrees = std::abs(moved.angle) * (most - least);
+    if (!(degrees <= largest.degrees)) largest = {degrees, time(step)};
+  }
+  return largest;
+}
+
+bool is_small(const Turn& turn) {
+  return turn.degrees <= largest_turn_of_step * (1 + rounding);
+}
+
+/// Number of steps to the end that makes them short enough; nothing: more than a case may have.
+std::optional<long> enough_steps(const Moved& moved, double end, long n_steps) {
+  while (static_cast<double>(n_steps) <= most_time_steps) {
+    const Turn turn = largest_turn_of_steps(moved, end, n_steps);
+    if (is_small(turn)) return n_steps;
+    const double more = static_cast<double>(n_steps) * (turn.degrees / largest_turn_of_step);
+    if (!(more <= most_time_steps)) break;
+    n_steps = std::max(n_steps + 1, std::lround(std::ceil(more * (1 - rounding))));
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -45,6 +82,51 @@ double History::just_before(double time) const {
 bool History::jumps() const {
   const auto is_jump = [](const TimedFactor& from, const TimedFactor& to) { return from[0] == to[0]; };
   return std::adjacent_find(points.begin(), points.end(), is_jump) != points.end();
+}
+
+std::array<double, 2> History::factors_between(double begin, double end) const {
+  double least = std::min(at(begin), just_before(end)), most = std::max(at(begin), just_before(end));
+  const auto add = [&](double factor) {
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+  };
+  if (frequency != 0) { // a crest of sin(2 pi x) at every x = k + 1/4, a trough at k + 3/4
+    const double from = frequency * begin, to = frequency * end;
+    if (std::floor(to - 0.25) > std::floor(from - 0.25)) add(1);
+    if (std::floor(to - 0.75) > std::floor(from - 0.75)) add(-1);
+    return {least, most};
+  }
+  const auto is_earlier = [](const std::array<double, 2>& point, double time) { return point[0] < time; };
+  const auto first = std::lower_bound(points.begin(), points.end(), begin, is_earlier);
+  for (auto point = first; point != points.end() && (*point)[0] <= end; ++point) add((*point)[1]);
+  return {least, most};
+}
+
+double largest_factor(const Moved& moved, const std::optional<Dynamics>& dynamics) {
+  if (!dynamics) return 1;
+  const auto [least, most] = moved.history.factors_between(0, dynamics->end);
+  return std::max(std::abs(least), std::abs(most));
+}
+
+void check_turns_in_time(const Case& definition) {
+  if (!definition.dynamics) return;
+  const Dynamics& dynamics = *definition.dynamics;
+  for (const Moved& moved : definition.moved) {
+    if (moved.angle == 0) continue;
+    const long n_steps = dynamics.n_steps();
+    const Turn turn = largest_turn_of_steps(moved, dynamics.end, n_steps);
+    if (is_small(turn)) continue;
+    const auto enough = enough_steps(moved, dynamics.end, n_steps);
+    throw InputError(
+        moved.region.where,
+        fmt::format(
+            "turns by {:.4g} degrees in the step of dynamics.step = {:.10g} s that begins at {:.4g} s, must "
+            "turn by at most {} in each: {}; a longer turn ends where a shorter one the other way does",
+            turn.degrees, dynamics.end / static_cast<double>(n_steps), turn.begin, largest_turn_of_step,
+            enough ? fmt::format("take steps of {:.10g} s or shorter",
+                                 dynamics.end / static_cast<double>(*enough))
+                   : "it needs a slower history"));
+  }
 }
 
 } // namespace springproof::cases

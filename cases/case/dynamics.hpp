@@ -31,6 +31,8 @@ SPRINGPROOF_ENUMERATION(MotionStart,
                         equilibrium ///< under the loads just before time 0, without velocity
 )
 
+constexpr double most_time_steps = 1e7; ///< per case
+
 struct Dynamics {
   TimeScheme scheme;
   double step = 0, end = 0; ///< s, > 0; the end is a whole number of steps
@@ -52,6 +54,9 @@ struct History {
   double at(double time) const;          ///< at a jump what comes after it
   double just_before(double time) const; ///< at a jump what comes before it
   bool jumps() const;
+  /// The smallest and the largest factor from one time to another (s), ends included: above 1 and below 0
+  /// too.
+  std::array<double, 2> factors_between(double begin, double end) const;
 };
 SPRINGPROOF_FIELDS(History, points, frequency)
 

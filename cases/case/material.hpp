@@ -3,18 +3,22 @@
 #include "cases/case/body.hpp"
 #include "cases/case/dynamics.hpp"
 
+#include <cmath>
+
 /// [material] and [[region_material]] of a case file. Units: MPa, mm.
 namespace springproof::cases {
 
 struct LinearElastic {
-  double youngs_modulus; ///< MPa, > 0
-  double poissons_ratio; ///< in (-1, 0.5)
+  static constexpr const char* name = "linear_elastic"; ///< in case files
+  double youngs_modulus;                                ///< MPa, > 0
+  double poissons_ratio;                                ///< in (-1, 0.5)
 };
 SPRINGPROOF_FIELDS(LinearElastic, youngs_modulus, poissons_ratio)
 
 /// W = sum_i 2 mu_i/alpha_i² (l1^alpha_i + l2^alpha_i + l3^alpha_i - 3) + kappa/4 (J² - 1 - 2 ln J), where
 /// l1, l2, l3 are the isochoric stretches. Neo-Hookean: alpha = 2; Mooney-Rivlin: alpha = 2, -2.
 struct Ogden {
+  static constexpr const char* name = "ogden";
   std::vector<double> mu;             ///< MPa; the sum is the initial shear modulus, > 0
   std::vector<double> alpha;          ///< as many, none 0
   std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
@@ -24,6 +28,7 @@ SPRINGPROOF_FIELDS(Ogden, mu, alpha, bulk_modulus)
 /// Linear elastic with an axis of symmetry, its fibre: engineering constants along and across it. The strain
 /// energy is positive when poissons_ratio_along² < (1 - poissons_ratio_across) E_along/(2 E_across).
 struct TransverselyIsotropic {
+  static constexpr const char* name = "transversely_isotropic";
   double youngs_modulus_along, youngs_modulus_across; ///< E_L, E_T, MPa, > 0
   double poissons_ratio_along;  ///< nu_LT: contraction across the fibre, pulled along it
   double poissons_ratio_across; ///< nu_TT in (-1, 1): contraction across the fibre, pulled across it
@@ -52,9 +57,10 @@ inline bool is_isotropic(const Material& material) {
 /// A material for a part of the body, in place of the body's own. The part is the cells of a physical group,
 /// or those whose centre lies in a box.
 struct RegionMaterial {
-  Material material;            ///< the same model as the body's own
-  std::string group;            ///< empty: the box
-  Eigen::Vector3d lower, upper; ///< mm; infinite where the box has no end
+  Material material;                                            ///< the same model as the body's own
+  std::string group;                                            ///< empty: the box
+  Eigen::Vector3d lower = Eigen::Vector3d::Constant(-INFINITY); ///< mm; infinite where the box has no end
+  Eigen::Vector3d upper = -lower;
   Where where;
   MaterialDynamics dynamics{};
 };

@@ -9,6 +9,11 @@ namespace springproof::cases {
 
 const std::vector<std::string> face_names{"x-", "x+", "y-", "y+", "z-", "z+"};
 
+bool are_faces(const std::vector<std::string>& words) {
+  return !words.empty() && std::all_of(words.begin(), words.end(),
+                                       [](const std::string& word) { return contains(face_names, word); });
+}
+
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};

@@ -2,6 +2,7 @@
 
 #include "cases/case/enumeration.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -81,6 +82,19 @@ bool is(const Thing& thing) {
 
 /// The words of a list as a message shows them: "a" | "b" | "c".
 std::string alternatives(const std::vector<std::string>& words);
+/// The same for the names of some enumerators.
+template<class Enum>
+std::string alternatives(const std::vector<Enum>& some) {
+  std::vector<std::string> names;
+  for (const Enum one : some) names.push_back(name_of(one));
+  return alternatives(names);
+}
+
+/// Whether a list has a value.
+template<class List, class Value>
+bool contains(const List& list, const Value& value) {
+  return std::find(std::begin(list), std::end(list), value) != std::end(list);
+}
 
 /// The known word with the fewest edits (insertion, deletion, replacement, exchange of neighbours) from what
 /// was written, at most one for every three letters; nothing if there is none.
@@ -91,5 +105,8 @@ std::vector<std::string> words_of(const std::string& text);
 
 /// The faces of a box, which regions are made of.
 extern const std::vector<std::string> face_names;
+
+/// Whether these words, at least one, are all names of faces.
+bool are_faces(const std::vector<std::string>& words);
 
 } // namespace springproof::cases

@@ -1,11 +1,8 @@
 #include "cases/case/readers.hpp"
 
-#include "cases/case/turns_in_time.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <sstream>
 
 namespace springproof::cases {
@@ -29,7 +26,7 @@ Eigen::Vector3d read_near_words(const Entry& entry, const std::string& text) {
 /// Names of a box's faces, no two of which are the same or face each other.
 void check_box_region(const Entry& entry, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
-    if (std::find(face_names.begin(), face_names.end(), word) == face_names.end())
+    if (!contains(face_names, word))
       entry.refuse("a face " + alternatives(face_names) +
                    " of the box, two joined by a blank for an edge, three for a vertex, or \"near x y z\"");
     for (const std::string& other : words)
@@ -56,31 +53,25 @@ Region read_part(const Entry& entry, const Body& body) {
   Table table(entry, allowed);
   Region region{"", std::nullopt, entry.where};
   Part& part = region.part.emplace();
-  part.upper.setConstant(std::numeric_limits<double>::infinity());
-  part.lower = -part.upper;
   const Labels* labels = std::get_if<Labels>(&body);
   table.refuse_unless(labels != nullptr || std::holds_alternative<MeshFile>(body), {"class"},
                       "left out: only a body of shape = \"labels\" or \"mesh\" has classes of cells");
   part.cell_class = table.optional("class", read_text).value_or("");
   if (labels != nullptr && !part.cell_class.empty()) table.entry("class").word(names_of(labels->classes));
   region.name = part.cell_class.empty() ? "nodes" : "nodes of " + part.cell_class;
-  if (table.has("box")) {
-    const auto corners = read_corners(table.entry("box"), true);
-    part.lower = corners[0];
-    part.upper = corners[1];
+  if (const auto box = table.optional("box", Corners{true})) {
+    std::tie(part.lower, part.upper) = *box;
     region.name +=
         fmt::format(" between ({}) and ({})", fmt::join(part.lower, ", "), fmt::join(part.upper, ", "));
   }
-  if (table.has("beyond")) {
-    table.section("beyond", [&](Table& plane) {
-      part.point = plane.required("point", read_point);
-      part.normal = plane.required("normal", read_direction);
-      return true;
-    });
+  const auto read_plane = [](Table& plane) {
+    return std::pair{plane.required("point", read_point), plane.required("normal", read_direction)};
+  };
+  if (const auto plane = table.section_if_there("beyond", read_plane)) {
+    std::tie(part.point, part.normal) = *plane;
     region.name +=
         fmt::format(" beyond ({}) towards ({})", fmt::join(part.point, ", "), fmt::join(part.normal, ", "));
   }
-  table.know({"box", "beyond"});
   table.refuse_unknown_keys();
   if (!table.has("class") && !table.has("box") && !table.has("beyond")) entry.refuse(allowed);
   return region;
@@ -128,13 +119,12 @@ ScaledDisplacement read_scaled(Table& table) {
 
 /// Reads how the region moves: where its motion fades out, and in how many steps of the load.
 void read_way(Table& table, Moved& moved, const std::optional<Dynamics>& dynamics) {
-  table.know({"scaled_displacement", "steps"});
   table.refuse_unless(!dynamics, {"steps"}, "left out in a dynamic case, whose steps are those of time");
   moved.steps = table.optional("steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
-  if (!table.has("scaled_displacement")) return;
-  moved.scaled = table.section("scaled_displacement", read_scaled);
+  moved.scaled = table.section_if_there("scaled_displacement", read_scaled);
+  if (!moved.scaled) return;
   const auto [least, most] =
-      dynamics ? factors_between(moved.history, 0, dynamics->end) : std::array<double, 2>{0, 1};
+      dynamics ? moved.history.factors_between(0, dynamics->end) : std::array<double, 2>{0, 1};
   const double nearer_at_full = -moved.displacement.dot(moved.scaled->normal),
                nearer = std::max(least * nearer_at_full, most * nearer_at_full);
   if (!(nearer < moved.scaled->length))
@@ -150,6 +140,7 @@ Moved read_moved(Table& table, const Case& definition) {
   moved.region = read_region(table, definition.body);
   moved.history = read_history(table, definition.dynamics.has_value());
   const bool is_turned = table.has("angle");
+  table.know({"angle"});
   table.refuse_unless(!is_turned, {"displacement", "components"},
                       "left out beside angle: a region is shifted or turned, not both");
   table.refuse_unless(is_turned, {"axis", "centre"}, "left out without angle");
@@ -165,7 +156,6 @@ Moved read_moved(Table& table, const Case& definition) {
     for (std::size_t a = 0; a < 3; ++a)
       if (!moved.components[a] && moved.displacement[static_cast<int>(a)] != 0)
         entry.refuse("0 in the components that are not moved");
-    table.know({"angle"});
   }
   read_way(table, moved, definition.dynamics);
   return moved;
@@ -191,7 +181,6 @@ void read_keys(Table& table, loads::Torque& torque) {
 
 void read_keys(Table& table, loads::Gravity& gravity) {
   table.refuse_unless(false, {"region", "near", "radius"}, "left out: gravity acts on the whole body");
-  table.know({"region", "near", "radius"});
   gravity.value = table.required("value", Vector{"an acceleration of three finite numbers (m/s²)"});
 }
 
@@ -238,11 +227,9 @@ Region read_region_text(const Entry& entry, const Body& body) {
 Region read_region(Table& table, const Body& body) {
   if (!table.has("near")) {
     const Entry entry = table.entry("region");
-    Region region =
-        entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
     table.know({"near"});
     table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
-    return region;
+    return entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
   }
   table.refuse_unless(!table.has("region"), {"near"},
                       "left out beside region: they say the same thing twice");
@@ -280,7 +267,7 @@ void check_boundary(Table& root, const Case& result) {
     if (!result.dynamics ||
         (result.dynamics->start == MotionStart::equilibrium && history.just_before(0) != 0))
       return true;
-    const auto [least, most] = factors_between(history, 0, result.dynamics->end);
+    const auto [least, most] = history.factors_between(0, result.dynamics->end);
     return least != 0 || most != 0;
   };
   const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };

@@ -1,8 +1,7 @@
 #include "cases/case/read_case.hpp"
 
+#include "cases/case/input_file.hpp"
 #include "cases/case/readers.hpp"
-#include "cases/case/rows.hpp"
-#include "cases/case/turns_in_time.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -41,11 +40,8 @@ std::string read_case_name(const Entry& entry) {
 
 Removed read_removed(Table& table, bool is_dynamic) {
   Removed removed;
-  const Entry box = table.entry("box");
-  removed.where = box.where;
-  const auto corners = read_corners(box);
-  removed.lower = corners[0];
-  removed.upper = corners[1];
+  removed.where = table.entry("box").where;
+  std::tie(removed.lower, removed.upper) = table.required("box", Corners{});
   removed.join = table.optional("join", read_name<Axis>);
   if (removed.join && is_dynamic)
     table.entry("join").refuse("left out in a dynamic case: cuts are joined in statics alone");
@@ -201,19 +197,17 @@ BodySurface read_surface_file(Table& table, const std::string& case_path) {
 }
 
 void read_surface(Table& root, Case& result) {
-  if (root.has("surface"))
-    result.surface = root.section("surface", [&](Table& table) {
-      const Labels* const picture = std::get_if<Labels>(&result.body);
-      return picture != nullptr && table.has("intensity") ? read_contour(table, *picture)
-                                                          : read_surface_file(table, result.file);
-    });
-  root.know({"surface"});
+  result.surface = root.section_if_there("surface", [&](Table& table) {
+    const Labels* const picture = std::get_if<Labels>(&result.body);
+    return picture != nullptr && table.has("intensity") ? read_contour(table, *picture)
+                                                        : read_surface_file(table, result.file);
+  });
   std::vector<std::string> seen;
   result.landmarks = root.sections("landmark", [&](Table& table) {
     Landmark landmark{
         table.required("name", read_text),
         table.required("point", Vector{"three finite numbers (mm), a point of the body's surface"})};
-    if (std::find(seen.begin(), seen.end(), landmark.name) != seen.end())
+    if (contains(seen, landmark.name))
       table.entry("name").refuse("a new name: another landmark has this one");
     seen.push_back(landmark.name);
     return landmark;
@@ -306,21 +300,11 @@ ExpectedOutcome read_expected(Table& table, const HardModel& model) {
   ExpectedOutcome expected{model.name, model.side, model.design, table.required("outcome", read_outcome),
                            {},         {}};
   const std::string allowed = "an interval [lower, upper] with 0 <= lower <= upper <= 1";
-  if (const auto interval = table.optional("load_reached", Numbers{allowed, 2})) {
-    if (!(0 <= (*interval)[0] && (*interval)[0] <= (*interval)[1] && (*interval)[1] <= 1))
-      table.entry("load_reached").refuse(allowed);
-    expected.load_reached = {(*interval)[0], (*interval)[1]};
-  }
+  const auto is_part = [](double load) { return 0 <= load && load <= 1; };
+  expected.load_reached = table.optional("load_reached", Interval<std::less_equal<>>{allowed, is_part});
   expected.inverted_cells =
       table.optional("inverted_cells", WholeNumber{"a whole number from 0", 0, 2147483647});
   return expected;
-}
-
-/// Reads a table that may be left out.
-template<class Reader>
-auto read_if_there(Table& table, const std::string& key, const Reader& read) {
-  table.know({key.c_str()});
-  return table.has(key) ? std::optional(table.section(key, read)) : std::nullopt;
 }
 
 void read_start(Table& table, Stress& result) {
@@ -331,7 +315,6 @@ void read_start(Table& table, Stress& result) {
     return;
   }
   table.refuse_unless(false, {"amplitude", "seed"}, "left out: it belongs to start = \"perturbed\"");
-  table.know({"amplitude", "seed"});
 }
 
 /// Reads [stress] of a hard case.
@@ -341,21 +324,21 @@ Stress read_stress(Table& table, Msm& msm) {
   result.is_heavy = table.optional("heavy", read_truth).value_or(false);
   read_start(table, result);
   const auto stiffness =
-      table.optional("stiffness", Numbers{"three finite numbers k_e, k_f, k_d (N/m), of any sign", 3});
+      table.optional("stiffness", Array<3>{"three finite numbers k_e, k_f, k_d (N/m), of any sign"});
   if (stiffness) {
     msm.design = Design::given;
-    msm.stiffness = {(*stiffness)[0], (*stiffness)[1], (*stiffness)[2]};
+    msm.stiffness = stiffness;
     msm.axis_stiffness.reset();
     msm.volume_stiffness = 0;
   }
-  result.stiffer = read_if_there(table, "stiffer", read_stiffer);
+  result.stiffer = table.section_if_there("stiffer", read_stiffer);
   result.least_load_steps =
       table.optional("least_load_steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
   result.max_seconds = table.required("max_seconds", Number{"a number above 0", is_positive});
   result.max_iterations = table.required("max_iterations", WholeNumber{"a whole number from 1", 1, 1000000});
   for (const HardModel& model : models)
     if (const auto expected =
-            read_if_there(table, model.name, [&](Table& section) { return read_expected(section, model); }))
+            table.section_if_there(model.name, [&](Table& section) { return read_expected(section, model); }))
       result.expected.push_back(*expected);
   if (result.expected.empty())
     table.entry("msm").refuse("a table [stress.msm], [stress.hybrid] or [stress.fem] with an outcome");

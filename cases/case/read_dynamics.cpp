@@ -1,7 +1,5 @@
 #include "cases/case/readers.hpp"
 
-#include "cases/case/turns_in_time.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,7 +17,6 @@ TimeScheme read_scheme(Table& table) {
              is_alpha = result.scheme == Scheme::generalized_alpha;
   table.refuse_unless(is_newmark, {"beta", "gamma"}, "left out: it belongs to scheme = \"newmark\"");
   table.refuse_unless(is_alpha, {"rho_infinity"}, "left out: it belongs to scheme = \"generalized_alpha\"");
-  table.know({"rho_infinity"});
   const auto is_order = [](double gamma) { return gamma >= 0.5 && gamma <= 1; };
   result.gamma = table.optional("gamma", Number{"a number from 0.5 to 1", is_order}).value_or(0.5);
   const std::string stable =
@@ -83,26 +80,16 @@ History read_shape(const Entry& entry) {
                               "{ sine = hertz }";
   if (entry.node && entry.node->is_array()) return {read_points(entry)};
   Table table(entry, allowed);
-  History result;
-  const int n_shapes = table.has("ramp") + table.has("step") + table.has("sine");
-  if (n_shapes > 1) entry.refuse(allowed + ", one of them");
-  if (table.has("ramp")) {
-    const std::string two = "two times from 0 (s), the smaller first";
-    const auto ends = table.required("ramp", Numbers{two, 2, is_time});
-    if (!(ends[0] < ends[1])) table.entry("ramp").refuse(two);
-    result.points = {{ends[0], 0}, {ends[1], 1}};
-  } else if (table.has("step")) {
-    const double time = table.required("step", Number{"a time from 0 (s)", is_time});
-    result.points = {{time, 0}, {time, 1}};
-  }
-  table.know({"ramp", "step"});
   const auto is_frequency = [](double hertz) { return hertz > 0 && hertz <= 1e9; };
-  if (table.has("sine"))
-    result.frequency = table.required("sine", Number{"a frequency above 0 (Hz), at most 1e9", is_frequency});
-  table.know({"sine"});
+  const auto ramp = table.optional("ramp", Interval<>{"two times from 0 (s), the smaller first", is_time});
+  const auto step = table.optional("step", Number{"a time from 0 (s)", is_time});
+  const auto sine = table.optional("sine", Number{"a frequency above 0 (Hz), at most 1e9", is_frequency});
   table.refuse_unknown_keys();
-  if (n_shapes == 0) entry.refuse(allowed);
-  return result;
+  const int n_shapes = ramp.has_value() + step.has_value() + sine.has_value();
+  if (n_shapes != 1) entry.refuse(allowed + (n_shapes > 1 ? ", one of them" : ""));
+  if (ramp) return {{{(*ramp)[0], 0}, {(*ramp)[1], 1}}};
+  if (step) return {{{*step, 0}, {*step, 1}}};
+  return {{}, *sine};
 }
 
 /// A support that is somewhere else all of a sudden would have an infinite acceleration.
@@ -148,9 +135,7 @@ void check_densities(Table& root, const Case& definition) {
 } // namespace
 
 std::optional<Dynamics> read_dynamics(Table& root) {
-  root.know({"dynamics"});
-  if (!root.has("dynamics")) return std::nullopt;
-  return root.section("dynamics", read_section);
+  return root.section_if_there("dynamics", read_section);
 }
 
 MaterialDynamics read_material_dynamics(Table& table, bool has_dynamics) {

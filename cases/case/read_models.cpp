@@ -30,17 +30,15 @@ std::vector<Element> elements_of(Formulation formulation) {
 /// Lists the formulations for a material.  @param model  material.model of a case file
 std::vector<Formulation> formulations_of(const std::string& model) {
   using F = Formulation;
-  if (model == "ogden") return {F::hyperelastic};
-  if (model == "transversely_isotropic") return {F::small_strain, F::log_strain};
+  if (model == Ogden::name) return {F::hyperelastic};
+  if (model == TransverselyIsotropic::name) return {F::small_strain, F::log_strain};
   return {F::small_strain, F::saint_venant_kirchhoff, F::log_strain};
 }
 
 std::string models_with(Formulation formulation) {
   std::vector<std::string> found;
-  for (const std::string& model : material_models()) {
-    const std::vector<Formulation> all = formulations_of(model);
-    if (std::count(all.begin(), all.end(), formulation) > 0) found.push_back(model);
-  }
+  for (const std::string& model : Kinds<Material>::names())
+    if (contains(formulations_of(model), formulation)) found.push_back(model);
   return alternatives(found);
 }
 
@@ -55,13 +53,10 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
                       "\"hyperelastic\" with the ogden material, which has no small strains");
   fem.formulation = value_of<Formulation>(word.value_or("auto"))
                         .value_or(is_ogden ? Formulation::hyperelastic : Formulation::log_strain);
-  const std::vector<Formulation> allowed = formulations_of(material_models()[material.index()]);
-  std::vector<std::string> names;
-  for (const Formulation formulation : allowed) names.push_back(name_of(formulation));
-  table.refuse_unless(std::count(allowed.begin(), allowed.end(), fem.formulation) > 0, {"formulation"},
-                      fmt::format("{} with model = \"{}\"; {} needs model = {}", alternatives(names),
-                                  material_models()[material.index()], name_of(fem.formulation),
-                                  models_with(fem.formulation)));
+  const std::vector<Formulation> allowed = formulations_of(name_of(material));
+  table.refuse_unless(contains(allowed, fem.formulation), {"formulation"},
+                      fmt::format("{} with model = \"{}\"; {} needs model = {}", alternatives(allowed),
+                                  name_of(material), name_of(fem.formulation), models_with(fem.formulation)));
 }
 
 /// The elements required by the material, when this one is not among them; otherwise empty.
@@ -76,10 +71,9 @@ std::string element_needed(Element element, const Material& material) {
 Element read_element(Table& table, Formulation formulation, const Material& material) {
   const std::vector<Element> allowed = elements_of(formulation);
   const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
-  std::vector<std::string> words;
-  for (const Element e : allowed) words.push_back(name_of(e));
-  table.refuse_unless(std::count(allowed.begin(), allowed.end(), element) > 0, {"element"},
-                      fmt::format("{} with formulation = \"{}\"", alternatives(words), name_of(formulation)));
+  table.refuse_unless(
+      contains(allowed, element), {"element"},
+      fmt::format("{} with formulation = \"{}\"", alternatives(allowed), name_of(formulation)));
   const std::string needed = element_needed(element, material);
   if (!needed.empty()) table.entry("element").refuse(needed);
   return element;
@@ -138,12 +132,12 @@ std::string design_needed(const Msm& msm, const Material& material) {
   const Ogden* ogden = std::get_if<Ogden>(&material);
   const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
   const DesignFacts& facts = facts_of(msm.design);
-  if (facts.is_refused_at_half && is_incompressible)
+  if (facts.ratio.is_below_half && is_incompressible)
     return fmt::format("another design than \"{}\", which needs a Poisson's ratio below 0.5: this ogden "
                        "material has none without bulk_modulus; or give msm.poissons_ratio",
                        name_of(msm.design));
   const double ratio = msm.poissons_ratio.value_or(linear ? linear->poissons_ratio : 0.5);
-  if (const auto least = facts.least_poissons_ratio; least && ratio < *least)
+  if (const auto least = facts.ratio.least; least && ratio < *least)
     return fmt::format("another design than \"{}\", which needs a Poisson's ratio of {} and more, not {}",
                        name_of(msm.design), *least, ratio);
   return "";
@@ -159,12 +153,9 @@ void read_fit(Table& table, Msm& msm) {
       table.entry("weights").refuse(per_path);
     msm.weights = *weights;
   }
-  const std::string two = "two numbers from -2 to 2, the smaller first";
   const auto is_allowed = [](double strain) { return strain >= -2 && strain <= 2; };
-  if (const auto range = table.optional("strain_range", Numbers{two, 2, is_allowed})) {
-    if (!((*range)[0] < (*range)[1])) table.entry("strain_range").refuse(two);
-    msm.strain_range = {(*range)[0], (*range)[1]};
-  }
+  msm.strain_range =
+      table.optional("strain_range", Interval<>{"two numbers from -2 to 2, the smaller first", is_allowed});
   const auto volume_term = table.optional("volume_term", [](const Entry& entry) {
     read_text(entry);
     return entry.word({"fitted", "none"});
@@ -176,10 +167,7 @@ void read_fit(Table& table, Msm& msm) {
 std::array<double, 3> read_exponent(const Entry& entry) {
   const std::string wanted = "a number, or three for edges, face and internal diagonals, from -20 to 20";
   const auto is_allowed = [](double p) { return -20 <= p && p <= 20; };
-  if (entry.node && entry.node->is_array()) {
-    const auto p = Numbers{wanted, 3, is_allowed}(entry);
-    return {p[0], p[1], p[2]};
-  }
+  if (entry.node && entry.node->is_array()) return Array<3>{wanted, is_allowed}(entry);
   const double p = Number{wanted, is_allowed}(entry);
   return {p, p, p};
 }
@@ -200,7 +188,6 @@ void read_law(Table& table, Msm& msm) {
     table.refuse_unless(
         false, {"law", "exponent"},
         fmt::format("left out: design = \"{}\" has springs of a law of its own", name_of(msm.design)));
-    table.know({"law", "exponent"});
     if (law == DesignLaw::power_log) msm.law = SpringLaw::power_log;
     return;
   }
@@ -251,40 +238,32 @@ double poissons_ratio_of(const Material& material) {
   return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 
-std::vector<Material> materials_in(const Case& definition) {
-  std::vector<Material> all{definition.material};
-  for (const RegionMaterial& region : definition.region_materials) all.push_back(region.material);
-  return all;
-}
-
 /// Checks that a design that is asked for suits the material. A default design is refused only when springs
 /// are designed, which may never happen.
 void check_is_for(const Entry& design, const Msm& msm, const Material& material) {
   if (!is_for(msm.design, is_isotropic(material)))
-    design.refuse(fmt::format("{} with model = \"{}\"", designs_for(is_isotropic(material)),
-                              material_models()[material.index()]));
+    design.refuse(
+        fmt::format("{} with model = \"{}\"", designs_for(is_isotropic(material)), name_of(material)));
   const auto* fibrous = std::get_if<TransverselyIsotropic>(&material);
   if (msm.design == Design::transverse && !axis_along(fibrous->fibre))
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
+const WholeNumber up_to_1000{"a whole number from 1 to 1000", 1, 1000};
+
 /// Reads how often force scaling moves the points, where that is given.
 void read_relaxation(Table& table, Msm& msm) {
-  const std::vector<const char*> keys{"relaxation_steps", "relaxation_iterations", "further_iterations"};
-  for (const char* key : keys)
-    table.refuse_unless(msm.solver == Solver::force_scaling, {key},
-                        "left out: it belongs to solver = \"force_scaling\"");
-  if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); })) {
-    for (const char* key : keys) table.know({key});
-    return;
-  }
+  table.refuse_unless(msm.solver == Solver::force_scaling,
+                      {"relaxation_steps", "relaxation_iterations", "further_iterations"},
+                      "left out: it belongs to solver = \"force_scaling\"");
   constexpr int most = 1000000;
   const WholeNumber iterations{"a whole number from 0 to 1000000", 0, most};
-  RelaxationCounts& counts = msm.relaxation.emplace();
-  counts.load_steps =
-      table.optional("relaxation_steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
-  counts.per_step = table.optional("relaxation_iterations", iterations).value_or(0);
-  counts.further = table.optional("further_iterations", iterations).value_or(0);
+  const auto load_steps = table.optional("relaxation_steps", up_to_1000),
+             per_step = table.optional("relaxation_iterations", iterations),
+             further = table.optional("further_iterations", iterations);
+  if (!load_steps && !per_step && !further) return;
+  const RelaxationCounts& counts = msm.relaxation.emplace(
+      RelaxationCounts{load_steps.value_or(1), per_step.value_or(0), further.value_or(0)});
   if (counts.all() < 1 || counts.all() > most)
     throw InputError(table.where(),
                      fmt::format("relaxation_steps x relaxation_iterations + further_iterations is "
@@ -299,7 +278,7 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   const auto design = table.optional("design", read_name<Design>);
-  msm.design = design ? *design : default_design(materials_in(definition), msm.poissons_ratio);
+  msm.design = design ? *design : default_design(materials_of(definition), msm.poissons_ratio);
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
@@ -322,8 +301,7 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
-  msm.iterations_per_step =
-      table.optional("iterations_per_step", WholeNumber{"a whole number from 1 to 1000", 1, 1000});
+  msm.iterations_per_step = table.optional("iterations_per_step", up_to_1000);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);
   if (!needed.empty()) table.entry("design").refuse(needed);

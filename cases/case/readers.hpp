@@ -19,9 +19,6 @@ double read_scale(Table& table);
 
 // [material] and [[region_material]]
 
-/// Names of material.model, in the order of Material.
-const std::vector<std::string>& material_models();
-
 /// Poisson's ratio of an isotropic material.
 inline constexpr auto is_poissons_ratio = [](double value) { return value > -1 && value < 0.5; };
 

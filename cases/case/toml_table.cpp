@@ -151,7 +151,7 @@ void Entry::refuse(const std::string& allowed) const {
 
 std::string Entry::word(const std::vector<std::string>& allowed) const {
   const auto written = value<std::string>();
-  if (written && std::find(allowed.begin(), allowed.end(), *written) != allowed.end()) return *written;
+  if (written && contains(allowed, *written)) return *written;
   const auto nearest = written ? nearest_name(*written, allowed) : std::nullopt;
   refuse(alternatives(allowed) + (nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
 }
@@ -229,6 +229,7 @@ Entry Table::entry(const std::string& key) {
 
 void Table::refuse_unless(bool have_meaning, std::initializer_list<const char*> keys,
                           const std::string& instead) {
+  know(keys);
   for (const char* key : keys) {
     if (have_meaning || !has(key)) continue;
     const Entry refused = entry(key);
@@ -273,7 +274,7 @@ toml::table parse_file(const std::string& path, const std::vector<std::string>& 
 NamedFile read_file_path(const Entry& entry, const std::vector<std::string>& endings,
                          const std::string& allowed, const std::string& case_path) {
   const std::filesystem::path file = read_text(entry);
-  if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) entry.refuse(allowed);
+  if (!contains(endings, file.extension())) entry.refuse(allowed);
   return {(std::filesystem::path(case_path).parent_path() / file).lexically_normal().string(), entry.where};
 }
 
@@ -286,7 +287,7 @@ NamedFile read_file_name(const Entry& entry, const std::vector<std::string>& end
   return file;
 }
 
-std::array<Eigen::Vector3d, 2> read_corners(const Entry& entry, bool may_be_flat) {
+std::pair<Eigen::Vector3d, Eigen::Vector3d> Corners::operator()(const Entry& entry) const {
   const std::string allowed = "two corners, the lower first: [[x, y, z], [x, y, z]] (mm)";
   const std::vector<Entry> corners = entry.elements(allowed, 2);
   const Eigen::Vector3d lower = Vector{allowed}(corners[0]), upper = Vector{allowed}(corners[1]);

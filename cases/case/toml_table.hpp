@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <set>
 #include <toml++/toml.h>
@@ -76,11 +77,42 @@ struct Numbers {
   std::vector<double> operator()(const Entry& entry) const;
 };
 
+/// That many finite numbers.
+template<std::size_t count>
+struct Array {
+  std::string allowed;
+  Condition condition = is_anything;
+  std::array<double, count> operator()(const Entry& entry) const {
+    const std::vector<double> read = Numbers{allowed, count, condition}(entry);
+    std::array<double, count> values;
+    std::copy(read.begin(), read.end(), values.begin());
+    return values;
+  }
+};
+
 /// Three finite numbers.
 struct Vector {
   std::string allowed;
   Condition condition = is_anything;
   Eigen::Vector3d operator()(const Entry& entry) const;
+};
+
+/// Two corners of a box (mm), the lower one first in each coordinate.
+struct Corners {
+  bool may_be_flat = false; ///< a rectangle, a line or a point
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> operator()(const Entry& entry) const;
+};
+
+/// Two finite numbers, the smaller first: Less is std::less_equal if they may be equal.
+template<class Less = std::less<>>
+struct Interval {
+  std::string allowed;
+  Condition condition = is_anything;
+  std::array<double, 2> operator()(const Entry& entry) const {
+    const auto ends = Array<2>{allowed, condition}(entry);
+    if (!Less()(ends[0], ends[1])) entry.refuse(allowed);
+    return ends;
+  }
 };
 
 struct WholeNumber {
@@ -114,7 +146,8 @@ class Table {
   Entry entry(const std::string& key);
   /// These keys are known, whether they are read or not.
   void know(std::initializer_list<const char*> keys) { asked_.insert(keys.begin(), keys.end()); }
-  /// Refuses keys that have no meaning beside the others.  @param instead  "left out: REASON"
+  /// Refuses keys that have no meaning beside the others; they are known then, whether they are read or not.
+  /// @param instead  "left out: REASON"
   void refuse_unless(bool have_meaning, std::initializer_list<const char*> keys, const std::string& instead);
 
   template<class Reader>
@@ -134,6 +167,12 @@ class Table {
     auto value = read(table);
     table.refuse_unknown_keys();
     return value;
+  }
+  /// The same for a table that may be left out: then there is no value.
+  template<class Reader>
+  auto section_if_there(const std::string& key, const Reader& read) {
+    asked_.insert(key);
+    return has(key) ? std::optional(section(key, read)) : std::nullopt;
   }
   /// The same for a table that may be left out: then the reader gets an empty one.
   template<class Reader>
@@ -171,9 +210,5 @@ class Table {
   Where where_;
   std::set<std::string> asked_;
 };
-
-/// Two corners of a box (mm), the lower one first in each coordinate.
-/// @param may_be_flat  whether the box may be a rectangle, a line or a point
-std::array<Eigen::Vector3d, 2> read_corners(const Entry& entry, bool may_be_flat = false);
 
 } // namespace springproof::cases

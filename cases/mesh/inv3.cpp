@@ -1,4 +1,4 @@
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "cases/mesh/vtk_parts.hpp"
 
 #include <archive.h>

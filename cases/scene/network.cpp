@@ -1,6 +1,6 @@
 #include "cases/scene/network.hpp"
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 
 #include <algorithm>
 #include <cmath>

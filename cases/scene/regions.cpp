@@ -130,13 +130,6 @@ Selection select_part(const HexMesh& mesh, const Region& region) {
   return select_between(mesh, is_selected, is_of_class);
 }
 
-/// Whether these are names of a box's faces.
-bool are_faces(const std::vector<std::string>& words) {
-  return !words.empty() && std::all_of(words.begin(), words.end(), [](const std::string& word) {
-    return std::count(face_names.begin(), face_names.end(), word) > 0;
-  });
-}
-
 /// @throws InputError if physical groups of several dimensions have the region's name
 void check_is_one_group(const HexMesh& mesh, const Region& region) {
   std::vector<std::string> meant;
@@ -145,7 +138,7 @@ void check_is_one_group(const HexMesh& mesh, const Region& region) {
       meant.push_back("'" + name + "'");
   if (meant.empty()) return;
   const auto& of_cells = mesh.group_of_cell;
-  if (std::count(of_cells.begin(), of_cells.end(), region.name) > 0)
+  if (contains(of_cells, region.name))
     meant.push_back(fmt::format("{{ class = \"{}\" }} for the nodes of the volume", region.name));
   throw InputError(region.where,
                    fmt::format("'{}' is the name of physical groups of several dimensions; must be {}, or "

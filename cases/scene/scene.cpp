@@ -58,8 +58,7 @@ void resolve_materials(Scene& scene) {
     ++material;
     for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
       if (has_cell(scene.mesh, region, c)) scene.material_of_cell[c] = material;
-    const auto& given = scene.material_of_cell;
-    if (std::count(given.begin(), given.end(), material) == 0)
+    if (!contains(scene.material_of_cell, material))
       throw InputError(region.where,
                        region.group.empty()
                            ? "no cell has its centre in the box"
@@ -127,7 +126,7 @@ void check_sizes(const Scene& scene) {
       force = std::max(force, size);
       if (!is_held[3 * index(loaded.node) + index(a)]) free_force = std::max(free_force, size);
     }
-  const bool has_unknowns = std::find(is_held.begin(), is_held.end(), false) != is_held.end();
+  const bool has_unknowns = contains(is_held, false);
   if (force > 0 && free_force == 0 && scene.moved.empty() && has_unknowns)
     throw InputError(
         scene.definition.loads.front().region.where,
@@ -229,12 +228,6 @@ void check_measure(const Scene& scene, const Measure& measure) {
 }
 
 } // namespace
-
-std::vector<Material> materials_of(const Case& definition) {
-  std::vector<Material> materials{definition.material};
-  for (const RegionMaterial& region : definition.region_materials) materials.push_back(region.material);
-  return materials;
-}
 
 int material_of(const Scene& scene, std::size_t cell) {
   return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];

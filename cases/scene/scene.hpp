@@ -48,9 +48,6 @@ Selection select(const HexMesh& mesh, const Region& region);
 /// The region's only node.  @throws InputError if it selects none or several
 int select_node(const HexMesh& mesh, const Region& region);
 
-/// The body's own material, then those of its regions.
-std::vector<Material> materials_of(const Case& definition);
-
 /// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
 

@@ -1,5 +1,4 @@
 #include "cases/case/input_file.hpp"
-#include "cases/case/rows.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/interact/recording.hpp"
 #include "compare/provenance/machine.hpp"

@@ -1,7 +1,7 @@
 #include "compare/gates/bless.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 

@@ -1,7 +1,7 @@
 #include "compare/interact/recording.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "compare/peers/displacement_file.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 

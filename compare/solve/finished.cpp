@@ -1,6 +1,6 @@
 #include "compare/solve/finished.hpp"
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -1,6 +1,6 @@
 #include "compare/solve/kept.hpp"
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/solve/fields.hpp"
 
 #include <algorithm>

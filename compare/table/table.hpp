@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/json.hpp"

@@ -1,9 +1,9 @@
 #include "compare/thesis/published.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/case/rows.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/quote.hpp"

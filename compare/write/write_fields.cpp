@@ -1,6 +1,6 @@
 #include "compare/write/write_fields.hpp"
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/in_time.hpp"

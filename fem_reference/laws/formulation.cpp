@@ -9,16 +9,6 @@ namespace springproof::fem_reference {
 
 namespace {
 
-const char* model_of(const cases::LinearElastic*) {
-  return "linear_elastic";
-}
-const char* model_of(const cases::Ogden*) {
-  return "ogden";
-}
-const char* model_of(const cases::TransverselyIsotropic*) {
-  return "transversely_isotropic";
-}
-
 /// Returns the formulation by the one of these laws that takes this material.
 template<class Law, class... Others>
 Formulation with_material(const cases::Fem& fem, const cases::Material& material,
@@ -28,7 +18,7 @@ Formulation with_material(const cases::Fem& fem, const cases::Material& material
     return {{Law::traits}, [law = Law(*own)](const ElementType& element) {
               return std::make_unique<LawKernel<Law>>(element, law);
             }};
-  models.emplace_back(model_of(static_cast<const Material*>(nullptr)));
+  models.emplace_back(Material::name);
   if constexpr (sizeof...(Others) > 0)
     return with_material<Others...>(fem, material, std::move(models));
   else

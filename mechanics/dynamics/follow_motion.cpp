@@ -1,7 +1,6 @@
 #include "mechanics/dynamics/follow_motion.hpp"
 
-#include "cases/case/error.hpp"
-#include "cases/case/turns_in_time.hpp"
+#include "cases/case/case.hpp"
 #include "cases/scene/in_time.hpp"
 #include "mechanics/dynamics/slowest_vibration.hpp"
 

@@ -1,7 +1,6 @@
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
-#include "cases/case/error.hpp"
-#include "cases/case/turns_in_time.hpp"
+#include "cases/case/case.hpp"
 #include "mechanics/equilibrium/newton.hpp"
 
 #include <algorithm>

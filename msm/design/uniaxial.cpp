@@ -1,7 +1,7 @@
 #include "msm/design/uniaxial.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 #include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
 

@@ -1,4 +1,4 @@
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 
 #include <catch2/catch.hpp>
 

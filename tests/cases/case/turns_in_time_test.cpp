@@ -1,5 +1,3 @@
-#include "cases/case/turns_in_time.hpp"
-
 #include "tests/support/case_text.hpp"
 
 #include <catch2/catch.hpp>
@@ -98,7 +96,7 @@ TEST_CASE("the step that is told is short enough, and one that has a step less i
 
 TEST_CASE("factors of a history between two times are those of its corners and crests too") {
   const auto between = [](const History& history, double begin, double end) {
-    const auto [least, most] = factors_between(history, begin, end);
+    const auto [least, most] = history.factors_between(begin, end);
     for (int i = 0; i <= 1000; ++i) { // no sample is outside
       const double factor = history.at(begin + (end - begin) * i / 1000);
       CHECK((least <= factor && factor <= most));
