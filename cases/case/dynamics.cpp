@@ -117,15 +117,13 @@ void check_turns_in_time(const Case& definition) {
     const Turn turn = largest_turn_of_steps(moved, dynamics.end, n_steps);
     if (is_small(turn)) continue;
     const auto enough = enough_steps(moved, dynamics.end, n_steps);
-    throw InputError(
-        moved.region.where,
-        fmt::format(
-            "turns by {:.4g} degrees in the step of dynamics.step = {:.10g} s that begins at {:.4g} s, must "
-            "turn by at most {} in each: {}; a longer turn ends where a shorter one the other way does",
-            turn.degrees, dynamics.end / static_cast<double>(n_steps), turn.begin, largest_turn_of_step,
-            enough ? fmt::format("take steps of {:.10g} s or shorter",
-                                 dynamics.end / static_cast<double>(*enough))
-                   : "it needs a slower history"));
+    refuse(moved.region.where,
+           "turns by {:.4g} degrees in the step of dynamics.step = {:.10g} s that begins at {:.4g} s, must "
+           "turn by at most {} in each: {}; a longer turn ends where a shorter one the other way does",
+           turn.degrees, dynamics.end / static_cast<double>(n_steps), turn.begin, largest_turn_of_step,
+           enough ? fmt::format("take steps of {:.10g} s or shorter",
+                                dynamics.end / static_cast<double>(*enough))
+                  : "it needs a slower history");
   }
 }
 

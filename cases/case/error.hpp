@@ -2,6 +2,7 @@
 
 #include "cases/case/solution.hpp"
 
+#include <fmt/core.h>
 #include <stdexcept>
 #include <type_traits>
 
@@ -46,6 +47,12 @@ class InputError : public std::runtime_error {
  private:
   Where where_;
 };
+
+/// @throws InputError at a place, with a problem in fmt's format
+template<class... Values>
+[[noreturn]] void refuse(const Where& where, fmt::format_string<Values...> problem, Values&&... values) {
+  throw InputError(where, fmt::format(problem, std::forward<Values>(values)...));
+}
 
 /// A file that a case names.
 struct NamedFile {

@@ -97,7 +97,7 @@ void read_keys(Table& table, Ogden& material) {
   const Entry alpha = table.entry("alpha");
   material.alpha = Numbers{"as many finite numbers as mu, none 0", 0, [](double a) { return a != 0; }}(alpha);
   if (material.alpha.size() != material.mu.size())
-    alpha.refuse(fmt::format("as many numbers as mu has, which is {}", material.mu.size()));
+    alpha.refuse("as many numbers as mu has, which is {}", material.mu.size());
   material.bulk_modulus = table.optional("bulk_modulus", modulus);
 }
 

@@ -31,7 +31,7 @@ void check_box_region(const Entry& entry, const std::vector<std::string>& words)
                    " of the box, two joined by a blank for an edge, three for a vertex, or \"near x y z\"");
     for (const std::string& other : words)
       if (&other != &word && other[0] == word[0])
-        entry.refuse(fmt::format("faces that meet: {} and {} do not", word, other));
+        entry.refuse("faces that meet: {} and {} do not", word, other);
   }
 }
 
@@ -85,11 +85,9 @@ void check_has_area(const Load& load, const Body& body) {
                                                      : std::holds_alternative<MeshFile>(body) ||
                                                            words_of(region.name).size() == 1);
   if (!has_area)
-    throw InputError(
-        load.region.where,
-        fmt::format(
-            "has no area, and a {} acts on an area; must be one face, such as \"z+\", or near with radius",
-            name_of(load.kind)));
+    refuse(load.region.where,
+           "has no area, and a {} acts on an area; must be one face, such as \"z+\", or near with radius",
+           name_of(load.kind));
 }
 
 Fixed read_fixed(Table& table, const Body& body) {
@@ -111,9 +109,8 @@ ScaledDisplacement read_scaled(Table& table) {
   scaled.where = table.where();
   scaled.point = table.required("point", read_point);
   scaled.normal = table.required("normal", read_direction);
-  scaled.length = table.required("length", Number{"a number above 0 (mm), the length of the zone that is "
-                                                  "scaled",
-                                                  is_positive});
+  scaled.length = table.required(
+      "length", Number{"a number above 0 (mm), the length of the zone that is scaled", is_positive});
   return scaled;
 }
 
@@ -128,11 +125,9 @@ void read_way(Table& table, Moved& moved, const std::optional<Dynamics>& dynamic
   const double nearer_at_full = -moved.displacement.dot(moved.scaled->normal),
                nearer = std::max(least * nearer_at_full, most * nearer_at_full);
   if (!(nearer < moved.scaled->length))
-    throw InputError(
-        moved.scaled->where,
-        fmt::format("length is {} mm, must be more than the {} mm by which the displacement shortens "
-                    "the zone{}",
-                    moved.scaled->length, nearer, dynamics ? " at some time of its history" : ""));
+    refuse(moved.scaled->where,
+           "length is {} mm, must be more than the {} mm by which the displacement shortens the zone{}",
+           moved.scaled->length, nearer, dynamics ? " at some time of its history" : "");
 }
 
 Moved read_moved(Table& table, const Case& definition) {
@@ -251,8 +246,7 @@ void read_boundary(Table& root, Case& result) {
   for (std::size_t i = 0; i < result.symmetry.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (const Region& plane = result.symmetry[i].region; plane.name == result.symmetry[j].region.name)
-        throw InputError(plane.where,
-                         fmt::format("is \"{}\", must be another plane than symmetry[{}]", plane.name, j));
+        refuse(plane.where, "is \"{}\", must be another plane than symmetry[{}]", plane.name, j);
   result.masses = root.sections("mass", with_body(read_mass));
   result.moved = root.sections("moved", [&](Table& table) { return read_moved(table, result); });
   result.loads = root.sections("load", [&](Table& table) { return read_load(table, result); });
@@ -273,9 +267,9 @@ void check_boundary(Table& root, const Case& result) {
   const auto moves = [](const Moved& moved) { return moved.angle != 0 || !moved.displacement.isZero(0); };
   const auto refuse_late = [&](const char* list) {
     Table first(root.entry(list).elements("tables").front(), "a table");
-    first.entry("history").refuse(fmt::format("other than 0 at some time from 0 to the end, {} s, here or in "
-                                              "another [[load]] or [[moved]]: nothing would move",
-                                              result.dynamics->end));
+    first.entry("history").refuse("other than 0 at some time from 0 to the end, {} s, here or in another "
+                                  "[[load]] or [[moved]]: nothing would move",
+                                  result.dynamics->end);
   };
   const auto& moved = result.moved;
   const auto& loads = result.loads;

@@ -27,9 +27,8 @@ std::string read_case_name(const Entry& entry) {
                         is_of_word(name.front()) && name.back() != ' ' && name.back() != '.' &&
                         std::none_of(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; });
   if (!is_clean)
-    entry.refuse(
-        "a name that begins with a letter, a digit or _, ends with neither a blank nor a point, has no "
-        "/, \\, quotes or line breaks, and 200 bytes at most: it names files of results");
+    entry.refuse("a name that begins with a letter, a digit or _, ends with neither a blank nor a point, has "
+                 "no /, \\, quotes or line breaks, and 200 bytes at most: it names files of results");
   for (const char* ending : {"_springs", "_modes"}) // NAME_springs.vtu
     if (ends_with(in_small_letters(name), ending))
       entry.refuse(
@@ -79,7 +78,7 @@ struct MeasureKeys {
     measure.up = table.optional("up", read_name<Axis>).value_or(Axis::z);
     check_differ(table, "top", measure.top, measure.bottom, "bottom");
     if (measure.toward == measure.up)
-      table.entry("toward").refuse(fmt::format("another axis than up, which is \"{}\"", name_of(measure.up)));
+      table.entry("toward").refuse("another axis than up, which is \"{}\"", name_of(measure.up));
   }
   void operator()(measures::Twist& measure) const {
     measure.node = node("node");
@@ -166,7 +165,7 @@ void read_measures(Table& root, Case& result) {
     Measure measure = read_measure(table, result);
     const auto same = std::find(seen.begin(), seen.end(), measure.name);
     if (same != seen.end())
-      table.entry("name").refuse(fmt::format("a new name: measure[{}] has this one", same - seen.begin()));
+      table.entry("name").refuse("a new name: measure[{}] has this one", same - seen.begin());
     if (moves_surface && measure.name == surface_measure)
       table.entry("name").refuse("another name: in motion the [surface] is a measure of this one");
     seen.push_back(measure.name);
@@ -220,15 +219,13 @@ void check_accuracy(Table& root, const Case& definition) {
   const auto& expectations = definition.expectations;
   if (definition.fem.has_auto_formulation &&
       std::none_of(expectations.begin(), expectations.end(), asks_of_fem))
-    root.entry("expect").refuse(
-        "one or more tables [[expect]] with error_percent or fem: formulation = \"auto\" in "
-        "[fem] is as accurate as they ask for");
+    root.entry("expect").refuse("one or more tables [[expect]] with error_percent or fem: formulation = "
+                                "\"auto\" in [fem] is as accurate as they ask for");
   if (definition.fem.has_auto_accuracy) return;
   for (const Expectation& expected : expectations)
     if (asks_of_fem(expected) && expected.reference == ReferenceKind::converged)
-      throw InputError(expected.where,
-                       "reference must not be \"converged\" beside fem.accuracy = \"none\", with which no "
-                       "limit is looked for");
+      throw InputError(expected.where, "reference must not be \"converged\" beside fem.accuracy = \"none\", "
+                                       "with which no limit is looked for");
 }
 
 void check_turns(const Case& definition) {
@@ -236,10 +233,10 @@ void check_turns(const Case& definition) {
   for (const Moved& moved : definition.moved)
     if (const double degrees = std::abs(moved.angle) * largest_factor(moved, definition.dynamics);
         !(degrees <= largest_turn_of_small_strain))
-      throw InputError(moved.region.where,
-                       fmt::format("is turned by {} degrees, must be at most {} beside fem.formulation = "
-                                   "\"small_strain\", which knows nothing of the way there",
-                                   degrees, largest_turn_of_small_strain));
+      refuse(moved.region.where,
+             "is turned by {} degrees, must be at most {} beside fem.formulation = \"small_strain\", which "
+             "knows nothing of the way there",
+             degrees, largest_turn_of_small_strain);
 }
 
 Case read_definition(Table& root, const std::string& path, Purpose purpose = Purpose::motion) {

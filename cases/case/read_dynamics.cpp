@@ -20,8 +20,7 @@ TimeScheme read_scheme(Table& table) {
   const auto is_order = [](double gamma) { return gamma >= 0.5 && gamma <= 1; };
   result.gamma = table.optional("gamma", Number{"a number from 0.5 to 1", is_order}).value_or(0.5);
   const std::string stable =
-      fmt::format("a number from gamma/2, which is {}, to 1: smaller ones are unstable "
-                  "with long steps",
+      fmt::format("a number from gamma/2, which is {}, to 1: smaller ones are unstable with long steps",
                   result.gamma / 2);
   const auto is_stable = [&](double beta) { return 2 * beta >= result.gamma && beta <= 1; };
   result.beta = table.optional("beta", Number{stable, is_stable})
@@ -48,7 +47,7 @@ Dynamics read_section(Table& table) {
   result.end = Number{"a number above 0 (s)", is_positive}(end);
   const double n_steps = result.end / result.step;
   if (!(n_steps >= 1 - 1e-6 && n_steps <= most_time_steps && are_whole(n_steps)))
-    end.refuse(fmt::format("a whole number of steps of {} s, 1 to {:.0f}", result.step, most_time_steps));
+    end.refuse("a whole number of steps of {} s, 1 to {:.0f}", result.step, most_time_steps);
   result.start = table.optional("start", read_name<MotionStart>).value_or(result.start);
   constexpr int most_written = 200; // bodies of a motion that does not say
   const int usual = (result.n_steps() + most_written - 1) / most_written;
@@ -76,8 +75,8 @@ std::vector<std::array<double, 2>> read_points(const Entry& entry) {
 }
 
 History read_shape(const Entry& entry) {
-  const std::string allowed = "a list of [time, factor], or { ramp = [from, to] }, { step = time } or "
-                              "{ sine = hertz }";
+  const std::string allowed =
+      "a list of [time, factor], or { ramp = [from, to] }, { step = time } or { sine = hertz }";
   if (entry.node && entry.node->is_array()) return {read_points(entry)};
   Table table(entry, allowed);
   const auto is_frequency = [](double hertz) { return hertz > 0 && hertz <= 1e9; };
@@ -95,24 +94,22 @@ History read_shape(const Entry& entry) {
 /// A support that is somewhere else all of a sudden would have an infinite acceleration.
 void check_motion(const Moved& moved, MotionStart start, std::size_t i) {
   const Where& where = moved.region.where;
-  const auto refuse = [&](const std::string& problem) {
-    throw InputError(where, fmt::format("moved[{}].history {}", i, problem));
-  };
   if (moved.history.points.empty() && moved.history.frequency == 0)
-    refuse("is missing, must say how the motion follows time beside [dynamics]");
-  if (moved.history.jumps()) refuse("jumps, must be continuous: a support has no infinite acceleration");
+    refuse(where, "moved[{}].history is missing, must say how the motion follows time beside [dynamics]", i);
+  if (moved.history.jumps())
+    refuse(where, "moved[{}].history jumps, must be continuous: a support has no infinite acceleration", i);
   if (start == MotionStart::rest && moved.history.at(0) != 0)
-    refuse(fmt::format("is {} at time 0, must be 0 beside dynamics.start = \"rest\"", moved.history.at(0)));
+    refuse(where, "moved[{}].history is {} at time 0, must be 0 beside dynamics.start = \"rest\"", i,
+           moved.history.at(0));
 }
 
 /// Steps that are longer than half a period see another sine than the case's.
 void check_sine(const History& history, const Dynamics& dynamics, const std::string& key, std::size_t i) {
   if (history.frequency * dynamics.step < 0.5) return;
-  throw InputError(
-      dynamics.where,
-      fmt::format("step is {:.10g} s, must be below half a period of {}[{}].history, a sine of {:.10g} "
-                  "Hz: {:.10g} s, and some twentieth of it to follow its course",
-                  dynamics.step, key, i, history.frequency, 0.5 / history.frequency));
+  refuse(dynamics.where,
+         "step is {:.10g} s, must be below half a period of {}[{}].history, a sine of {:.10g} Hz: {:.10g} s, "
+         "and some twentieth of it to follow its course",
+         dynamics.step, key, i, history.frequency, 0.5 / history.frequency);
 }
 
 void check_densities(Table& root, const Case& definition) {
@@ -121,10 +118,10 @@ void check_densities(Table& root, const Case& definition) {
   const bool has_density = definition.material_dynamics.density.has_value();
   if (!has_density && (definition.dynamics || has_gravity || !definition.masses.empty())) {
     Table material(root.entry("material"), "a table");
-    material.entry("density").refuse(fmt::format("a number from 0.001 to 1000000 (kg/m³) beside {}",
-                                                 definition.dynamics ? "[dynamics]"
-                                                 : has_gravity       ? "a load of kind \"gravity\""
-                                                                     : "[[mass]]"));
+    material.entry("density").refuse("a number from 0.001 to 1000000 (kg/m³) beside {}",
+                                     definition.dynamics ? "[dynamics]"
+                                     : has_gravity       ? "a load of kind \"gravity\""
+                                                         : "[[mass]]");
   }
   for (const RegionMaterial& region : definition.region_materials)
     if (region.dynamics.density.has_value() != has_density)
@@ -178,10 +175,9 @@ void check_dynamics(Table& root, const Case& definition) {
     throw InputError(definition.fem.where, "formulation must not be \"auto\" beside [dynamics]: whether the "
                                            "strains are small is known at the end alone");
   if (definition.msm.solver != Solver::newton)
-    throw InputError(definition.msm.where,
-                     fmt::format("solver is \"{}\", must be \"newton\" beside [dynamics]: "
-                                 "the others find equilibria alone",
-                                 name_of(definition.msm.solver)));
+    refuse(definition.msm.where,
+           "solver is \"{}\", must be \"newton\" beside [dynamics]: the others find equilibria alone",
+           name_of(definition.msm.solver));
 }
 
 } // namespace springproof::cases

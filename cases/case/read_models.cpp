@@ -217,11 +217,10 @@ void read_stiffness(Table& table, Msm& msm) {
   table.refuse_unless(!is_by_axis, {"stiffness"}, "left out beside axis_stiffness");
   const Entry entry = table.entry(is_by_axis ? "axis_stiffness" : "stiffness");
   const std::vector<double> k =
-      is_by_axis
-          ? Numbers{"seven numbers (N/m), none below 0: k_e along x, y, z, k_f in the faces across x, y, z, "
-                    "and k_d",
-                    7, is_not_negative}(entry)
-          : Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
+      is_by_axis ? Numbers{"seven numbers (N/m), none below 0: k_e along x, y, z, k_f in the faces across x, "
+                           "y, z, and k_d",
+                           7, is_not_negative}(entry)
+                 : Numbers{"three numbers k_e, k_f, k_d (N/m), none below 0", 3, is_not_negative}(entry);
   if (std::none_of(k.begin(), k.end(), is_positive)) entry.refuse("stiffnesses of which one is above 0");
   if (is_by_axis)
     std::copy(k.begin(), k.end(), msm.axis_stiffness.emplace().begin());
@@ -265,10 +264,9 @@ void read_relaxation(Table& table, Msm& msm) {
   const RelaxationCounts& counts = msm.relaxation.emplace(
       RelaxationCounts{load_steps.value_or(1), per_step.value_or(0), further.value_or(0)});
   if (counts.all() < 1 || counts.all() > most)
-    throw InputError(table.where(),
-                     fmt::format("relaxation_steps x relaxation_iterations + further_iterations is "
-                                 "{}, must be from 1 to {}",
-                                 counts.all(), most));
+    refuse(table.where(),
+           "relaxation_steps x relaxation_iterations + further_iterations is {}, must be from 1 to {}",
+           counts.all(), most);
 }
 
 Msm read_msm(Table& table, const Case& definition) {
@@ -312,9 +310,9 @@ Msm read_msm(Table& table, const Case& definition) {
 void check_region_materials(const Case& definition) {
   for (const RegionMaterial& region : definition.region_materials) {
     if (facts_of(definition.msm.design).source == DesignSource::file)
-      throw InputError(region.where, fmt::format("must be left out beside msm.design = \"{}\", which gives "
-                                                 "one set of springs for all cells",
-                                                 name_of(definition.msm.design)));
+      refuse(region.where,
+             "must be left out beside msm.design = \"{}\", which gives one set of springs for all cells",
+             name_of(definition.msm.design));
     const std::string element = element_needed(definition.fem.element, region.material),
                       design = design_needed(definition.msm, region.material);
     if (!element.empty()) throw InputError(region.where, "the element must be " + element);

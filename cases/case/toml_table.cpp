@@ -68,9 +68,8 @@ void check_lines(const std::string& text, const std::string& path) {
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number)
     if (std::count(line.begin(), line.end(), '.') > most_points)
-      throw InputError(Where{path, number, 1, ""},
-                       fmt::format("has more than {} points, must be divided: a list may have several lines",
-                                   most_points));
+      refuse(Where{path, number, 1, ""},
+             "has more than {} points, must be divided: a list may have several lines", most_points);
 }
 
 std::string trimmed(const std::string& text) {
@@ -124,7 +123,7 @@ void apply_override(toml::table& document, const std::string& setting) {
     const bool is_last = s + 1 == path.size();
     if (path[s].type() == toml::path_component_type::key) {
       toml::table* const table = node->as_table();
-      if (!table) throw InputError(where, fmt::format("{} is not a table", key));
+      if (!table) refuse(where, "{} is not a table", key);
       key = path[s].key();
       if (is_last)
         table->insert_or_assign(key, std::move(*parsed.get("value")));
@@ -133,8 +132,7 @@ void apply_override(toml::table& document, const std::string& setting) {
     } else {
       toml::array* const array = node->as_array();
       const std::size_t i = path[s].index(), size = array ? array->size() : 0;
-      if (i >= size)
-        throw InputError(where, fmt::format("there is no {}[{}], {} has {} elements", key, i, key, size));
+      if (i >= size) refuse(where, "there is no {}[{}], {} has {} elements", key, i, key, size);
       if (is_last)
         array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(i), std::move(*parsed.get("value")));
       else
@@ -146,7 +144,7 @@ void apply_override(toml::table& document, const std::string& setting) {
 } // namespace
 
 void Entry::refuse(const std::string& allowed) const {
-  throw InputError(where, fmt::format("is {}, must be {}", node ? shown(*node) : "missing", allowed));
+  cases::refuse(where, "is {}, must be {}", node ? shown(*node) : "missing", allowed);
 }
 
 std::string Entry::word(const std::vector<std::string>& allowed) const {
@@ -259,8 +257,8 @@ toml::table parse_document(const std::string& text, const std::string& path) {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw InputError(Where{path, static_cast<int>(at.line), static_cast<int>(at.column), ""},
-                     fmt::format("is not valid TOML: {}", error.description()));
+    refuse(Where{path, static_cast<int>(at.line), static_cast<int>(at.column), ""}, "is not valid TOML: {}",
+           error.description());
   }
 }
 
@@ -283,7 +281,7 @@ NamedFile read_file_name(const Entry& entry, const std::vector<std::string>& end
   NamedFile file = read_file_path(entry, endings, allowed, case_path);
   std::error_code unreadable; // a name that is too long, for one
   if (!std::filesystem::is_regular_file(file.path, unreadable))
-    entry.refuse(fmt::format("a file that exists: there is no {}", file.path));
+    entry.refuse("a file that exists: there is no {}", file.path);
   return file;
 }
 

@@ -29,6 +29,11 @@ struct Entry {
 
   /// Throws InputError "is VALUE, must be ALLOWED", or "is missing, must be ALLOWED".
   [[noreturn]] void refuse(const std::string& allowed) const;
+  /// The same for what is allowed in fmt's format.
+  template<class First, class... More>
+  [[noreturn]] void refuse(fmt::format_string<First, More...> allowed, First&& first, More&&... more) const {
+    refuse(fmt::format(allowed, std::forward<First>(first), std::forward<More>(more)...));
+  }
   /// The value, if it is of that type: std::string, bool, int64_t.
   template<class Type>
   std::optional<Type> value() const {

@@ -91,10 +91,10 @@ CutSide side_of(const Scene& scene, const Removed& removed, const Block& block, 
     const int node = static_cast<int>(n);
     if (const auto value = prescribed(scene, node, axis)) {
       if (!side.held.empty() && !(std::abs(*value - side.displacement) <= 1e-9 * grid.spacing.norm()))
-        throw InputError(removed.where,
-                         fmt::format("its {} side is not moved as a whole along {}, and is to be "
-                                     "joined: must be held or shifted by one displacement",
-                                     name, name_of(*removed.join)));
+        refuse(removed.where,
+               "its {} side is not moved as a whole along {}, and is to be joined: must be held or shifted "
+               "by one displacement",
+               name, name_of(*removed.join));
       side.displacement = *value;
       side.held.push_back(node);
     } else if (!has_cell_in_gap) {
@@ -102,10 +102,9 @@ CutSide side_of(const Scene& scene, const Removed& removed, const Block& block, 
     }
   }
   if (side.held.empty())
-    throw InputError(removed.where,
-                     fmt::format("no node of its {} side is fixed or moved along {}, which says "
-                                 "where the sides are to be joined",
-                                 name, name_of(*removed.join)));
+    refuse(removed.where,
+           "no node of its {} side is fixed or moved along {}, which says where the sides are to be joined",
+           name, name_of(*removed.join));
   return side;
 }
 
@@ -159,18 +158,17 @@ void join_cuts(Scene& scene) {
     const auto axis = static_cast<std::size_t>(*removed.join);
     const Block block = block_of(*scene.mesh.grid, removed);
     if (block.first[axis] == 0 || block.end[axis] == scene.mesh.grid->cells[axis])
-      throw InputError(removed.where, fmt::format("has nothing on one side along {}, and is to be joined",
-                                                  name_of(*removed.join)));
+      refuse(removed.where, "has nothing on one side along {}, and is to be joined", name_of(*removed.join));
     const CutSide lower = side_of(scene, removed, block, block.first[axis], "lower"),
                   upper = side_of(scene, removed, block, block.end[axis], "upper");
     const double gap =
                      (block.end[axis] - block.first[axis]) * scene.mesh.grid->spacing[static_cast<int>(axis)],
                  left_open = gap + upper.displacement - lower.displacement;
     if (!(std::abs(left_open) <= 1e-6 * gap))
-      throw InputError(removed.where,
-                       fmt::format("its sides end {:.6g} mm apart along {}, and are to be joined: "
-                                   "what holds and moves them must bring them together",
-                                   left_open, name_of(*removed.join)));
+      refuse(removed.where,
+             "its sides end {:.6g} mm apart along {}, and are to be joined: what holds and moves them must "
+             "bring them together",
+             left_open, name_of(*removed.join));
     if (lower.free.empty() && upper.free.empty())
       throw InputError(removed.where,
                        "has no free node to join: cells are left between all nodes of its sides");
@@ -198,14 +196,12 @@ void check_scaled(const Scene& scene) {
       is_whole = is_whole || factor == 1;
     }
     if (!is_scaled)
-      throw InputError(motion.scaled->where,
-                       "no node of the region lies within the zone that is scaled, which "
-                       "must be longer than a cell and cross the region");
+      throw InputError(motion.scaled->where, "no node of the region lies within the zone that is scaled, "
+                                             "which must be longer than a cell and cross the region");
     if (!is_whole)
       throw InputError(
           motion.scaled->where,
-          "no node of the region lies beyond the zone that is scaled: nothing would make the whole "
-          "motion");
+          "no node of the region lies beyond the zone that is scaled: nothing would make the whole motion");
   }
 }
 

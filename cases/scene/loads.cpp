@@ -201,14 +201,13 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
     const double found = area(scene.mesh, selection), wanted = area_within(scene, load.region);
     if (std::abs(found - wanted) <= most * wanted) continue;
     const std::string by = wanted > 0 ? fmt::format(" ({:+.0f} %)", 100 * (found / wanted - 1)) : "";
-    warnings.push_back(fmt::format(
-        "load[{}] acts on faces of {:.6g} mm2, and {} {:.6g} mm2{}: its force differs by as much; "
-        "kind = \"total_force\" says the force itself",
-        i, found,
-        scene.surface.triangles.empty()
-            ? fmt::format("a flat circle of radius {} mm has", *load.region.radius)
-            : "the [surface] has there",
-        wanted, by));
+    warnings.push_back(fmt::format("load[{}] acts on faces of {:.6g} mm2, and {} {:.6g} mm2{}: its force "
+                                   "differs by as much; kind = \"total_force\" says the force itself",
+                                   i, found,
+                                   scene.surface.triangles.empty()
+                                       ? fmt::format("a flat circle of radius {} mm has", *load.region.radius)
+                                       : "the [surface] has there",
+                                   wanted, by));
   }
   return warnings;
 }

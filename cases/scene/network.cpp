@@ -45,10 +45,9 @@ constexpr auto is_above_0 = [](double value) { return value > 0; };
 
 NetworkSpring spring_of(const Row& row, std::size_t n_nodes) {
   if (row.row.fields.size() < 3 || row.row.fields.size() > 5)
-    throw InputError(
-        fmt::format("{}{} fields; a spring has node a, node b, stiffness (N/m), and perhaps rest "
-                    "length (mm) and exponent",
-                    row.row.place(), row.row.fields.size()));
+    throw InputError(fmt::format("{}{} fields; a spring has node a, node b, stiffness (N/m), and perhaps "
+                                 "rest length (mm) and exponent",
+                                 row.row.place(), row.row.fields.size()));
   NetworkSpring spring{row.node(0, "node a", n_nodes), row.node(1, "node b", n_nodes),
                        1e-3 * row.number(2, "stiffness", "a number above 0 (N/m)", is_above_0)};
   if (spring.a == spring.b) row.refuse(1, "node b", "another node than node a");
@@ -96,10 +95,9 @@ std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
   if (first != pairs.end()) {
     const std::array<int, 2> twice = *first;
     const auto n = pairs.end() - std::unique(pairs.begin(), pairs.end());
-    doubts.push_back(
-        fmt::format("{} of {} springs join two nodes that another one joins already, nodes {} and {} for "
-                    "one: their forces add up",
-                    n, springs.size(), twice[0], twice[1]));
+    doubts.push_back(fmt::format("{} of {} springs join two nodes that another one joins already, nodes {} "
+                                 "and {} for one: their forces add up",
+                                 n, springs.size(), twice[0], twice[1]));
   }
   if (worst != nullptr)
     doubts.push_back(

@@ -101,9 +101,8 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
   const Vector3d found = mesh.nodes[nearest];
   const double distance = (found - point).norm();
   if (!(distance <= near_tolerance))
-    throw InputError(region.where,
-                     fmt::format("no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
-                                 near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", ")));
+    refuse(region.where, "no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
+           near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", "));
   return {{static_cast<int>(nearest)}, {}, {}};
 }
 
@@ -140,10 +139,10 @@ void check_is_one_group(const HexMesh& mesh, const Region& region) {
   const auto& of_cells = mesh.group_of_cell;
   if (contains(of_cells, region.name))
     meant.push_back(fmt::format("{{ class = \"{}\" }} for the nodes of the volume", region.name));
-  throw InputError(region.where,
-                   fmt::format("'{}' is the name of physical groups of several dimensions; must be {}, or "
-                               "groups of names of their own",
-                               region.name, fmt::join(meant, " or ")));
+  refuse(region.where,
+         "'{}' is the name of physical groups of several dimensions; must be {}, or "
+         "groups of names of their own",
+         region.name, fmt::join(meant, " or "));
 }
 
 } // namespace
@@ -192,8 +191,7 @@ Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>
       patch.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
     }
   }
-  if (patch.faces.empty())
-    throw InputError(region.where, fmt::format("'{}' has no face of the body's surface", region.name));
+  if (patch.faces.empty()) refuse(region.where, "'{}' has no face of the body's surface", region.name);
   make_set(patch.nodes);
   make_set(patch.edges);
   return patch;
@@ -228,19 +226,18 @@ Selection select(const HexMesh& mesh, const Region& region) {
     check_is_one_group(mesh, region);
     std::string known = mesh.groups.empty() ? "" : ", and the mesh's groups";
     for (const auto& entry : mesh.groups) known += " '" + entry.first + "'";
-    throw InputError(region.where, fmt::format("'{}' names no region; allowed are {} joined by blanks{}",
-                                               region.name, fmt::join(face_names, " "), known));
+    refuse(region.where, "'{}' names no region; allowed are {} joined by blanks{}", region.name,
+           fmt::join(face_names, " "), known);
   }
-  if (selection.nodes.empty())
-    throw InputError(region.where, fmt::format("'{}' selects no node", region.name));
+  if (selection.nodes.empty()) refuse(region.where, "'{}' selects no node", region.name);
   return selection;
 }
 
 int select_node(const HexMesh& mesh, const Region& region) {
   const Selection selection = select(mesh, region);
   if (selection.nodes.size() != 1)
-    throw InputError(region.where, fmt::format("'{}' selects {} nodes, and exactly one is wanted",
-                                               region.name, selection.nodes.size()));
+    refuse(region.where, "'{}' selects {} nodes, and exactly one is wanted", region.name,
+           selection.nodes.size());
   return selection.nodes.front();
 }
 

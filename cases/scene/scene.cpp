@@ -128,16 +128,13 @@ void check_sizes(const Scene& scene) {
     }
   const bool has_unknowns = contains(is_held, false);
   if (force > 0 && free_force == 0 && scene.moved.empty() && has_unknowns)
-    throw InputError(
-        scene.definition.loads.front().region.where,
-        "every node that is loaded is held in the direction of its force: nothing would move; load "
-        "nodes that are free, or leave the direction out of the support's components");
+    throw InputError(scene.definition.loads.front().region.where,
+                     "every node that is loaded is held in the direction of its force: nothing would move; "
+                     "load nodes that are free, or leave the direction out of the support's components");
   if (force > 0 && force < least_force)
-    throw InputError(
-        scene.definition.loads.front().region.where,
-        fmt::format("the largest force on a node is {:.3g} N, must be 0 or at least {:.0e} N, to be "
-                    "told from none",
-                    force, least_force));
+    refuse(scene.definition.loads.front().region.where,
+           "the largest force on a node is {:.3g} N, must be 0 or at least {:.0e} N, to be told from none",
+           force, least_force);
   for (const auto& [selection, motion] : scene.moved) {
     double way = motion.displacement.cwiseAbs().maxCoeff();
     for (const int node : selection.nodes) {
@@ -145,10 +142,8 @@ void check_sizes(const Scene& scene) {
       if (motion.angle != 0) way = std::max(way, arm * std::min(1., radians(std::abs(motion.angle))));
     }
     if (way > 0 && way < least_motion)
-      throw InputError(
-          motion.region.where,
-          fmt::format("moves by {:.3g} mm, must be 0 or at least {:.0e} mm, to be told from rest", way,
-                      least_motion));
+      refuse(motion.region.where, "moves by {:.3g} mm, must be 0 or at least {:.0e} mm, to be told from rest",
+             way, least_motion);
   }
 }
 
@@ -160,8 +155,8 @@ void resolve_loads(Scene& scene) {
     }
     Selection selection = select(scene.mesh, load.region);
     if (load.on() == loads::On::area && selection.faces.empty())
-      throw InputError(load.region.where, fmt::format("'{}' has no faces, and a {} acts on faces",
-                                                      load.region.name, name_of(load.kind)));
+      refuse(load.region.where, "'{}' has no faces, and a {} acts on faces", load.region.name,
+             name_of(load.kind));
     scene.loads.push_back({std::move(selection), load});
     if (is<loads::Torque>(load) &&
         !(polar_moment(scene.mesh, scene.loads.back().selection, std::get<loads::Torque>(load.kind)) > 0))
@@ -194,25 +189,21 @@ bool has_support(const Scene& scene, const Region& region, Component component) 
 /// A reaction is measured where something is supported.
 void check_reaction(const Scene& scene, const measures::Reaction& reaction) {
   if (has_support(scene, reaction.region, reaction.component)) return;
-  throw InputError(reaction.region.where,
-                   fmt::format("selects no node that is fixed or moved{}; must be a region of "
-                               "[[fixed]], [[symmetry]] or [[moved]], whose force is measured",
-                               reaction.component == Component::norm
-                                   ? ""
-                                   : " in component " + name_of(reaction.component)));
+  refuse(reaction.region.where,
+         "selects no node that is fixed or moved{}; must be a region of [[fixed]], [[symmetry]] or "
+         "[[moved]], whose force is measured",
+         reaction.component == Component::norm ? "" : " in component " + name_of(reaction.component));
 }
 
 /// Stress and strain are measured inside the body.
 void check_cells(const Scene& scene, const measures::OfCells& measure) {
   if (measure.statistic && measure.has_region() && select(scene.mesh, measure.region).faces.empty())
-    throw InputError(measure.region.where,
-                     fmt::format("'{}' has no faces, and a statistic is of the cells that "
-                                 "have a face in the region",
-                                 measure.region.name));
+    refuse(measure.region.where,
+           "'{}' has no faces, and a statistic is of the cells that have a face in the region",
+           measure.region.name);
   if (!measure.statistic && cells_at(scene.mesh, measure.point).empty())
-    throw InputError(measure.point_where,
-                     fmt::format("is [{}, {}, {}], must be a point of the body at rest (mm)",
-                                 measure.point.x(), measure.point.y(), measure.point.z()));
+    refuse(measure.point_where, "is [{}, {}, {}], must be a point of the body at rest (mm)",
+           measure.point.x(), measure.point.y(), measure.point.z());
 }
 
 void check_measure(const Scene& scene, const Measure& measure) {
@@ -281,9 +272,8 @@ void resolve_network(Scene& scene) {
   scene.network = read_network(read_text_file(file->path), file->path, scene.mesh.nodes.size());
   for (const NetworkSpring& spring : scene.network)
     if (!spring.rest_length && scene.mesh.nodes[index(spring.a)] == scene.mesh.nodes[index(spring.b)])
-      throw InputError(file->where, fmt::format("the spring between nodes {} and {}, which lie in one place, "
-                                                "needs a rest length",
-                                                spring.a, spring.b));
+      refuse(file->where, "the spring between nodes {} and {}, which lie in one place, needs a rest length",
+             spring.a, spring.b);
 }
 
 } // namespace
@@ -326,8 +316,8 @@ Scene refine(const Scene& scene, int n) {
   if (n == 0) return scene;
   if (const auto joined = first_joined(scene.definition))
     throw InputError(joined->where,
-                     "is joined, and the finite elements are asked for on a finer mesh, where the "
-                     "cut would end elsewhere; leave fem.refine, sweeps and further meshes out");
+                     "is joined, and the finite elements are asked for on a finer mesh, where the cut would "
+                     "end elsewhere; leave fem.refine, sweeps and further meshes out");
   Scene fine;
   fine.definition = scene.definition;
   fine.mesh = refine(scene.mesh);
