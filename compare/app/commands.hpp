@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/answers.hpp"
+#include "compare/solve/solve_jobs.hpp"
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -77,6 +77,25 @@ CLI::Option* add_replay_option(CLI::App& command, std::string& recording);
 /// @param recording  a file of `interact`; empty: the questions stay as they are
 /// @throws cases::InputError where there are several questions, or the file is no recording of the case
 std::vector<Question> with_recording(std::vector<Question> questions, const std::string& recording);
+
+/// What a command that can be divided knows of it.
+struct ShardOptions {
+  std::string part;                 ///< argument of `--shard`; empty: the whole
+  std::vector<std::string> folders; ///< shards that `merge` takes results from
+  std::vector<std::string> command; ///< its name and the arguments that all shards have in common
+};
+
+/// Adds `--shard I/N`, which needs --out, and the hidden option that `merge` uses.
+/// @param not_divided  options of the whole command's output, which a shard has not
+/// @return the hidden option
+CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
+                               const std::vector<CLI::Option*>& not_divided);
+
+/// Solves the part of the questions that is a shard's, keeps what was found and the shard's record in the
+/// folder, and prints one line. Collective over MPI_COMM_WORLD.
+/// @return the exit status: 0, whatever was found: `merge` judges
+int solve_shard(const ShardOptions& options, const std::vector<Question>& all, FileNames names,
+                const std::string& out, const SolveOptions& solve_options);
 
 /// Checks that an option's value is a number between two others; CLI::Range lets nan pass.
 CLI::Validator number_between(double lowest, double highest);

@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/peers/external_side.hpp"
