@@ -28,7 +28,8 @@ int run_action(const compare::Action& action, BlasWarning warning) {
   std::string message = lost_output;
   int status = wrong_input;
   try {
-    compare::start_ranks();
+    // A process alone starts MPI with the first solver that needs it, which most commands do without.
+    if (compare::is_under_mpi_launcher()) compare::solvers();
     const bool is_openblas = compare::use_one_blas_thread();
     if (compare::mpi_rank() == 0 && warning == BlasWarning::give && !is_openblas)
       std::cerr

@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/solve/solvers.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -75,10 +74,6 @@ void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);
   std::signal(SIGXFSZ, SIG_IGN); // writing beyond a limit (ulimit -f) fails with a reason
-}
-
-void start_ranks() {
-  if (is_under_mpi_launcher()) solvers();
 }
 
 void give_up(const std::string& message, int status) {

@@ -10,10 +10,6 @@ namespace springproof::compare {
 /// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
 void reserve_standard_streams();
 
-/// Starts MPI under an MPI launcher. A process alone starts it with the first solver that needs it
-/// (compare/solve/solvers.hpp), which most commands do without.
-void start_ranks();
-
 /// Ends a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
