@@ -45,10 +45,10 @@ nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const S
   return {
       {"steps", summary.n_steps},
       {"pulled_steps", summary.n_pulled},
-      {"failed_steps", summary.n_failures},
-      {"failure", summary.failure},
-      {"unfinished_steps", summary.n_unfinished},
-      {"largest_residual", summary.largest_residual},
+      {"failed_steps", summary.troubles.n_failures},
+      {"failure", summary.troubles.failure},
+      {"unfinished_steps", summary.troubles.n_unfinished},
+      {"largest_residual", summary.troubles.largest_residual},
       {"step_ms", {{"median", summary.median_ms}, {"p99", summary.p99_ms}, {"largest", summary.largest_ms}}},
       {"frames",
        {{"made", summary.n_frames},
@@ -68,13 +68,13 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
         counts.n_frames_sent, counts.n_frames_dropped, counts.n_refused, counts.n_cut_off);
   if (summary.n_inverted_frames > 0)
     print(std::cout, "{} frames had cells inside out\n", summary.n_inverted_frames);
-  if (summary.n_unfinished > 0)
+  if (summary.troubles.n_unfinished > 0)
     print(std::cout,
           "{} steps ended in real time with more than 1 % of the loads unbalanced, {:.2g} % at most\n",
-          summary.n_unfinished, 100 * summary.largest_residual);
-  if (summary.n_failures > 0)
+          summary.troubles.n_unfinished, 100 * summary.troubles.largest_residual);
+  if (summary.troubles.n_failures > 0)
     print(std::cout, "{} steps could not be solved, and began anew from rest; the last: {}\n",
-          summary.n_failures, summary.failure);
+          summary.troubles.n_failures, summary.troubles.failure);
 }
 
 /// Where a recording goes: to none that is there already.

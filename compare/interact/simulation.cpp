@@ -1,12 +1,14 @@
 #include "compare/interact/simulation.hpp"
 
-#include "compare/interact/drawn_surface.hpp"
+#include "cases/mesh/read_vtk.hpp"
 #include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace springproof::compare {
 
@@ -42,6 +44,75 @@ std::optional<Vector3d> vector_from(const nlohmann::json& message, const char* k
     if (!(std::abs(vector[axis]) <= largest)) return std::nullopt;
   }
   return vector;
+}
+
+/// Adds a number for the page, little endian: its machine and the server's are one.
+template<class To, class From>
+void append(std::string& bytes, From value) {
+  const To number = static_cast<To>(value);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+void append(std::string& bytes, const Eigen::Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
+}
+
+constexpr std::size_t coarse_triangles = 5000;
+
+/// What the page draws of a body.
+struct DrawnSurface {
+  /// A surface, and, where it has more than coarse_triangles, the same in about so many, for pages whose
+  /// pictures a processor draws. Each is 4 counts as uint32 (vertices, triangles, nodes that carry both
+  /// surfaces, spheres), then as float32 the vertices at rest (3 each) and their weights (8 each), as uint32
+  /// their nodes' places in `nodes` (8 each), the triangles (3 each) and the spheres' vertices; the coarse
+  /// one has no spheres. Little endian.
+  std::string bytes;
+  std::vector<int> nodes; ///< the body's nodes that carry vertices
+};
+
+/// The surface in fewer triangles; none if it is small or cannot be had in fewer: the page draws all of it.
+std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh& fine,
+                                                       const cases::HexMesh& mesh) {
+  if (fine.triangles.size() <= coarse_triangles) return {};
+  try {
+    return {mechanics::embed(cases::decimated(fine, coarse_triangles), mesh)};
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+/// @param spheres  vertices of the surface, their centres    @param mesh  that the surface is bound to
+DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std::vector<int>& spheres,
+                           const cases::HexMesh& mesh) {
+  DrawnSurface drawn;
+  std::vector<mechanics::EmbeddedSurface> surfaces = coarse_surface(surface.rest, mesh);
+  surfaces.insert(surfaces.begin(), surface);
+  std::vector<int> place(mesh.nodes.size(), -1);
+  for (const auto& each : surfaces)
+    for (const auto& vertex : each.vertices)
+      for (const int node : vertex.nodes)
+        if (int& here = place[cases::index(node)]; here < 0) {
+          here = static_cast<int>(drawn.nodes.size());
+          drawn.nodes.push_back(node);
+        }
+  for (const auto& each : surfaces) {
+    const bool has_spheres = &each == &surfaces.front();
+    for (const std::size_t count : {each.vertices.size(), each.rest.triangles.size(), drawn.nodes.size(),
+                                    has_spheres ? spheres.size() : 0})
+      append<std::uint32_t>(drawn.bytes, count);
+    for (const Eigen::Vector3d& vertex : each.rest.vertices) append(drawn.bytes, vertex);
+    for (const auto& vertex : each.vertices)
+      for (const double weight : vertex.weights) append<float>(drawn.bytes, weight);
+    for (const auto& vertex : each.vertices)
+      for (const int node : vertex.nodes) append<std::uint32_t>(drawn.bytes, place[cases::index(node)]);
+    for (const auto& triangle : each.rest.triangles)
+      for (const int vertex : triangle) append<std::uint32_t>(drawn.bytes, vertex);
+    if (!has_spheres) continue;
+    for (const int vertex : spheres) append<std::uint32_t>(drawn.bytes, vertex);
+  }
+  return drawn;
 }
 
 } // namespace
@@ -216,7 +287,7 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   static_cast<double>(n_inverted),
                                                   static_cast<double>(body_.held().value_or(-1)),
                                                   body_.force().norm(),
-                                                  static_cast<double>(body_.n_failures()),
+                                                  static_cast<double>(body_.troubles().n_failures),
                                                   static_cast<double>(n_drags_taken_),
                                                   body_.residual(),
                                                   static_cast<double>(carrying_.size())};
@@ -243,10 +314,7 @@ SimulationSummary Simulation::summary() const {
   SimulationSummary summary = summary_;
   summary.median_ms = value_below(step_ms_, 0.5);
   summary.p99_ms = value_below(step_ms_, 0.99);
-  summary.n_failures = body_.n_failures();
-  summary.failure = body_.failure();
-  summary.n_unfinished = body_.n_unfinished();
-  summary.largest_residual = body_.largest_residual();
+  summary.troubles = body_.troubles();
   return summary;
 }
 

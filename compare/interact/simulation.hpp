@@ -42,11 +42,8 @@ struct RecordedPull {
 
 struct SimulationSummary {
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
-  int n_failures = 0;                           ///< steps that could not be solved, each a restart
-  std::string failure;                          ///< message of the last one
-  long n_inverted_frames = 0;                   ///< frames that showed inverted cells
-  long n_unfinished = 0;                        ///< see PulledBody::n_unfinished()
-  double largest_residual = 0;
+  StepTroubles troubles;
+  long n_inverted_frames = 0;                       ///< frames that showed inverted cells
   double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< wall clock of the last 100,000 steps
 };
 
@@ -67,7 +64,7 @@ class Simulation {
 
   /// {"name", "description", "masses", "cells", "unknowns", "step_s", "triangles", "spheres", "radius"}
   const std::string& description() const { return description_; }
-  /// What the page draws: see DrawnSurface, whose nodes are in the order of a frame.
+  /// What the page draws: see DrawnSurface in simulation.cpp, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
 
   /// What has been, after stop(). A recording is of the motion since its last start.
