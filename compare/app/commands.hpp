@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/answers.hpp"
+#include "compare/solve/solve_jobs.hpp"
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -28,26 +28,35 @@ void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
 void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see solve/solve_jobs.hpp
 
+// The process of a command, and its job's other ranks.
+
+/// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
+void reserve_standard_streams();
+
+/// Ends a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
+/// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
+void give_up(const std::string& message, int status);
+
+/// Colours verdicts at the beginnings of lines of std::cout: met green, missed and failed red, warnings
+/// yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
+/// @return ends it when it is gone
+std::shared_ptr<void> coloured_output();
+
 /// The program's commands without those that --help leaves out.
 inline std::vector<const CLI::App*> commands_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-/// A command and the options that its command line sets.
-template<class Options>
-struct Command {
-  CLI::App* app;
-  std::shared_ptr<Options> options;
-};
-
 /// Adds a command that is run with its options when it is the one chosen.
+/// @return the command, and the options that its command line sets
 template<class Options>
-Command<Options> add_command(CLI::App& program, Action& chosen, const std::string& name,
-                             const std::string& description, int (*run)(const Options&)) {
-  const Command<Options> command{program.add_subcommand(name, description), std::make_shared<Options>()};
-  command.app->callback(
-      [options = command.options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
-  return command;
+std::pair<CLI::App*, std::shared_ptr<Options>>
+add_command(CLI::App& program, Action& chosen, const std::string& name, const std::string& description,
+            int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = program.add_subcommand(name, description);
+  command->callback([options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
+  return {command, options};
 }
 
 /// Files of the cases in a folder of the program's cases, by their names.
@@ -77,6 +86,60 @@ CLI::Option* add_replay_option(CLI::App& command, std::string& recording);
 /// @param recording  a file of `interact`; empty: the questions stay as they are
 /// @throws cases::InputError where there are several questions, or the file is no recording of the case
 std::vector<Question> with_recording(std::vector<Question> questions, const std::string& recording);
+
+/// What a command that can be divided knows of it.
+struct ShardOptions {
+  std::string part;                 ///< argument of `--shard`; empty: the whole
+  std::vector<std::string> folders; ///< shards that `merge` takes results from
+  std::vector<std::string> command; ///< its name and the arguments that all shards have in common
+};
+
+/// Adds `--shard I/N`, which needs --out, and the hidden option that `merge` uses.
+/// @param not_divided  options of the whole command's output, which a shard has not
+/// @return the hidden option
+CLI::Option* add_shard_options(CLI::App& command, ShardOptions& options, CLI::Option* out,
+                               const std::vector<CLI::Option*>& not_divided);
+
+/// Solves the part of the questions that is a shard's, keeps what was found and the shard's record in the
+/// folder, and prints one line. Collective over MPI_COMM_WORLD.
+/// @return the exit status: 0, whatever was found: `merge` judges
+int solve_shard(const ShardOptions& options, const std::vector<Question>& all, FileNames names,
+                const std::string& out, const SolveOptions& solve_options);
+
+/// How the command line names a material, a cell and a method.
+struct DesignOptions {
+  std::string case_file;
+  std::vector<std::string> settings; ///< keys of the case
+  double youngs_modulus = 0,
+         poissons_ratio = -2; ///< as if left out: both are required without another material
+  double edge = 1;
+  double split = -1; ///< left out
+  std::string method;
+  std::string element = "q1";
+  std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;
+  double neo_hookean = 0;
+  std::string curve_file;
+  std::string curve_strain, curve_stress, curve_unit; ///< names of its columns' msm::CurveStrain and so on
+  std::optional<double> largest_strain;
+  std::vector<std::string> paths;   ///< paths of the multi-load method; empty: all
+  std::vector<double> strain_range; ///< two, or left out
+  std::string law;                  ///< law of the multi-load method; empty: the case's or Hooke's
+  bool springs_only = false;        ///< the multi-load method without its volume term
+};
+
+void add_design_options(CLI::App& command, DesignOptions& options);
+
+/// Names of designs, or "all", as --designs.
+CLI::Option* add_designs_option(CLI::App& command, std::vector<std::string>& names, const std::string& text);
+
+/// How many materials the options name, apart from a case file's.
+int n_materials(const DesignOptions& options);
+
+/// The designs that are asked for; "all": every one that is made from a material, and the case's own.
+std::vector<cases::Design> designs_of(const std::vector<std::string>& names, const cases::Case& definition);
+
+/// @throws InputError for a material that is missing, given twice or has no meaning
+msm::DesignRequest request_from(const DesignOptions& options);
 
 /// Checks that an option's value is a number between two others; CLI::Range lets nan pass.
 CLI::Validator number_between(double lowest, double highest);

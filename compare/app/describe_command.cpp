@@ -1,9 +1,9 @@
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/write/quote.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
-#include <memory>
 #include <regex>
 
 // The man page and the completion for bash, from the options that --help is made of. The build writes both.
@@ -51,10 +51,8 @@ std::string placeholder(const CLI::Option& option) {
 
 /// Text in roff, none of whose characters is a command's.
 std::string in_roff(const std::string& text) {
-  std::string escaped;
-  for (const char c : text)
-    escaped += c == '\\' ? "\\e" : c == '-' ? "\\-" : c == '\'' ? "\\(aq" : std::string(1, c);
-  return escaped.rfind('.', 0) == 0 ? "\\&" + escaped : escaped;
+  return (text.rfind('.', 0) == 0 ? "\\&" : "") +
+         escaped(text, {{'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}});
 }
 
 void write_options(std::ostream& out, const CLI::App& command) {
@@ -129,22 +127,24 @@ void write_completion(std::ostream& out, const CLI::App& program) {
          "complete -o default -F _springproof springproof\n";
 }
 
+struct DescribeOptions {
+  const CLI::App* program = nullptr;
+  std::string form;
+};
+
+int describe(const DescribeOptions& options) {
+  (options.form == "man" ? write_man_page : write_completion)(std::cout, *options.program);
+  return 0;
+}
+
 } // namespace
 
 void add_describe_command(CLI::App& program, Action& chosen) {
-  auto form = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("describe", "the man page, or the completion for bash");
+  const auto [command, options] =
+      add_command(program, chosen, "describe", "the man page, or the completion for bash", describe);
   command->group(""); // for the build
-  command->add_option("form", *form)->required()->check(CLI::IsMember({"man", "bash"}));
-  command->callback([form, &program, &chosen] {
-    chosen = [form, &program] {
-      if (*form == "man")
-        write_man_page(std::cout, program);
-      else
-        write_completion(std::cout, program);
-      return 0;
-    };
-  });
+  command->add_option("form", options->form)->required()->check(CLI::IsMember({"man", "bash"}));
+  options->program = &program;
 }
 
 } // namespace springproof::compare

@@ -5,7 +5,6 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
-#include "compare/solve/solve_jobs.hpp"
 #include "compare/solve/springs.hpp"
 
 #include <iostream>

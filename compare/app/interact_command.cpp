@@ -34,8 +34,6 @@ struct InteractOptions {
 std::string page_of(const cases::Case& definition) {
   const std::string report = cases::data_folder("report");
   return filled_page("interact", {{"title", escape(definition.name)},
-                                  {"three", page_script("three.min.js")},
-                                  {"controls", page_script("OrbitControls.js")},
                                   {"three_licence", escape(read_file(report + "/three_licence.txt"))},
                                   {"nonce", "{{nonce}}"}, // the server's
                                   {"socket", "{{socket}}"}});
@@ -45,10 +43,10 @@ nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const S
   return {
       {"steps", summary.n_steps},
       {"pulled_steps", summary.n_pulled},
-      {"failed_steps", summary.n_failures},
-      {"failure", summary.failure},
-      {"unfinished_steps", summary.n_unfinished},
-      {"largest_residual", summary.largest_residual},
+      {"failed_steps", summary.troubles.n_failures},
+      {"failure", summary.troubles.failure},
+      {"unfinished_steps", summary.troubles.n_unfinished},
+      {"largest_residual", summary.troubles.largest_residual},
       {"step_ms", {{"median", summary.median_ms}, {"p99", summary.p99_ms}, {"largest", summary.largest_ms}}},
       {"frames",
        {{"made", summary.n_frames},
@@ -68,28 +66,23 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
         counts.n_frames_sent, counts.n_frames_dropped, counts.n_refused, counts.n_cut_off);
   if (summary.n_inverted_frames > 0)
     print(std::cout, "{} frames had cells inside out\n", summary.n_inverted_frames);
-  if (summary.n_unfinished > 0)
+  if (summary.troubles.n_unfinished > 0)
     print(std::cout,
           "{} steps ended in real time with more than 1 % of the loads unbalanced, {:.2g} % at most\n",
-          summary.n_unfinished, 100 * summary.largest_residual);
-  if (summary.n_failures > 0)
+          summary.troubles.n_unfinished, 100 * summary.troubles.largest_residual);
+  if (summary.troubles.n_failures > 0)
     print(std::cout, "{} steps could not be solved, and began anew from rest; the last: {}\n",
-          summary.n_failures, summary.failure);
+          summary.troubles.n_failures, summary.troubles.failure);
 }
 
-/// Where a recording goes: to none that is there already.
-std::string free_path(const std::string& folder, const std::string& name) {
-  const std::string stem = folder + "/" + name + "_pulls";
-  std::string path = stem + ".csv";
-  for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
-  return path;
-}
-
+/// Writes the recording to a file that is not there already.
 /// @return where it was written; empty: there is nothing to keep
 std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
                            const Simulation& simulation) {
   if (options.out.empty() || !simulation.has_recording()) return "";
-  const std::string path = free_path(options.out, definition.name);
+  const std::string stem = options.out + "/" + definition.name + "_pulls";
+  std::string path = stem + ".csv";
+  for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
   write_file(path, [&](std::ostream& out) { simulation.write_recording(out); });
   return path;
 }

@@ -6,7 +6,6 @@
 #include "msm/spring_body.hpp"
 
 #include <functional>
-#include <iostream>
 #include <map>
 
 using namespace springproof;
@@ -77,14 +76,5 @@ const std::map<std::string, std::function<void(int cells)>> kernels{
 } // namespace
 
 int main(int argc, char** argv) {
-  for (int n = 2; n < argc; ++n) {
-    const auto kernel = kernels.find(argv[n]);
-    if (kernel == kernels.end()) {
-      std::cerr << argv[n] << ": no such kernel; there are";
-      for (const auto& entry : kernels) std::cerr << ' ' << entry.first;
-      std::cerr << '\n';
-      return 2;
-    }
-    kernel->second(std::stoi(argv[1]));
-  }
+  for (int n = 2; n < argc; ++n) kernels.at(argv[n])(std::stoi(argv[1]));
 }

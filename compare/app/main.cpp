@@ -1,7 +1,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/session.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/process_pool.hpp"
@@ -28,14 +27,15 @@ int run_action(const compare::Action& action, BlasWarning warning) {
   std::string message = lost_output;
   int status = wrong_input;
   try {
-    compare::start_ranks();
+    // A process alone starts MPI with the first solver that needs it, which most commands do without.
+    if (compare::is_under_mpi_launcher()) compare::solvers();
     const bool is_openblas = compare::use_one_blas_thread();
     if (compare::mpi_rank() == 0 && warning == BlasWarning::give && !is_openblas)
       std::cerr
           << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
              "(install libopenblas0-pthread)\n";
     compare::check_petsc_options();
-    const compare::Colours colours;
+    const auto colours = compare::coloured_output();
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;

@@ -1,6 +1,5 @@
 #include "cases/case/error.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -37,7 +36,7 @@ void check_arguments(const std::vector<std::string>& command) {
 /// The shards' command with their results in place of solving, and with outputs of its own.
 int merge(const MergeOptions& options) {
   if (mpi_rank() != 0) return 0;
-  std::vector<std::string> words = read_shards(options.folders).records.front().command;
+  std::vector<std::string> words = read_shards(options.folders).record.command;
   check_arguments(words);
   for (const std::string& folder : options.folders) words.push_back("--merged=" + folder);
   if (!options.out.empty()) words.push_back("--out=" + options.out);

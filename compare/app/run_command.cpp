@@ -2,7 +2,6 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "compare/app/design_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
@@ -12,7 +11,6 @@
 #include "compare/report/pages.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/solve/solve_jobs.hpp"
 #include "compare/study/verdict.hpp"
 #include "compare/study/write_ranking.hpp"
 #include "compare/table/table.hpp"
@@ -23,7 +21,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 
 namespace springproof::compare {
 
@@ -45,18 +42,16 @@ struct RunOptions {
   bool json = false;
 };
 
-/// The words of `run` for the same case, without the settings that begin with one of these texts.
-std::vector<std::string> words_of(const RunOptions& run, const cases::Case& definition,
-                                  const std::vector<std::string>& left_out = {}) {
+/// A command line of `run` for the same case with these words after it, without the settings that begin with
+/// one of these texts.
+std::string line_of(const RunOptions& run, const cases::Case& definition,
+                    const std::vector<std::string>& more = {},
+                    const std::vector<std::string>& left_out = {}) {
   std::vector<std::string> words{run.program->get_name(), "run", definition.file};
   for (const std::string& setting : run.settings)
     if (std::none_of(left_out.begin(), left_out.end(),
                      [&](const std::string& beginning) { return setting.rfind(beginning, 0) == 0; }))
       words.insert(words.end(), {"--set", setting});
-  return words;
-}
-
-std::string line_of(std::vector<std::string> words, const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return shell_line(words);
 }
@@ -81,10 +76,11 @@ std::optional<std::array<int, 3>> finer_cells(const Comparison& comparison) {
 std::optional<NextCommand> about_mesh(const RunOptions& run, const Comparison& comparison) {
   const cases::Case& definition = comparison.scene.definition;
   if (!comparison.mesh_study && run.meshes == 0)
-    return NextCommand{line_of(words_of(run, definition), {"--converge"}), "this mesh's own error"};
+    return NextCommand{line_of(run, definition, {"--converge"}), "this mesh's own error"};
   if (const auto cells = finer_cells(comparison))
-    return NextCommand{line_of(words_of(run, definition, {"body.cells="}),
-                               {"--set", fmt::format("body.cells=[{}]", fmt::join(*cells, ","))}),
+    return NextCommand{line_of(run, definition,
+                               {"--set", fmt::format("body.cells=[{}]", fmt::join(*cells, ","))},
+                               {"body.cells="}),
                        "a finer mesh"};
   return std::nullopt;
 }
@@ -102,10 +98,8 @@ std::string msm_setting(const std::string& design, const cases::Msm& own) {
 /// This process's command as it was typed, quoted for a shell; empty where the system does not tell.
 std::string typed_command() {
   std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(in), {}}; // words that each end with a zero
   std::vector<std::string> words;
-  for (std::size_t begin = 0, end = 0; (end = all.find('\0', begin)) != std::string::npos; begin = end + 1)
-    words.push_back(all.substr(begin, end - begin));
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
   return shell_line(words);
 }
 
@@ -114,18 +108,17 @@ std::vector<NextCommand> next_commands(const RunOptions& run, const Comparison& 
   const cases::Case& definition = comparison.scene.definition;
   const Answers& answers = comparison.answers;
   const auto is_skipped = [](const Answer& side) { return side.solution.status == cases::Status::skipped; };
-  if (is_skipped(answers.fem) || is_skipped(answers.msm))
-    return {{shell_line(words_of(run, definition)), "both models"}};
+  if (is_skipped(answers.fem) || is_skipped(answers.msm)) return {{line_of(run, definition), "both models"}};
   std::vector<NextCommand> next;
   if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty())
-    next.push_back({line_of(words_of(run, definition), {"--designs", "all"}),
+    next.push_back({line_of(run, definition, {"--designs", "all"}),
                     answers.msm.converged() ? "other designs" : "designs that may hold here"});
   if (answers.fem.converged() && answers.msm.converged())
     if (auto mesh = about_mesh(run, comparison)) next.push_back(std::move(*mesh));
   if (!answers.fem.converged())
-    next.push_back({line_of(words_of(run, definition), {"--only", "msm"}), "the springs by themselves"});
+    next.push_back({line_of(run, definition, {"--only", "msm"}), "the springs by themselves"});
   if (run.out.empty() && !answers.failed())
-    next.push_back({line_of(words_of(run, definition), {"--out", "out", "--report"}), "files and a page"});
+    next.push_back({line_of(run, definition, {"--out", "out", "--report"}), "files and a page"});
   return next;
 }
 
@@ -136,11 +129,10 @@ std::vector<NextCommand> next_commands(const RunOptions& run, const cases::Case&
   std::vector<NextCommand> next;
   const Trial* best = ranking.recommended();
   if (best && best->name != cases::name_of(own.design))
-    next.push_back(
-        {line_of(words_of(run, definition, {"msm=", "msm."}), {"--set", msm_setting(best->name, own)}),
-         "this design by itself"});
+    next.push_back({line_of(run, definition, {"--set", msm_setting(best->name, own)}, {"msm=", "msm."}),
+                    "this design by itself"});
   if (run.out.empty())
-    next.push_back({line_of(words_of(run, definition), {"--designs", "all", "--out", "out"}),
+    next.push_back({line_of(run, definition, {"--designs", "all", "--out", "out"}),
                     "the springs of each design, in files"});
   return next;
 }
@@ -172,15 +164,13 @@ int run_designs(const RunOptions& options) {
   std::vector<Ranking> rankings;
   bool failed = false;
   ProgressLine line(1);
-  for (const Question& question : questions)
-    line.expect({1, total_seconds(estimate_designs(options, question))});
+  for (const Question& question : questions) line.expect(total_seconds(estimate_designs(options, question)));
   for (const Question& question : questions) {
     const cases::Case& definition = question.scene.definition;
-    std::optional<ProgressLine::Shown> shown(std::in_place, line, definition.name,
-                                             total_seconds(estimate_designs(options, question)),
-                                             long_solve_text(definition.name, estimate(question)));
+    line.begin(definition.name, total_seconds(estimate_designs(options, question)),
+               long_solve_text(definition.name, estimate(question)));
     rankings.push_back(rank_designs(question.scene, designs_of(options.designs, definition), options.meshes));
-    shown.reset();
+    line.finish(definition.name);
     const Ranking& ranking = rankings.back();
     if (mpi_rank() != 0) { // the other ranks' rankings have no designs
       failed = failed || !ranking.fem.converged();
@@ -202,11 +192,12 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
     return *earlier;
   }
   const auto& [scene, request] = question;
-  const ProgressLine::Shown shown(line, scene.definition.name, total_seconds(models),
-                                  long_solve_text(scene.definition.name, models));
+  const std::string& name = scene.definition.name;
+  line.begin(name, total_seconds(models), long_solve_text(name, models));
   Answers answers =
       solve(scene, request, solve_fem, FinishedCases::meshes_in(finished.folder(), question), ask_calculix);
   finished.keep(question, answers);
+  line.finish(name);
   return answers;
 }
 
@@ -219,12 +210,6 @@ void write_page_of(const RunOptions& options, const Comparison& comparison, cons
     whole.answers = std::move(answers);
     write_case_page(options.out, whole, ranking, {typed_command()});
   });
-}
-
-/// The designs of a case that is solved. Collective.
-Ranking rank_solved(const RunOptions& options, const Comparison& comparison) {
-  return rank_designs(comparison.scene, designs_of(options.designs, comparison.scene.definition),
-                      gathered(comparison.answers));
 }
 
 /// What a run has found of its cases so far.
@@ -297,7 +282,7 @@ int run_comparisons(const RunOptions& options) {
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
-  for (const Question& question : questions) line.expect({1, total_seconds(estimate(question))});
+  for (const Question& question : questions) line.expect(total_seconds(estimate(question)));
   if (options.converges_time) check_time_studies(questions);
   Results results;
   bool failed = false;
@@ -313,7 +298,9 @@ int run_comparisons(const RunOptions& options) {
       failed = failed || !results.time_studies.back().failures.empty();
     }
     if (!options.designs.empty()) {
-      results.rankings.push_back(rank_solved(options, comparison));
+      results.rankings.push_back(rank_designs(comparison.scene,
+                                              designs_of(options.designs, comparison.scene.definition),
+                                              gathered(comparison.answers)));
       failed = failed || (mpi_rank() == 0 && !results.rankings.back().is_sound());
     }
     if (!options.json && mpi_rank() == 0) print_last(options, results);

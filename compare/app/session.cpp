@@ -1,9 +1,8 @@
-#include "compare/app/session.hpp"
+#include "compare/app/commands.hpp"
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/process_pool.hpp"
-#include "compare/solve/solvers.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +11,7 @@
 #include <fcntl.h>
 #include <iostream>
 #include <mpi.h>
+#include <streambuf>
 #include <string_view>
 #include <thread>
 #include <unistd.h>
@@ -77,10 +77,6 @@ void reserve_standard_streams() {
   std::signal(SIGXFSZ, SIG_IGN); // writing beyond a limit (ulimit -f) fails with a reason
 }
 
-void start_ranks() {
-  if (is_under_mpi_launcher()) solvers();
-}
-
 void give_up(const std::string& message, int status) {
   const int rank = mpi_rank();
   if (rank == 0) std::cerr << message << std::endl;
@@ -98,14 +94,12 @@ void give_up(const std::string& message, int status) {
   }
 }
 
-Colours::Colours() : plain_(std::cout.rdbuf()) {
-  if (!wants_colours()) return;
-  colouring_ = std::make_unique<Colouring>(*plain_);
-  std::cout.rdbuf(colouring_.get());
-}
-
-Colours::~Colours() {
-  if (colouring_) std::cout.rdbuf(plain_);
+std::shared_ptr<void> coloured_output() {
+  if (!wants_colours()) return nullptr;
+  std::streambuf* const plain = std::cout.rdbuf();
+  const auto colouring = std::make_shared<Colouring>(*plain);
+  std::cout.rdbuf(colouring.get());
+  return {colouring.get(), [colouring, plain](void*) { std::cout.rdbuf(plain); }};
 }
 
 } // namespace springproof::compare

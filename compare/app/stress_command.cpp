@@ -8,7 +8,6 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/solve/solve_jobs.hpp"
 #include "compare/table/json.hpp"
 
 #include <filesystem>
@@ -114,7 +113,7 @@ int run(const StressOptions& options) {
   const FinishedCases finished(options.out, {});
   ProgressLine line(1);
   for (const cases::Case& hard_case : hard)
-    for (const double seconds : estimated_seconds(hard_case)) line.expect({1, seconds});
+    for (const double seconds : estimated_seconds(hard_case)) line.expect(seconds);
   for (const cases::Case& hard_case : hard) {
     results.push_back(
         judge_stress(hard_case, options.n_threads, answers_to(hard_case, finished, options.n_threads, line)));

@@ -1,6 +1,5 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/shard_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"

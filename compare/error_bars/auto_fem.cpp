@@ -42,32 +42,37 @@ double tolerated_by_all(const cases::Scene& scene, const cases::Solution& soluti
 }
 
 /// The linear solve, with small strain chosen, when it is good enough; else no answer yet, and why.
-FemAnswer try_small_strain(const cases::Scene& scene) {
+Answers try_small_strain(const cases::Scene& scene) {
+  Answers tried;
+  tried.resolved = scene.definition.fem;
   cases::Fem linear = scene.definition.fem;
   linear.formulation = cases::Formulation::small_strain;
   const std::string finite = cases::name_of(scene.definition.fem.formulation);
   if (const double degrees = cases::largest_turn(scene.definition);
-      degrees > cases::largest_turn_of_small_strain)
-    return {{},
-            scene.definition.fem,
-            {fmt::format("formulation {}: a region is turned by {} degrees", finite, degrees)}};
-  FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
-  if (!tried.answer.converged())
-    return {{},
-            scene.definition.fem,
-            {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
-                         tried.answer.solution.message)}};
-  const cases::Solution& linearly = tried.answer.solution;
+      degrees > cases::largest_turn_of_small_strain) {
+    tried.choices = {fmt::format("formulation {}: a region is turned by {} degrees", finite, degrees)};
+    return tried;
+  }
+  Answer answer = solve_fem_as_given(with_fem(scene, linear));
+  const cases::Solution& linearly = answer.solution;
+  if (!answer.converged()) {
+    tried.choices = {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
+                                 linearly.message)};
+    return tried;
+  }
   const double gradient = 100 * largest_gradient(scene.mesh, linearly.displacement, linearly.sharing.get());
   const double tolerated = tolerated_by_all(scene, linearly);
   const bool is_small = gradient < tolerated;
   tried.choices.push_back(fmt::format(
       "formulation {}: the largest displacement gradient of a linear solve ({:.2f} s) is {:.3g} %, {} "
       "the {:.3g} % that the narrowest expectation tolerates",
-      is_small ? cases::name_of(linear.formulation) : finite, tried.answer.seconds(), gradient,
+      is_small ? cases::name_of(linear.formulation) : finite, answer.seconds(), gradient,
       is_small ? "below" : "not below", tolerated));
-  if (is_small) return tried;
-  return {{}, scene.definition.fem, tried.choices};
+  if (is_small) {
+    tried.resolved = linear;
+    tried.fem = std::move(answer);
+  }
+  return tried;
 }
 
 /// What the reference of a measure may be uncertain by, percent of it.
@@ -113,7 +118,7 @@ std::string furthest_off(const cases::Scene& scene, const MeshStudy& study) {
 /// The finite elements on further meshes, from an answer on the case's own.
 class Refinement {
  public:
-  Refinement(const cases::Scene& scene, const FemAnswer& own, const KeptMeshes& kept)
+  Refinement(const cases::Scene& scene, const Answers& own, const KeptMeshes& kept)
       : scene_(scene), own_(own), kept_(kept) {}
 
   /// Solves one more mesh, coarser than the others or finer.  @return whether there is an answer
@@ -122,11 +127,11 @@ class Refinement {
     fem.refine = refine;
     Answer answer;
     if (refine == own_.resolved.refine) {
-      answer = own_.answer;
+      answer = own_.fem;
     } else if (auto earlier = kept_.find(fem)) {
       answer = std::move(*earlier);
     } else {
-      answer = solve_fem_as_given(with_fem(scene_, fem)).answer;
+      answer = solve_fem_as_given(with_fem(scene_, fem));
       if (answer.converged()) kept_.keep(fem, answer);
     }
     seconds_ += answer.seconds();
@@ -145,14 +150,14 @@ class Refinement {
 
  private:
   const cases::Scene& scene_;
-  const FemAnswer& own_;
+  const Answers& own_;
   const KeptMeshes& kept_;
   RefinedMeshes meshes_;
   double seconds_ = 0;
 };
 
 /// Exactly so many meshes, as far as they can be solved.
-RefinedMeshes solve_meshes(const cases::Scene& scene, const FemAnswer& own, int n_meshes,
+RefinedMeshes solve_meshes(const cases::Scene& scene, const Answers& own, int n_meshes,
                            const KeptMeshes& kept) {
   Refinement refinement(scene, own, kept);
   const int own_refine = own.resolved.refine, finest = std::max(n_meshes - 1, own_refine);
@@ -181,7 +186,7 @@ std::string why_not_finer(const cases::Scene& finer, const cases::Solution& last
 
 /// Refines until the reference is known well enough, or the budget is spent.
 /// @param told  gets a line on what was done
-RefinedMeshes refine_until_known(const cases::Scene& scene, const FemAnswer& own, const KeptMeshes& kept,
+RefinedMeshes refine_until_known(const cases::Scene& scene, const Answers& own, const KeptMeshes& kept,
                                  std::vector<std::string>& told) {
   Refinement refinement(scene, own, kept);
   const int own_refine = own.resolved.refine;
@@ -230,24 +235,25 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
   return expectation.quantity == cases::Quantity::fem ? 100 * width / std::abs(fem) / 4 : width / 4;
 }
 
-FemAnswer solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
+Answers solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
   const cases::Fem& asked = scene.definition.fem;
-  FemAnswer fem{{}, asked, {}, {}};
-  if (const auto earlier = kept.find(asked); earlier && !asked.has_auto_formulation) fem.answer = *earlier;
-  if (asked.has_auto_formulation) fem = try_small_strain(scene);
-  if (!fem.answer.converged()) fem.answer = solve_fem_as_given(scene).answer;
-  if ((n_meshes == 0 && !asked.has_auto_accuracy) || scene.definition.stress || !fem.answer.converged())
-    return fem;
+  Answers answers;
+  answers.resolved = asked;
+  if (const auto earlier = kept.find(asked); earlier && !asked.has_auto_formulation) answers.fem = *earlier;
+  if (asked.has_auto_formulation) answers = try_small_strain(scene);
+  if (!answers.fem.converged()) answers.fem = solve_fem_as_given(scene);
+  if ((n_meshes == 0 && !asked.has_auto_accuracy) || scene.definition.stress || !answers.fem.converged())
+    return answers;
   if (const auto reason = reason_without_continuum_limit(scene)) {
-    fem.refined = RefinedMeshes{{}, {}, *reason};
-    return fem;
+    answers.refined = RefinedMeshes{{}, {}, *reason};
+    return answers;
   }
-  kept.keep(fem.resolved, fem.answer);
+  kept.keep(answers.resolved, answers.fem);
   if (n_meshes > 0)
-    fem.refined = solve_meshes(scene, fem, n_meshes, kept);
+    answers.refined = solve_meshes(scene, answers, n_meshes, kept);
   else
-    fem.refined = refine_until_known(scene, fem, kept, fem.choices);
-  return fem;
+    answers.refined = refine_until_known(scene, answers, kept, answers.choices);
+  return answers;
 }
 
 } // namespace springproof::compare

@@ -29,6 +29,6 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
 /// @param n_meshes  0: as the case's accuracy asks; else so many, from the body's own on, or the finest of
 /// them that of the case when that is refined further
 /// @param kept  answers on single meshes that an earlier command left
-FemAnswer solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept = {});
+Answers solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept = {});
 
 } // namespace springproof::compare

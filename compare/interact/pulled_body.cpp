@@ -99,8 +99,8 @@ void PulledBody::step() {
   try {
     const int n_before = motion_->n_unfinished();
     motion_->advance(static_cast<double>(n_steps_ + 1) * scene_.definition.dynamics->step);
-    n_unfinished_ += motion_->n_unfinished() > n_before;
-    largest_residual_ = std::max(largest_residual_, motion_->largest_residual());
+    troubles_.n_unfinished += motion_->n_unfinished() > n_before;
+    troubles_.largest_residual = std::max(troubles_.largest_residual, motion_->largest_residual());
     ++n_steps_;
     is_displacement_of_now_ = false;
     if (pull_) {
@@ -108,8 +108,8 @@ void PulledBody::step() {
       body_->motion().remember_pull(motion_->now().displacement);
     }
   } catch (const std::exception& error) { // memory too: nobody else takes it in this thread
-    failure_ = error.what();
-    ++n_failures_;
+    troubles_.failure = error.what();
+    ++troubles_.n_failures;
     restart();
   }
 }

@@ -16,6 +16,14 @@ struct PullSettings {
   int n_threads = 1;           ///< threads of the multigrid path
 };
 
+/// What went wrong in the steps of a body since it was made.
+struct StepTroubles {
+  int n_failures = 0;    ///< steps that could not be solved, each a restart
+  std::string failure;   ///< message of the last one
+  long n_unfinished = 0; ///< steps left with more than their tolerance, because their iterations are bounded
+  double largest_residual = 0; ///< the most that one was left with, relative to the forces of the motion
+};
+
 /// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface.
 /// The pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is
 /// known after the step; applied as a load of that step it gives the same solution. A recording of forces can
@@ -35,7 +43,7 @@ class PulledBody {
   /// Back to the start of the motion, with nothing held.
   void restart();
 
-  /// Takes one step of the case. If it cannot be solved, failure() says why and the body is at its start.
+  /// Takes one step of the case. If it cannot be solved, troubles() say why and the body is at its start.
   void step();
 
   const mechanics::EmbeddedSurface& surface() const { return surface_; }
@@ -46,13 +54,9 @@ class PulledBody {
   }                                                   ///< N, of the spring in the equation of the last step
   double time() const { return motion_->now().time; } ///< s, since the last restart
   long n_steps() const { return n_steps_; }           ///< since the last restart
-  int n_failures() const { return n_failures_; }
-  const std::string& failure() const { return failure_; } ///< message of the last failed step
-  /// What the last step was left with, relative to the forces of the motion; steps that were left with more
-  /// than their tolerance, because their iterations are bounded, and the most that one was.
+  const StepTroubles& troubles() const { return troubles_; }
+  /// What the last step was left with, relative to the forces of the motion.
   double residual() const { return motion_->work().residual; }
-  long n_unfinished() const { return n_unfinished_; }
-  double largest_residual() const { return largest_residual_; }
   const msm::Points& displacement(); ///< mm, of all nodes, now
   int n_inverted();                  ///< cells, now
   std::size_t n_unknowns() { return body_->motion().n_unknowns(); }
@@ -67,10 +71,7 @@ class PulledBody {
   mechanics::Vector start_;
   std::unique_ptr<mechanics::TimeIntegrator> motion_;
   long n_steps_ = 0;
-  int n_failures_ = 0;
-  std::string failure_;
-  long n_unfinished_ = 0;
-  double largest_residual_ = 0;
+  StepTroubles troubles_;
   std::optional<int> held_;
   msm::Pull* pull_ = nullptr; ///< the body's; none: nothing is held
   /// mm: displacement of the place when it was grabbed, and what it is drawn to; N.

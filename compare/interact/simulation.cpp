@@ -1,12 +1,14 @@
 #include "compare/interact/simulation.hpp"
 
-#include "compare/interact/drawn_surface.hpp"
+#include "cases/mesh/read_vtk.hpp"
 #include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace springproof::compare {
 
@@ -44,6 +46,75 @@ std::optional<Vector3d> vector_from(const nlohmann::json& message, const char* k
   return vector;
 }
 
+/// Adds a number for the page, little endian: its machine and the server's are one.
+template<class To, class From>
+void append(std::string& bytes, From value) {
+  const To number = static_cast<To>(value);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+void append(std::string& bytes, const Eigen::Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) append<float>(bytes, vector[axis]);
+}
+
+constexpr std::size_t coarse_triangles = 5000;
+
+/// What the page draws of a body.
+struct DrawnSurface {
+  /// A surface, and, where it has more than coarse_triangles, the same in about so many, for pages whose
+  /// pictures a processor draws. Each is 4 counts as uint32 (vertices, triangles, nodes that carry both
+  /// surfaces, spheres), then as float32 the vertices at rest (3 each) and their weights (8 each), as uint32
+  /// their nodes' places in `nodes` (8 each), the triangles (3 each) and the spheres' vertices; the coarse
+  /// one has no spheres. Little endian.
+  std::string bytes;
+  std::vector<int> nodes; ///< the body's nodes that carry vertices
+};
+
+/// The surface in fewer triangles; none if it is small or cannot be had in fewer: the page draws all of it.
+std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh& fine,
+                                                       const cases::HexMesh& mesh) {
+  if (fine.triangles.size() <= coarse_triangles) return {};
+  try {
+    return {mechanics::embed(cases::decimated(fine, coarse_triangles), mesh)};
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+/// @param spheres  vertices of the surface, their centres    @param mesh  that the surface is bound to
+DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std::vector<int>& spheres,
+                           const cases::HexMesh& mesh) {
+  DrawnSurface drawn;
+  std::vector<mechanics::EmbeddedSurface> surfaces = coarse_surface(surface.rest, mesh);
+  surfaces.insert(surfaces.begin(), surface);
+  std::vector<int> place(mesh.nodes.size(), -1);
+  for (const auto& each : surfaces)
+    for (const auto& vertex : each.vertices)
+      for (const int node : vertex.nodes)
+        if (int& here = place[cases::index(node)]; here < 0) {
+          here = static_cast<int>(drawn.nodes.size());
+          drawn.nodes.push_back(node);
+        }
+  for (const auto& each : surfaces) {
+    const bool has_spheres = &each == &surfaces.front();
+    for (const std::size_t count : {each.vertices.size(), each.rest.triangles.size(), drawn.nodes.size(),
+                                    has_spheres ? spheres.size() : 0})
+      append<std::uint32_t>(drawn.bytes, count);
+    for (const Eigen::Vector3d& vertex : each.rest.vertices) append(drawn.bytes, vertex);
+    for (const auto& vertex : each.vertices)
+      for (const double weight : vertex.weights) append<float>(drawn.bytes, weight);
+    for (const auto& vertex : each.vertices)
+      for (const int node : vertex.nodes) append<std::uint32_t>(drawn.bytes, place[cases::index(node)]);
+    for (const auto& triangle : each.rest.triangles)
+      for (const int vertex : triangle) append<std::uint32_t>(drawn.bytes, vertex);
+    if (!has_spheres) continue;
+    for (const int vertex : spheres) append<std::uint32_t>(drawn.bytes, vertex);
+  }
+  return drawn;
+}
+
 } // namespace
 
 std::optional<PageMessage> message_from(const std::string& text) {
@@ -70,7 +141,20 @@ std::optional<PageMessage> message_from(const std::string& text) {
 Simulation::Simulation(const cases::Scene& scene, const PullSettings& settings,
                        std::function<void(std::shared_ptr<const std::string>)> on_frame)
     : scene_(scene), body_(scene, settings), on_frame_(std::move(on_frame)) {
-  describe();
+  const mechanics::EmbeddedSurface& surface = body_.surface();
+  DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
+  geometry_ = std::move(drawn.bytes);
+  carrying_ = std::move(drawn.nodes);
+  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
+                                        {"description", scene_.definition.description},
+                                        {"masses", scene_.mesh.nodes.size()},
+                                        {"cells", scene_.mesh.cells.size()},
+                                        {"unknowns", body_.n_unknowns()},
+                                        {"step_s", scene_.definition.dynamics->step},
+                                        {"triangles", surface.rest.triangles.size()},
+                                        {"spheres", body_.spheres().vertices.size()},
+                                        {"radius", body_.spheres().radius}}
+                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -112,23 +196,6 @@ void Simulation::stop() {
     wake_.notify_one();
   }
   if (thread_.joinable()) thread_.join();
-}
-
-void Simulation::describe() {
-  const mechanics::EmbeddedSurface& surface = body_.surface();
-  DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
-  geometry_ = std::move(drawn.bytes);
-  carrying_ = std::move(drawn.nodes);
-  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
-                                        {"description", scene_.definition.description},
-                                        {"masses", scene_.mesh.nodes.size()},
-                                        {"cells", scene_.mesh.cells.size()},
-                                        {"unknowns", body_.n_unknowns()},
-                                        {"step_s", scene_.definition.dynamics->step},
-                                        {"triangles", surface.rest.triangles.size()},
-                                        {"spheres", body_.spheres().vertices.size()},
-                                        {"radius", body_.spheres().radius}}
-                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void Simulation::run() {
@@ -185,10 +252,8 @@ void Simulation::step() {
   const auto before = SteadyClock::now();
   body_.step();
   const double taken = milliseconds(SteadyClock::now() - before);
-  if (step_ms_.size() < most_times)
-    step_ms_.push_back(taken);
-  else
-    step_ms_[static_cast<std::size_t>(summary_.n_steps) % most_times] = taken;
+  step_ms_.push_back(taken);
+  if (step_ms_.size() > most_times) step_ms_.pop_front();
   summary_.largest_ms = std::max(summary_.largest_ms, taken);
   ++summary_.n_steps;
   if (body_.n_steps() <= last_step_) recording_.clear(); // holds the motion since its last start
@@ -201,10 +266,8 @@ void Simulation::step() {
 
 std::shared_ptr<const std::string> Simulation::frame() {
   constexpr std::size_t shown = 500; // number of last steps whose median and 99th percentile are shown
-  const std::size_t n = std::min(shown, step_ms_.size());
-  std::vector<double> last;
-  for (std::size_t i = 0; i < n; ++i)
-    last.push_back(step_ms_[(static_cast<std::size_t>(summary_.n_steps) - 1 - i) % most_times]);
+  const auto n = static_cast<std::ptrdiff_t>(std::min(shown, step_ms_.size()));
+  const std::vector<double> last(step_ms_.end() - n, step_ms_.end());
   const int n_inverted = body_.n_inverted();
   if (n_inverted > 0) ++summary_.n_inverted_frames;
   auto bytes = std::make_shared<std::string>();
@@ -216,7 +279,7 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   static_cast<double>(n_inverted),
                                                   static_cast<double>(body_.held().value_or(-1)),
                                                   body_.force().norm(),
-                                                  static_cast<double>(body_.n_failures()),
+                                                  static_cast<double>(body_.troubles().n_failures),
                                                   static_cast<double>(n_drags_taken_),
                                                   body_.residual(),
                                                   static_cast<double>(carrying_.size())};
@@ -241,12 +304,10 @@ void Simulation::write_recording(std::ostream& out) const {
 
 SimulationSummary Simulation::summary() const {
   SimulationSummary summary = summary_;
-  summary.median_ms = value_below(step_ms_, 0.5);
-  summary.p99_ms = value_below(step_ms_, 0.99);
-  summary.n_failures = body_.n_failures();
-  summary.failure = body_.failure();
-  summary.n_unfinished = body_.n_unfinished();
-  summary.largest_residual = body_.largest_residual();
+  const std::vector<double> times(step_ms_.begin(), step_ms_.end());
+  summary.median_ms = value_below(times, 0.5);
+  summary.p99_ms = value_below(times, 0.99);
+  summary.troubles = body_.troubles();
   return summary;
 }
 

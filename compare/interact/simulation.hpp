@@ -4,6 +4,7 @@
 #include "compare/interact/recording.hpp"
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -42,11 +43,8 @@ struct RecordedPull {
 
 struct SimulationSummary {
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
-  int n_failures = 0;                           ///< steps that could not be solved, each a restart
-  std::string failure;                          ///< message of the last one
-  long n_inverted_frames = 0;                   ///< frames that showed inverted cells
-  long n_unfinished = 0;                        ///< see PulledBody::n_unfinished()
-  double largest_residual = 0;
+  StepTroubles troubles;
+  long n_inverted_frames = 0;                       ///< frames that showed inverted cells
   double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< wall clock of the last 100,000 steps
 };
 
@@ -67,7 +65,7 @@ class Simulation {
 
   /// {"name", "description", "masses", "cells", "unknowns", "step_s", "triangles", "spheres", "radius"}
   const std::string& description() const { return description_; }
-  /// What the page draws: see DrawnSurface, whose nodes are in the order of a frame.
+  /// What the page draws: see DrawnSurface in simulation.cpp, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
 
   /// What has been, after stop(). A recording is of the motion since its last start.
@@ -94,14 +92,13 @@ class Simulation {
   long n_drags_ = 0; ///< that were sent, those that later ones replaced too
   std::thread thread_;
 
-  long n_drags_taken_ = 0;      ///< before the last step
-  std::vector<double> step_ms_; ///< the last steps, a ring
+  long n_drags_taken_ = 0;     ///< before the last step
+  std::deque<double> step_ms_; ///< the last steps
   SimulationSummary summary_;
   std::vector<RecordedPull> recording_;
   double steps_per_second_ = 0;
   long last_step_ = 0; ///< step of the motion since its last start
 
-  void describe();
   void run();
   void take(const std::vector<PageMessage>& messages);
   void step();

@@ -1,4 +1,4 @@
-#include "compare/report/bodies.hpp"
+#include "compare/report/pages.hpp"
 
 #include "compare/measure/surfaces.hpp"
 #include "compare/table/json.hpp"
@@ -8,8 +8,6 @@
 #include <cmath>
 
 namespace springproof::compare {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -57,15 +55,20 @@ Surface surface_of(const cases::HexMesh& mesh) {
   return surface;
 }
 
+Json moved_to_json(const std::vector<Eigen::Vector3d>& moves) {
+  const Lengths displacement = lengths(moves);
+  return {{"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
+}
+
 Json body_side_to_json(const DeformedBody& body, std::vector<Surface>& bodies) {
   Surface surface = surface_of(*body.mesh);
   std::vector<Eigen::Vector3d> moves;
   for (const std::size_t node : surface.nodes) moves.push_back((*body.displacement)[node]);
-  const Lengths displacement = lengths(moves);
   const auto known = std::find(bodies.begin(), bodies.end(), surface);
-  const auto index = known - bodies.begin();
+  Json side{{"body", known - bodies.begin()}};
   if (known == bodies.end()) bodies.push_back(std::move(surface));
-  return {{"body", index}, {"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
+  side.update(moved_to_json(moves));
+  return side;
 }
 
 /// End of the slider: at which the largest displacement is half the body, but from twofold to a hundredfold.
@@ -78,15 +81,8 @@ double largest_scale(const Overlay& overlay) {
   return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 100.0) : 2.0;
 }
 
-Json measures_to_json(const std::vector<MeasuredValue>& measures) {
-  Json list = Json::array();
-  for (const MeasuredValue& m : measures)
-    list.push_back({{"name", m.name},
-                    {"unit", m.unit},
-                    {"fem", m.fem},
-                    {"msm", m.msm},
-                    {"error_percent", m.error_percent}});
-  return list;
+Json measure_to_json(const MeasuredValue& measure) {
+  return SPRINGPROOF_MEMBERS(measure, name, unit, fem, msm, error_percent);
 }
 
 } // namespace
@@ -105,18 +101,13 @@ Json skin_to_json(const Comparison& comparison) {
     std::vector<Eigen::Vector3d> moves;
     for (const mechanics::EmbeddedPoint& vertex : surface.vertices)
       moves.push_back(mechanics::displacement_at(vertex, answer.solution.displacement));
-    const Lengths displacement = lengths(moves);
-    skin[side] = {{"unit_mm", displacement.unit_mm}, {"displacement", displacement.values}};
+    skin[side] = moved_to_json(moves);
     return true;
   };
   if (!add("fem", comparison.answers.fem) || !add("springs", comparison.answers.msm)) return nullptr;
-  Json marks = Json::array();
-  for (const cases::Landmark& landmark : scene.definition.landmarks) {
-    const Eigen::Vector3d& point = landmark.point;
-    marks.push_back(
-        Json{{"name", landmark.name}, {"point", std::vector<double>{point[0], point[1], point[2]}}});
-  }
-  skin["marks"] = marks;
+  skin["marks"] = json_list(scene.definition.landmarks, [](const cases::Landmark& mark) -> Json {
+    return {{"name", mark.name}, {"point", {mark.point[0], mark.point[1], mark.point[2]}}};
+  });
   return skin;
 }
 
@@ -137,7 +128,7 @@ Json views_to_json(const std::vector<BodyView>& views) {
                {"group", view.group},
                {"description", view.description},
                {"command", view.command},
-               {"measures", measures_to_json(view.measures)},
+               {"measures", json_list(view.measures, measure_to_json)},
                {"failures", view.failures}};
     if (view.overlay.fem.is_there()) entry["fem"] = body_side_to_json(view.overlay.fem, surfaces);
     if (view.overlay.springs.is_there()) entry["springs"] = body_side_to_json(view.overlay.springs, surfaces);

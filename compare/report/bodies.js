@@ -86,6 +86,11 @@ function colour_at(share) {
   const at = Math.min(share, 1) * (colour_scale.length - 1), low = Math.min(Math.floor(at), colour_scale.length - 2);
   return colour_scale[low].clone().lerp(colour_scale[low + 1], at - low);
 }
+// Colours of vertices, from 0 to the largest value.
+function colours_of(values) {
+  const largest = largest_of(values) || 1;
+  return new THREE.BufferAttribute(new Float32Array(values.flatMap((value) => colour_at(value / largest).toArray())), 3);
+}
 
 let shared_renderer = null; // made when the first view needs it
 function renderer() {
@@ -209,9 +214,7 @@ class View extends TurnedPicture {
   }
   add_springs() {
     if (this.errors) {
-      const largest = largest_of(this.errors) || 1;
-      this.springs.colours = new THREE.BufferAttribute(new Float32Array(this.errors.flatMap((error) =>
-        colour_at(error / largest).toArray())), 3);
+      this.springs.colours = colours_of(this.errors);
       this.springs.skin = this.springs.add(this.springs.surface.triangles, THREE.Mesh, new THREE.MeshBasicMaterial({
         vertexColors: THREE.VertexColors, side: THREE.DoubleSide, fog: false, polygonOffset: true, polygonOffsetFactor: 1,
         polygonOffsetUnits: 1 }));
@@ -257,4 +260,82 @@ const update_bodies = () => live_views.forEach((view) => view.update());
 function show_body(id) {
   if (!live_views.has(id)) live_views.set(id, new View(view_records.get(id)));
   return live_views.get(id);
+}
+
+// The section of bodies: one row of controls for all of them, and a figure each.
+function body_controls() {
+  const largest = largest_of([...view_records.values()].map((record) => record.largest_scale));
+  const slider = make("input", { type: "range", min: 0, max: largest, step: 0.1, value: 1 });
+  const factor = make("output", null, "× 1.0");
+  slider.addEventListener("input", () => {
+    shown.scale = Number(slider.value);
+    factor.textContent = "× " + shown.scale.toFixed(1);
+    update_bodies();
+  });
+  const box = (name, ...label) => {
+    const input = make("input", { type: "checkbox", name, checked: true });
+    input.addEventListener("change", () => {
+      shown[name] = input.checked;
+      update_bodies();
+    });
+    return make("label", null, input, label);
+  };
+  const colours = choice("colour", "springs", [["error", "error coloured"], ["plain", "lines"]], shown.colour, (value) => {
+    shown.colour = value;
+    update_bodies();
+  });
+  const reset = make("button", { type: "reset" }, "Reset");
+  const form = make("form", { id: "body-controls", "aria-label": "Controls of all bodies" }, make("label", null, "displacements ", slider,
+    factor), colours, box("fem", make("span", { class: "key fem-key" }), "finite elements"),
+  box("springs", make("span", { class: "key springs-key" }), "springs"), reset);
+  form.addEventListener("submit", (event) => event.preventDefault());
+  form.addEventListener("reset", () => {
+    Object.assign(shown, { scale: 1, colour: "error", fem: true, springs: true });
+    shown.eye.set(...seen_from);
+    factor.textContent = "× 1.0";
+    update_bodies();
+  });
+  return form;
+}
+
+// The largest error of a record without drawing it.
+function legend_of(record) {
+  if (!record.fem || !record.springs) return null;
+  const errors = errors_of(new Side(record.springs), new Side(record.fem));
+  if (!errors) return null;
+  const largest = 100 * largest_of(errors);
+  return error_legend(`${general(largest, 2)} %`, make("small", null, "distance of both models, of the largest displacement"));
+}
+
+const measure_rows = (measures) => body(measures.map((m) => row([row_head([typeset(m.name), ", ", typeset(m.unit)]),
+  cell(general(m.fem, 4)), cell(general(m.msm, 4)), cell(missing(m.error_percent) ? "–" : `${signed(m.error_percent, 1)} %`)])));
+
+function body_figure(record) {
+  const title = make("b", null, record.title);
+  return make("figure", { class: "view", id: "view-" + record.id }, make("canvas", { role: "img", tabindex: 0,
+    "aria-label": `${record.title}: springs over finite elements, deformed. The arrow keys turn it.` }),
+  make("div", { class: "scale quiet" }), legend_of(record), make("figcaption", null, title, make("p", null, record.description),
+    record.failures.map((text) => make("p", { class: "problem" }, solver_words(text))), record.measures.length > 0 &&
+    make("table", null, make("thead", null, row([text_head("measure"), head("FEM"), head("springs"), head("error")])),
+      measure_rows(record.measures)), record.command && folded("Command", code(record.command))));
+}
+
+function bodies() {
+  if (view_records.size === 0) return null;
+  const groups = [...new Set([...view_records.values()].map((record) => record.group))];
+  const section = make("div", null, make("p", null, "Drag a body, or use the arrow keys: all turn with it. Both models are drawn over " +
+    "each other; colours are the distance between them."), body_controls(), groups.map((group) => [
+    group && make("h3", null, typeset(group)),
+    make("div", { class: "views" }, [...view_records.values()].filter((record) => record.group === group).map(body_figure))]));
+  section.draw = () => {
+    const watcher = new IntersectionObserver((entries) => {
+      const seen = entries.filter((entry) => entry.isIntersecting);
+      if (seen.length === 0) return;
+      if (!can_draw(section, "the bodies to turn. Drawn pictures of them are beside this page (.png, .svg).")) watcher.disconnect();
+      else for (const entry of seen) show_body(entry.target.id.replace(/^view-/, ""));
+    }, { rootMargin: "200px" });
+    for (const id of view_records.keys()) watcher.observe(document.getElementById("view-" + id));
+    draw_with_page(live_views);
+  };
+  return section;
 }

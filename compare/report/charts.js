@@ -30,7 +30,7 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
 
 const axis = (title, more) => ({ title: { display: true, text: title }, grid: {}, ...more, ticks: { ...(more && more.ticks) } });
 
-// A chart in a frame of its own. The arrow keys go through its values as the pointer does.
+// A chart in a frame of its own; the pointer finds all values at its place. The arrow keys go through its values as the pointer does.
 // @param label  what a screen reader says of it
 function chart(label, kind, config) {
   const canvas = make("canvas", { role: "img", tabindex: 0, "aria-label": label });
@@ -38,7 +38,9 @@ function chart(label, kind, config) {
   // Chart.js measures the frame, which has no size before it is on the page.
   frame.draw = () => {
     colour_charts();
-    const drawn = new Chart(canvas, config);
+    const interaction = { mode: "index", intersect: false, ...config.options.interaction };
+    const options = { animation: false, maintainAspectRatio: false, ...config.options, interaction };
+    const drawn = new Chart(canvas, { ...config, options });
     live_charts.push(drawn);
     let at = -1;
     canvas.addEventListener("keydown", (event) => {

@@ -91,7 +91,7 @@ function calculator() {
         stiffness("d", "diagonals", d, "N/m"), stiffness("v", "volume", young * volume, "MPa"),
         exponents.length > 0 && make("div", null, make("dt", null, "exponents of their power law"), make("dd", {
           "data-symbol": "exponents" }, exponents.map((p) => number(p, 3)).join(", ")))),
-      make("p", { class: "quiet" }, lower === upper ? "" : make("strong", null, `Interpolated: errors are tabulated at ν = ${lower} ` +
+      quiet(lower === upper ? "" : make("strong", null, `Interpolated: errors are tabulated at ν = ${lower} ` +
         `and ${upper}, and the larger of both is given; stiffnesses are designed for every hundredth of ν. `), "These are the errors of " +
         "the thesis’s cube: 10 × 10 × 10 cells in tension, shear and torsion, at equal strains whatever E is. Another " +
         "body has its own: ", code("run CASE --designs all"), " tells them."));
@@ -114,8 +114,7 @@ function error_chart() {
   });
   const frame = chart("Worst error of every design on the thesis's cube against Poisson's ratio; the table of designs below has the " +
     "same values. The left and right arrow keys go from ratio to ratio.", "wide", {
-    type: "line", data: { datasets }, options: { animation: false, maintainAspectRatio: false, normalized: true,
-      interaction: { mode: "index", intersect: false },
+    type: "line", data: { datasets }, options: { normalized: true,
       scales: { x: axis("Poisson’s ratio ν", { type: "linear", min: ratios[0] - 0.01, max: ratios[ratios.length - 1] + 0.01,
         afterBuildTicks: (scale) => { scale.ticks = ratios.map((value) => ({ value })); } }),
       y: axis("worst |error|, %", { type: "logarithmic", ticks: { callback: (value) => (/^[125]/.test(value.toExponential())

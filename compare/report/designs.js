@@ -16,16 +16,14 @@ function errors_at(ratio) {
     const name = in_words(a.design), state = state_of(a);
     const worst = (set) => cell(missing(a[set].worst_error_percent) ? "–" : commands.traced(number(a[set].worst_error_percent, 1),
       `${name}, worst error under the ${set} loads`, a[set].command_of_worst));
-    return row([row_head([a.recommended ? make("strong", null, name, " (best)") : name, state && make("small", { class: "reason" },
-      state)]), worst("small"), worst("large"), cell(number(a.small.mean_error_percent, 1)), cell(number(a.large.mean_error_percent, 1)),
-    cell(number(loads_of.volume(a), 1)), cell(a.seconds.msm > 0 ? general(1000 * a.seconds.msm, 2) : "–")],
-    a.recommended ? "recommended" : undefined);
+    return row([row_head([a.recommended ? make("strong", null, name, " (best)") : name, reason_of(state)]), worst("small"), worst("large"),
+      cell(number(a.small.mean_error_percent, 1)), cell(number(a.large.mean_error_percent, 1)), cell(number(loads_of.volume(a), 1)),
+      cell(a.seconds.msm > 0 ? general(1000 * a.seconds.msm, 2) : "–")], a.recommended ? "recommended" : undefined);
   });
   const pair = () => [head("small"), head("large")];
-  return make("div", { class: "beside" }, table("advice-" + ratio, [symbol("ν"), ` = ${ratio}: |error| on the cube, %`],
+  return commands.below(table("advice-" + ratio, [symbol("ν"), ` = ${ratio}: |error| on the cube, %`],
     [row([text_head("design", { rowspan: 2 }), head("worst", { colspan: 2, scope: "colgroup" }), head("mean", { colspan: 2,
-      scope: "colgroup" }), head("volume", { rowspan: 2 }), head("time, ms", { rowspan: 2 })]), row([pair(), pair()])], body(rows)),
-  commands.list());
+      scope: "colgroup" }), head("volume", { rowspan: 2 }), head("time, ms", { rowspan: 2 })]), row([pair(), pair()])], body(rows)));
 }
 
 function stiffnesses() {
@@ -77,15 +75,14 @@ function designs_in_tables() {
     const commands = new Commands("designs-" + sheet.table);
     const rows = report.designs.filter((d) => d.table === sheet.table).map((d) => {
       const name = in_words(d.design).replace("in print", "as published");
-      return row([row_head([name, d.reasons.length > 0 && make("small", { class: "reason" }, reasons_in_words(d.reasons))]),
+      return row([row_head([name, d.reasons.length > 0 && reason_of(reasons_in_words(d.reasons))]),
         cell(d.missing > 0 ? `${d.figures} of ${d.figures + d.missing}` : d.figures), cell(number(d.mean_error_percent, 1)),
         cell(commands.traced(number(d.worst_error_percent, 1), [name, ": ", words(d.worst_at)], d.command_of_worst)),
         text_cell(words(d.worst_at))]);
     });
-    return make("div", { class: "beside" }, table("designs-" + sheet.table, [`Every design in the tests of ${sheet.name.toLowerCase()}`,
+    return commands.below(table("designs-" + sheet.table, [`Every design in the tests of ${sheet.name.toLowerCase()}`,
       `${loads_in(sheet)}: |error|, %`], row([text_head("design"), head("figures"), head("mean"), head("worst"), text_head("worst at")]),
-    body(rows)),
-    commands.list());
+    body(rows)));
   });
 }
 
@@ -97,12 +94,12 @@ function volumes() {
     of ? [cell(number(of.total_mm3)), cell(signed(100 * (of.total_mm3 / v.rest_mm3 - 1))), [of.whiskers[0], ...of.quartiles,
       of.whiskers[1]].map((value) => cell(number(value, 4))), cell(of.outliers.length)]
       : make("td", { class: "text", colspan: 8 }, "no equilibrium")])));
-  return make("div", { class: "beside" }, table("volumes", "Deformed volumes, mm³: the body’s, and the box plot of its cells’",
+  return commands.below(table("volumes", "Deformed volumes, mm³: the body’s, and the box plot of its cells’",
     row([text_head("case"), text_head("model"), ["body", "change, %", "lower whisker", "quartile", "median", "quartile", "upper whisker",
-      "outliers"].map((name) => head(name))]), body(rows)), make("p", { class: "quiet" }, "Whiskers end at the outermost values within " +
+      "outliers"].map((name) => head(name))]), body(rows)), quiet("Whiskers end at the outermost values within " +
     "1.5 times the interquartile range of the box. ", report.cell_volume_changes.map((change) => `Figure 5.10, ${change.load_set} loads: ` +
     `the springs’ cells between the whiskers change their volume by up to ${number(change.computed_percent)} %; the thesis says ${
-      general(change.published_percent)} %. `)), commands.list());
+      general(change.published_percent)} %. `)));
 }
 
 function cases() {
@@ -115,10 +112,10 @@ function cases() {
   const rows = report.cases.map((one) => row([row_head(commands.traced(one.name.replace(/-/g, " "), one.case, one.command)),
     text_cell(words(one.reference)), outcome(one.fem), cell(one.msm.stiffness_N_per_m ? one.msm.stiffness_N_per_m.map((s) =>
       general(s, 4)).join(", ") : "–"), outcome(one.msm)]));
-  return make("div", { class: "beside" }, table("cases", "What was solved: both models of every case that is drawn above",
+  return commands.below(table("cases", "What was solved: both models of every case that is drawn above",
     [row([text_head("case", { rowspan: 2 }), head("finite elements", { colspan: 4, scope: "colgroup" }), head("springs", { colspan: 4,
       scope: "colgroup" })]), row([text_head("formulation"), solved(), head([symbol("k", "e"), ", ", symbol("k", "f"), ", ",
-      symbol("k", "d"), ", N/m"]), solved()])], body(rows)), commands.list());
+      symbol("k", "d"), ", N/m"]), solved()])], body(rows)));
 }
 
 const tables = () => {

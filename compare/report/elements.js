@@ -17,7 +17,7 @@ const missing = (value) => value === null || value === undefined;
 const number = (value, decimals = 2) => (missing(value) ? "–"
   : value.toFixed(decimals).replace(/^-(?=[0.]*$)/, "").replace("-", "−"));
 const signed = (value, decimals = 2) => (/^[−–]/.test(number(value, decimals)) ? "" : "+") + number(value, decimals);
-const general = (value, digits = 6) => String(Number(value.toPrecision(digits))).replace("-", "−");
+const general = (value, digits = 6) => (missing(value) ? "–" : String(Number(value.toPrecision(digits))).replace("-", "−"));
 // "70 ms", "1.4 s"
 const duration = (seconds) => (seconds < 1 ? `${general(1000 * seconds, 2)} ms` : `${general(seconds, 3)} s`);
 
@@ -58,6 +58,8 @@ const row_head = (content, more) => make("th", { class: "text", scope: "row", ..
 const row = (cells, kind) => make("tr", { class: kind }, cells);
 const body = (rows, kind) => make("tbody", { class: kind }, rows);
 const code = (text) => make("code", null, text);
+const quiet = (...content) => make("p", { class: "quiet" }, content);
+const reason_of = (text) => text && make("small", { class: "reason" }, text);
 const folded = (summary, ...content) => make("details", null, make("summary", null, summary), content);
 const tile = (title, value, more) => make("div", { class: "tile" }, make("b", null, value), make("span", null, title), more &&
   make("small", null, more));
@@ -86,6 +88,8 @@ class Commands {
     return this.lines.length > 0 && folded("The command behind each number (typed in the source folder)",
       make("ol", { class: "commands" }, this.lines));
   }
+  // What the numbers are in, with the list below it.
+  below(...content) { return make("div", { class: "beside" }, content, this.list()); }
 }
 
 // A row of buttons of which one is down. @param options  [value, text] each

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/error_bars/measured_values.hpp"
 #include "compare/study/study.hpp"
 #include "compare/thesis/figures.hpp"
 #include "compare/thesis/regenerate.hpp"
@@ -12,10 +13,8 @@
 /// Pages: page.html with its data, which its scripts render.
 namespace springproof::compare {
 
-/// A script that pages are made with: three.min.js, OrbitControls.js, chart.min.js.
-std::string page_script(const std::string& name);
-
-/// page.html of a data folder, every {{name}} replaced by its value or else by the file of that name there.
+/// page.html of a data folder, every {{name}} replaced by its value or else by the file of that name there,
+/// or of a library's script: three.min.js, OrbitControls.js, chart.min.js.
 std::string filled_page(const std::string& data, const std::map<std::string, std::string>& values);
 
 /// JSON as it may stand in a <script>: no text of it can end the element or begin a comment.
@@ -35,7 +34,35 @@ std::string picture(const std::string& folder, const std::string& name, const st
 void write_page(const std::string& file, const std::string& title, nlohmann::ordered_json data,
                 const std::string& pictures = "");
 
-/// FOLDER/CASE.html: what came of one case on a page of its own (page.hpp): the verdict, every warning,
+/// One body of a page, to be turned.
+struct BodyView {
+  std::string id;      ///< id of the element on the page
+  Overlay overlay;     ///< its title stands below the body
+  std::string group{}; ///< heading over the bodies that have the same
+  std::string description{}, command{};
+  std::vector<MeasuredValue> measures{};
+  std::vector<std::string> failures{}; ///< why a side is not drawn
+};
+
+/// A case's own view. A side that failed is left out, with the reason.
+/// @param overlay  overlay of both sides
+BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay);
+
+/// The views' geometry for the page's script: {"bodies": [{"unit_mm", "rest": [x, y, z, ...], "faces": [a, b,
+/// c, d, ...]}], "views": [{"id", "largest_scale", "title", "group", "description", "command", "measures",
+/// "failures", "fem": {"body", "unit_mm", "displacement": [...]}, "springs": {...}}]}. Lengths are whole
+/// numbers of a unit that leaves them five digits. Bodies are surfaces alone, and views of the same body
+/// share it. A side without an answer is left out.
+nlohmann::ordered_json views_to_json(const std::vector<BodyView>& views);
+
+/// The surface that a case names, at rest and as each model has moved it, for the page's script: {"unit_mm",
+/// "rest": [x, y, z, ...], "triangles": [a, b, c, ...], "fem": {"unit_mm", "displacement": [...]}, "springs":
+/// {...}, "marks": [{"name", "point"}]}. Lengths are whole numbers of a unit, points and marks in mm. A side
+/// without an answer is left out.
+/// @return null where the case names no surface, or ranks share the answers
+nlohmann::ordered_json skin_to_json(const Comparison& comparison);
+
+/// FOLDER/CASE.html: what came of one case on a page of its own: the verdict, every warning,
 /// measures with their uncertainty, what the springs are, both bodies, designs when they were ranked,
 /// commands and versions. Beside it CASE_bodies/bodies.png and .svg, the bodies drawn. All of the answers
 /// must be here.
@@ -52,7 +79,7 @@ nlohmann::ordered_json case_page_to_json(const Comparison& comparison, const Ran
                                          const std::vector<std::string>& commands);
 
 /// FOLDER/report.html: which springs for a material, every design's errors, deformed bodies, tables, and what
-/// is reproduced of the thesis, on one page (page.hpp).
+/// is reproduced of the thesis, on one page.
 /// @param figures  as draw_figures() left them in FOLDER/figures
 /// @throws InputError if something cannot be read or written
 void write_report(const std::string& folder, const ThesisResults& results,

@@ -3,7 +3,7 @@
 const skin_record = report.skin;
 const skin_colour = 0xd9b9a0;
 
-// One geometry at rest displacements u (mm), shaded by its own normals.
+// The surface at displacements (mm; null: at rest), shaded by its own normals.
 function skin_geometry(rest, displacement, triangles) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(rest.map((x, i) => x + (displacement ? displacement[i] : 0))), 3));
@@ -11,11 +11,6 @@ function skin_geometry(rest, displacement, triangles) {
   geometry.computeVertexNormals();
   return geometry;
 }
-
-const skin_sides = () => {
-  const lengths = (side) => side && side.displacement.map((u) => u * side.unit_mm);
-  return { fem: lengths(skin_record.fem), springs: lengths(skin_record.springs) };
-};
 
 // mm, one per vertex; null without both models.
 function skin_distances({ fem, springs }) {
@@ -61,7 +56,9 @@ class SkinPicture extends TurnedPicture {
 
 function skin() {
   if (!skin_record) return null;
-  const sides = skin_sides(), distances = skin_distances(sides), largest = distances ? largest_of(distances) : 0;
+  const lengths = (side) => side && side.displacement.map((u) => u * side.unit_mm);
+  const sides = { fem: lengths(skin_record.fem), springs: lengths(skin_record.springs) };
+  const distances = skin_distances(sides), largest = distances ? largest_of(distances) : 0;
   const figure = (name, title, ...more) => make("figure", { class: "view", id: "skin-" + name }, make("canvas", { role: "img", tabindex: 0,
     "aria-label": `The skin, ${title}. The arrow keys turn it.` }), make("figcaption", null, make("b", null, title)), more);
   const shown_figures = [["rest", figure("rest", "before")], sides.fem && ["fem", figure("fem", "after, finite elements")],
@@ -80,8 +77,7 @@ function skin() {
     const plain = new THREE.MeshLambertMaterial({ color: skin_colour, side: THREE.DoubleSide });
     for (const [name, one] of shown_figures) {
       const geometry = skin_geometry(rest, name === "rest" ? null : sides[name === "distance" ? "springs" : name], triangles);
-      if (name === "distance") geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(distances.flatMap((distance) =>
-        colour_at(distance / (largest || 1)).toArray())), 3));
+      if (name === "distance") geometry.setAttribute("color", colours_of(distances));
       all.pictures.push(new SkinPicture(one.querySelector("canvas"), geometry, name === "distance"
         ? new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, emissive: 0x111111 }) : plain,
       name === "rest" ? skin_record.marks : [], all));
@@ -95,12 +91,12 @@ function skin() {
 function landmarks() {
   const found = one_case && one_case.landmarks;
   if (!found) return null;
-  const length = (value) => cell(missing(value) ? "–" : general(value, 3));
+  const length = (value) => cell(general(value, 3));
   const both = found.some((one) => one.to_equilibrium); // springs that stopped after a number of iterations
   const own = (one) => both ? [length(one.to_equilibrium?.mean), length(one.to_equilibrium?.deviation)] : [];
   return [table("landmark-table", "Springs' surface to the finite elements', mm", row([text_head("landmark"), head("mean"), head("deviation"),
     head("rays"), head("moved by (finite elements)"), ...(both ? [head("to the springs' equilibrium"), head("deviation")] : [])]),
-  body(found.map((one) => row([row_head([in_words(one.name), one.reason && make("small", { class: "reason" }, one.reason)]),
+  body(found.map((one) => row([row_head([in_words(one.name), reason_of(one.reason)]),
     length(one.mean), length(one.deviation), cell(String(one.n_rays)), length(one.moved), ...own(one)])))),
-  make("p", { class: "quiet" }, "Along the normals of the five triangles nearest to each landmark, from their barycentres.")];
+  quiet("Along the normals of the five triangles nearest to each landmark, from their barycentres.")];
 }

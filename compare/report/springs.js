@@ -23,8 +23,8 @@ function stiffness_table(springs) {
   const name = (one) => kinds_of_springs[one.kind] + (one.axes.size > 0 && one.axes.size < 3 && one.kind < 2
     ? ` ${one.kind === 0 ? "along" : "in the plane"} ${[...one.axes].join(", ")}` : "");
   const rows = all.map((one) => row([row_head(name(one)), cell(one.n), cell(general(one.stiffness, 5)), text_cell("N/m"),
-    has_exponents ? cell(missing(one.exponent) ? "–" : general(one.exponent, 4)) : []].flat()));
-  const more = (what, n, value, unit) => rows.push(row([row_head(what), cell(n), cell(value), text_cell(unit), has_exponents ? cell("–") : []].flat()));
+    has_exponents && cell(general(one.exponent, 4))]));
+  const more = (what, n, value, unit) => rows.push(row([row_head(what), cell(n), cell(value), text_cell(unit), has_exponents && cell("–")]));
   if (springs.volume_stiffness_MPa) more(["volume term ", symbol("k", "v")], 1, general(springs.volume_stiffness_MPa, 5), "MPa");
   const tetrahedra = springs.cell ? springs.cell.tetrahedra : [];
   if (tetrahedra.length > 0)
@@ -32,7 +32,7 @@ function stiffness_table(springs) {
       `${general(tetrahedra[0].lambda_MPa, 5)}, ${general(tetrahedra[0].mu_MPa, 5)}`, "MPa");
   if (rows.length === 0) return make("p", null, "Every spring has its own stiffness and rest length, from the case’s file.");
   return table("springs", "Stiffnesses of a cell; springs that cells share have the sum", row([text_head("spring"), head("in a cell"), head("stiffness"), text_head("unit"),
-    has_exponents ? head("exponent") : []].flat()), body(rows));
+    has_exponents && head("exponent")]), body(rows));
 }
 
 const names_of_moduli = { zener: ["Zener ratio", ""], youngs_modulus: ["Young’s modulus along an axis", "MPa"],
@@ -45,7 +45,7 @@ function moduli_table(moduli) {
   if (!moduli || Object.values(moduli).every((value) => !value)) return null;
   const line = ([key, value]) => {
     const [name, unit] = names_of_moduli[key] || [symbol("C", key.slice(1)), "MPa"];
-    return row([row_head(name), cell(missing(value) ? "–" : general(value, 5)), text_cell(unit)]);
+    return row([row_head(name), cell(general(value, 5)), text_cell(unit)]);
   };
   return table("moduli", "Small-strain moduli of the lattice, means over its axes", null, body(Object.entries(moduli).map(line)));
 }

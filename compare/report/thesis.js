@@ -18,7 +18,7 @@ function reproduced() {
     const p = report.entries[entry];
     return row([row_head(make("a", { href: "#table-" + p.table }, p.table)), text_cell(words(name_of(p))), cell(general(p.published)),
       cell(p.computed_by.map((c) => make("div", null, missing(c.value) ? "no value" : number(c.value, decimals(p)),
-        make("small", { class: "reason" }, words(c.reference))))), cell(words(explanation), "long")]);
+        reason_of(words(c.reference))))), cell(words(explanation), "long")]);
   };
   return [table("summary", "Published values that are reproduced, by how closely",
     row([text_head("values"), head("within"), head("by the declared reference"), head("only by the other"), head("by neither")]),
@@ -77,7 +77,7 @@ function sheet({ table: id, name, subject }) {
     return body(rows.map((one, i) => row(i === 0 ? [row_head(label(first), { rowspan: rows.length, scope: "rowgroup" }), one] : one)),
       "measure");
   });
-  return make("div", { class: "beside" }, columns.length === 1 ? flat() : table(id, title, heads, bodies()), commands.list());
+  return commands.below(columns.length === 1 ? flat() : table(id, title, heads, bodies()));
 }
 
 const published_tables = () => report.sheets && report.sheets.length > 0 && [make("h3", null, "Its tables, computed again"),

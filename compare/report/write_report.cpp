@@ -1,7 +1,6 @@
 #include "compare/report/pages.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/report/bodies.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "compare/thesis/layout.hpp"
@@ -14,20 +13,12 @@
 
 namespace springproof::compare {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
-Json computed_to_json(const std::vector<ComputedFigure>& computed) {
-  Json list = Json::array();
-  for (const ComputedFigure& c : computed)
-    list.push_back({{"reference", c.reference},
-                    {"value", c.value},
-                    {"fem", c.fem},
-                    {"msm", c.msm},
-                    {"reason", c.reason},
-                    {"command", c.trace.command}});
-  return list;
+Json computed_to_json(const ComputedFigure& computed) {
+  Json json = SPRINGPROOF_MEMBERS(computed, reference, value, fem, msm, reason);
+  json["command"] = computed.trace.command;
+  return json;
 }
 
 /// The entries of tables.json without what "computed_by" says of every reference.
@@ -36,7 +27,7 @@ void add_computed(Json& entries, const ThesisResults& results) {
     for (const char* key : {"computed", "difference", "reference", "other", "fem", "msm", "reason", "case",
                             "settings", "command", "other_command"})
       entries[e].erase(key);
-    entries[e]["computed_by"] = computed_to_json(results.entries[e].computed);
+    entries[e]["computed_by"] = json_list(results.entries[e].computed, computed_to_json);
   }
 }
 
@@ -95,14 +86,9 @@ bool is_of_bodies(const Figure& figure) {
   return figure.name == "figure_4_15" || figure.name == "figure_5_9" || figure.name == "figure_5_12";
 }
 
-Json methods_to_json() {
-  Json methods = Json::array();
-  for (const cases::Design design : msm::methods(cases::LinearElastic{})) {
-    const cases::DesignFacts& facts = cases::facts_of(design);
-    methods.push_back(
-        {{"name", cases::name_of(design)}, {"what", facts.what}, {"published_in", facts.published_in}});
-  }
-  return methods;
+Json method_to_json(cases::Design design) {
+  const cases::DesignFacts& facts = cases::facts_of(design);
+  return {{"name", cases::name_of(design)}, {"what", facts.what}, {"published_in", facts.published_in}};
 }
 
 /// {"METHOD": [[nu, k_e, k_f, k_d over E L0, k_v over E, exponents if any], ...]}: the designs of
@@ -157,16 +143,14 @@ Json report_to_json(const ThesisResults& results, const std::vector<Figure>& fig
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   for (std::size_t g = 0; g < groups.size(); ++g)
     document["summary"]["groups"][g]["command"] = groups[g].trace.command;
-  for (const char* list : {"sheets", "figures", "times"}) document[list] = Json::array();
-  for (const Sheet& sheet : sheets_of(results.entries))
-    document["sheets"].push_back(
-        {{"table", sheet.table}, {"name", name_of(sheet)}, {"subject", subject_of(sheet)}});
-  for (const Figure& f : figures)
-    document["figures"].push_back(
-        {{"number", f.number}, {"name", f.name}, {"caption", f.caption}, {"command", f.command}});
-  for (const PhaseTime& time : results.times)
-    document["times"].push_back({{"phase", time.phase}, {"seconds", time.seconds}});
-  document["methods"] = methods_to_json();
+  document["sheets"] = json_list(sheets_of(results.entries), [](const Sheet& sheet) -> Json {
+    return {{"table", sheet.table}, {"name", name_of(sheet)}, {"subject", subject_of(sheet)}};
+  });
+  document["figures"] = json_list(
+      figures, [](const Figure& f) { return SPRINGPROOF_MEMBERS(f, number, name, caption, command); });
+  document["times"] = json_list(
+      results.times, [](const PhaseTime& time) { return SPRINGPROOF_MEMBERS(time, phase, seconds); });
+  document["methods"] = json_list(msm::methods(cases::LinearElastic{}), method_to_json);
   document["designed"] = designed_to_json(results.advice);
   document["cases"] = cases_to_json(results);
   document["views"] = views_to_json(body_views(results, figures));

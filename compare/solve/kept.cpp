@@ -18,19 +18,14 @@ namespace {
 /// First line of a kept file. Counted up when the fields of compare/solve/fields.hpp change their meaning.
 const std::string heading = "springproof answers, format 5\n";
 
-bool are_finite(const std::vector<Eigen::Vector3d>& displacement) {
-  return std::all_of(displacement.begin(), displacement.end(),
-                     [](const Eigen::Vector3d& u) { return u.allFinite(); });
+bool is_finite(double value) {
+  return std::isfinite(value);
 }
 
-bool are_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
-bool are_finite(const std::vector<cases::SymmetricTensor>& tensors) {
-  return std::all_of(tensors.begin(), tensors.end(), [](const cases::SymmetricTensor& tensor) {
-    return std::all_of(tensor.begin(), tensor.end(), [](double value) { return std::isfinite(value); });
-  });
+/// Whether all numbers of vectors or tensors are finite, or all of a list.
+template<class Values>
+bool is_finite(const Values& values) {
+  return std::all_of(values.begin(), values.end(), [](const auto& value) { return is_finite(value); });
 }
 
 /// Whether fields, if any, have as many finite values as the mesh has nodes and cells.
@@ -39,8 +34,8 @@ bool fit(const std::optional<cases::Fields>& fields, const cases::HexMesh& mesh)
   const auto& [reaction, total_energy, has_stress, energy, stress, strain] = *fields;
   const std::size_t n_of_stress = has_stress ? mesh.cells.size() : 0;
   return reaction.size() == mesh.nodes.size() && energy.size() == n_of_stress &&
-         stress.size() == n_of_stress && strain.size() == mesh.cells.size() && std::isfinite(total_energy) &&
-         are_finite(reaction) && are_finite(energy) && are_finite(stress) && are_finite(strain);
+         stress.size() == n_of_stress && strain.size() == mesh.cells.size() && is_finite(total_energy) &&
+         is_finite(reaction) && is_finite(energy) && is_finite(stress) && is_finite(strain);
 }
 
 /// Whether a motion is one of a body with that many nodes at least.
@@ -49,15 +44,15 @@ bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
   const auto is_node = [&](int node) { return node >= 0 && cases::index(node) < n_nodes; };
   const auto is_body = [&](const cases::Trajectory::Body& body) {
     return body.step >= 0 && cases::index(body.step) < n && body.displacement.size() >= n_nodes &&
-           are_finite(body.displacement);
+           is_finite(body.displacement);
   };
   return n > 0 && motion.displacement.size() == n * motion.nodes.size() &&
          (motion.volume.empty() || motion.volume.size() == n) &&
          (!motion.slowest || (motion.slowest->omega > 0 && std::isfinite(motion.slowest->omega) &&
                               std::isfinite(motion.slowest->damping_ratio))) &&
          std::is_sorted(motion.time.begin(), motion.time.end()) &&
-         std::is_sorted(motion.nodes.begin(), motion.nodes.end()) && are_finite(motion.time) &&
-         are_finite(motion.displacement) && are_finite(motion.volume) &&
+         std::is_sorted(motion.nodes.begin(), motion.nodes.end()) && is_finite(motion.time) &&
+         is_finite(motion.displacement) && is_finite(motion.volume) &&
          std::all_of(motion.nodes.begin(), motion.nodes.end(), is_node) &&
          std::all_of(motion.bodies.begin(), motion.bodies.end(), is_body);
 }
@@ -67,12 +62,12 @@ void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
   const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
     return size == expected || (size == 0 && solution.status != cases::Status::converged);
   };
-  const bool is_finite = are_finite(solution.displacement) && are_finite(solution.cell_volume);
+  const bool has_numbers = is_finite(solution.displacement) && is_finite(solution.cell_volume);
   const bool is_moved = !solution.trajectory || is_sound(*solution.trajectory, mesh.nodes.size());
   if (!fit(solution.fields, mesh))
     throw std::runtime_error("has fields that are not those of the case's mesh");
   if (!is_empty_or(solution.displacement.size(), mesh.nodes.size()) ||
-      !is_empty_or(solution.cell_volume.size(), mesh.cells.size()) || !is_finite || !is_moved)
+      !is_empty_or(solution.cell_volume.size(), mesh.cells.size()) || !has_numbers || !is_moved)
     throw std::runtime_error("has values that are no solution on the case's mesh");
 }
 
@@ -90,8 +85,7 @@ bool exists(const Shard& shard) {
 
 /// 0, which no shard has, for anything else than a number that one may have.
 int shard_number(const nlohmann::json& value) {
-  const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : 0;
-  return 1 <= number && number <= most_shards ? static_cast<int>(number) : 0;
+  return value.is_number_integer() && 1 <= value && value <= most_shards ? value.get<int>() : 0;
 }
 
 } // namespace

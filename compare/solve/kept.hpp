@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/answers.hpp"
+#include "compare/solve/solve.hpp"
 
 /// What a command keeps in files for a rerun or for `merge`. Results: a line with the format, a line with the
 /// identity of the question, the length and the digest of the result, and the result. Records of shards:
@@ -45,5 +45,79 @@ std::string text_of(const ShardRecord& record);
 /// @param text  any bytes
 /// @throws std::exception if it is no record: a field is missing or of another type, there is no such shard
 ShardRecord record_from(const std::string& text);
+
+/// Names of the files in DIR/solved.
+enum class FileNames {
+  of_cases,    ///< for readers; one question a case
+  of_questions ///< digests, where many questions are of one case
+};
+
+/// Version, commit and digest of the running program. The commit does not tell one build of uncommitted
+/// changes from another; the program's own bytes do.
+const std::string& this_program();
+
+/// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question, which
+/// rank 0 reads and writes. One is taken up again only if all that its answers depend on is the same: this
+/// program, the case as it was parsed with the mesh that its files gave, the request and PETSC_OPTIONS. A
+/// file that is damaged or of another version counts as none, with a line on standard error. Failed solves
+/// are kept for `merge`, and tried again by a rerun.
+class FinishedCases {
+ public:
+  /// Claims the folder. Every rank calls it.
+  /// @param folder  value of `--out`; empty: nothing is kept, nothing found
+  /// @throws InputError if the folder cannot be written, or two cases have one name and so one file
+  FinishedCases(const std::string& folder, const std::vector<Question>& questions,
+                FileNames names = FileNames::of_cases);
+
+  /// The answers of an earlier command, with a line that says so. Collective over MPI_COMM_WORLD, as keep().
+  std::optional<Answers> find(const Question& question) const;
+
+  /// Single meshes of the case's mesh study are no longer needed then.
+  /// @throws InputError if the file cannot be written
+  void keep(const Question& question, const Answers& answers) const;
+
+  /// The finite elements' answers on single meshes of a question's study, for when it is interrupted: kept
+  /// one file a mesh, as soon as it is solved. May be used by a worker process.
+  /// @param folder  that a FinishedCases has claimed; empty: nothing is kept
+  static KeptMeshes meshes_in(const std::string& folder, const Question& question);
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+  FileNames names_;
+};
+
+/// Digest of all that the answers to these questions depend on.
+std::string digest_of(const std::vector<Question>& questions);
+
+// The work of one command divided among several, on machines of their own: `--shard I/N` of each keeps what
+// it has solved in its own folder, and `merge` puts the folders together.
+
+/// Which shard has each piece of work: the largest first, each to the shard with the least to do so far.
+/// @param costs  in any unit, one per piece
+/// @return numbers from 1 to n_shards, one per piece; always the same
+std::vector<int> divide(const std::vector<double>& costs, int n_shards);
+/// Divides by estimated cost.
+std::vector<int> divide(const std::vector<Question>& questions, int n_shards);
+
+/// @throws InputError if it cannot be written
+void write_record(const std::string& folder, ShardRecord record);
+/// That of an earlier command, before its folder is used again.
+void remove_record(const std::string& folder);
+
+/// All shards of one command.
+struct Shards {
+  ShardRecord record;               ///< that of the first folder, whose number alone others do not have
+  std::vector<std::string> folders; ///< by the shards' numbers
+};
+
+/// @throws InputError if a shard is missing or there twice, or is of another command, other questions,
+/// another number of shards, or another program than the other shards and this one
+Shards read_shards(const std::vector<std::string>& folders);
+
+/// What the shards found, failed solves too.
+/// @throws InputError if an answer is missing or damaged, or the questions are others
+std::vector<Answers> answers_of(const Shards& shards, const std::vector<Question>& questions,
+                                FileNames names);
 
 } // namespace springproof::compare

@@ -152,24 +152,24 @@ class Worker {
 } // namespace
 
 std::vector<JobAnswer>
-run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
+run_in_processes(const std::vector<std::string>& worker, int n_workers, std::size_t n_jobs,
                  const std::function<std::string(std::size_t job)>& bytes_of,
                  const std::function<void(std::size_t job, const JobAnswer&)>& on_done) {
   std::vector<JobAnswer> answers(n_jobs);
   std::vector<std::unique_ptr<Worker>> workers;
   std::size_t next = 0;
-  const auto employ = [&](std::unique_ptr<Worker>& worker) {
-    if (next == n_jobs) return worker.reset();
-    if (!worker) worker = std::make_unique<Worker>(pool.worker);
-    worker->give(next, bytes_of(next));
+  const auto employ = [&](std::unique_ptr<Worker>& place) {
+    if (next == n_jobs) return place.reset();
+    if (!place) place = std::make_unique<Worker>(worker);
+    place->give(next, bytes_of(next));
     ++next;
   };
-  workers.resize(std::min(n_jobs, static_cast<std::size_t>(std::max(1, pool.n_workers))));
-  for (auto& worker : workers) employ(worker);
+  workers.resize(std::min(n_jobs, static_cast<std::size_t>(n_workers)));
+  for (auto& place : workers) employ(place);
 
   for (std::size_t n_answered = 0; n_answered < n_jobs;) {
     std::vector<pollfd> sockets; // poll() passes over a negative one
-    for (const auto& worker : workers) sockets.push_back({worker ? worker->socket() : -1, POLLIN, 0});
+    for (const auto& place : workers) sockets.push_back({place ? place->socket() : -1, POLLIN, 0});
     if (poll(sockets.data(), sockets.size(), -1) < 0 && errno != EINTR)
       throw std::system_error(errno, std::generic_category(), "waiting for the workers");
     for (std::size_t w = 0; w < workers.size(); ++w) {

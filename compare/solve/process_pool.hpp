@@ -14,21 +14,18 @@ struct JobAnswer {
   std::string reason;               ///< why; empty when it did not
 };
 
-struct ProcessPool {
-  std::vector<std::string> worker; ///< program and arguments of a worker, which calls serve_jobs()
-  int n_workers;                   ///< at least 1
-};
-
 /// Hands out the jobs in their order, each to the first worker that is free, and waits for all. A worker that
 /// ends without an answer fails the job it had, and another one takes its place. Workers that are left when
 /// the caller is ended find their input closed.
-/// @param bytes_of  a job's bytes, called when it is handed out
-/// @param on_done  told the index of each job and its answer when it comes, in the order in which that
-/// happens
+/// @param worker     program and arguments of a worker, which calls serve_jobs()
+/// @param n_workers  at least 1
+/// @param bytes_of   a job's bytes, called when it is handed out
+/// @param on_done    told the index of each job and its answer when it comes, in the order in which that
+///                   happens
 /// @return one answer per job, in the order of the jobs
 /// @throws std::system_error if a worker cannot be started
 std::vector<JobAnswer>
-run_in_processes(const ProcessPool& pool, std::size_t n_jobs,
+run_in_processes(const std::vector<std::string>& worker, int n_workers, std::size_t n_jobs,
                  const std::function<std::string(std::size_t job)>& bytes_of,
                  const std::function<void(std::size_t job, const JobAnswer&)>& on_done);
 

@@ -82,10 +82,10 @@ ProgressLine::~ProgressLine() {
   if (drawer_.joinable()) drawer_.join();
 }
 
-void ProgressLine::expect(const Workload& more) {
+void ProgressLine::expect(double estimated_seconds) {
   const std::lock_guard lock(mutex_);
-  remaining_.expected.n_pieces += more.n_pieces;
-  remaining_.expected.seconds += more.seconds;
+  ++remaining_.expected.n_pieces;
+  remaining_.expected.seconds += estimated_seconds;
 }
 
 void ProgressLine::skip(double estimated_seconds) {

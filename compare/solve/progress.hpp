@@ -5,7 +5,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 
 namespace springproof::compare {
 
@@ -46,7 +45,8 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
 
-  void expect(const Workload& more);
+  /// One more piece of work.
+  void expect(double estimated_seconds);
   /// A piece of what is expected, done already.
   void skip(double estimated_seconds);
 
@@ -54,21 +54,6 @@ class ProgressLine {
   void begin(const std::string& name, double estimated_seconds, const std::string& note = "");
   /// Takes the line away if nothing else is being done, and others may print.
   void finish(const std::string& name);
-
-  /// A piece from begin() to finish().
-  class Shown {
-   public:
-    Shown(ProgressLine& line, std::string name, double estimated_seconds, const std::string& note = "")
-        : line_(line), name_(std::move(name)) {
-      line.begin(name_, estimated_seconds, note);
-    }
-    ~Shown() { line_.finish(name_); }
-    Shown(const Shown&) = delete;
-
-   private:
-    ProgressLine& line_;
-    std::string name_;
-  };
 
  private:
   struct Piece {

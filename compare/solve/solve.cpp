@@ -79,13 +79,11 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
   return scene;
 }
 
-FemAnswer solve_fem_as_given(const cases::Scene& scene) {
+Answer solve_fem_as_given(const cases::Scene& scene) {
   solvers(); // loading them is no part of the time
-  if (scene.definition.dynamics) {
-    Answer answer = solve_side([&] { return std::cref(scene); },
-                               [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
-    return {std::move(answer), scene.definition.fem, {}, {}};
-  }
+  if (scene.definition.dynamics)
+    return solve_side([&] { return std::cref(scene); },
+                      [](const cases::Scene& of) { return solvers().follow_finite_elements(of); });
   const auto settings = limited(scene.definition, fem_reference::default_settings());
   decltype(make_finite_elements(scene)) solved;
   Answer answer = solve_side([&] { return make_finite_elements(scene); },
@@ -98,20 +96,14 @@ FemAnswer solve_fem_as_given(const cases::Scene& scene) {
                              });
   hold_against_loads(scene, answer,
                      [&](const cases::Solution& solution) { solved->fields(solution.sharing.get()); });
-  return {std::move(answer), scene.definition.fem, {}, {}};
+  return answer;
 }
 
 Answers solve(const cases::Scene& scene, const Request& request, SolveFem solve_fem, const KeptMeshes& kept,
               AskPeer ask_peer) {
   Answers answers;
   answers.resolved = scene.definition.fem;
-  if (request.asks(cases::Side::fem)) {
-    FemAnswer fem = solve_fem(scene, request.meshes, kept);
-    answers.fem = std::move(fem.answer);
-    answers.resolved = fem.resolved;
-    answers.choices = std::move(fem.choices);
-    answers.refined = std::move(fem.refined);
-  }
+  if (request.asks(cases::Side::fem)) answers = solve_fem(scene, request.meshes, kept);
   if (request.asks(cases::Side::msm))
     answers.msm = solve_springs_on_ranks(scene, request.n_threads, answers.design);
   if (!request.peer.empty() && ask_peer)

@@ -53,14 +53,6 @@ void hold_against_loads(const cases::Scene& scene, Answer& answer, const MakeFie
   }
 }
 
-/// The finite elements' answer, and the [fem] that it is the answer to.
-struct FemAnswer {
-  Answer answer;
-  cases::Fem resolved;
-  std::vector<std::string> choices; ///< a line for everything that was chosen, with the reason and the cost
-  std::optional<RefinedMeshes> refined{}; ///< absent when none was asked for
-};
-
 /// Answers on single meshes: finds those that an interrupted command left, keeps the others. Collective.
 struct KeptMeshes {
   std::function<std::optional<Answer>(const cases::Fem&)> find = [](const cases::Fem&) {
@@ -70,8 +62,8 @@ struct KeptMeshes {
 };
 
 /// Solves the finite elements' side, with what "auto" in [fem] leaves open: solve_fem() of
-/// compare/error_bars.
-using SolveFem = FemAnswer (*)(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept);
+/// compare/error_bars. Its answers are those of solve() without the springs and the peer.
+using SolveFem = Answers (*)(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept);
 
 /// How another program answers the finite elements' question: ask_calculix() of compare/peers.
 /// @param fem  our answer to the same scene   Collective.
@@ -79,7 +71,7 @@ using AskPeer = Peer (*)(const cases::Scene& scene, const Answer& fem);
 
 /// Solves the finite elements with the [fem] of the scene's definition as it is. Collective over
 /// MPI_COMM_WORLD.
-FemAnswer solve_fem_as_given(const cases::Scene& scene);
+Answer solve_fem_as_given(const cases::Scene& scene);
 
 /// Why this scene has no continuum limit, such as forces on points, whose displacement grows without bound.
 std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);

@@ -47,11 +47,6 @@ struct Open {
   std::vector<Estimate> models;
 };
 
-/// Whether worker processes may be started.
-bool is_one_process() {
-  return n_mpi_ranks() == 1 && !is_under_mpi_launcher();
-}
-
 /// Questions of jobs whose case can be read, and what the others have failed by.
 struct ReadJobs {
   std::vector<Question> questions;
@@ -93,7 +88,7 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
   if (n_mpi_ranks() > 1) {
     std::string bytes;
     for (const Question& question : questions) bytes += cases::to_bytes(question.scene.definition);
-    check_same_on_ranks("cases", bytes);
+    check_same_on_ranks(bytes);
   }
   return questions;
 }
@@ -125,12 +120,12 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
   std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) {
     return total_seconds(a.models) > total_seconds(b.models);
   });
-  const bool is_alone = is_one_process();
+  const bool is_alone = n_mpi_ranks() == 1 && !is_under_mpi_launcher(); // worker processes may be started
   const int n_workers =
       is_alone ? workers_within(memory, megabytes, options.n_workers > 0 ? options.n_workers : cores()) : 1;
   ProgressLine own(std::min(n_workers, static_cast<int>(open.size())));
   if (!options.line)
-    for (const Open& next : open) own.expect({1, total_seconds(next.models)});
+    for (const Open& next : open) own.expect(total_seconds(next.models));
   ProgressLine& line = options.line ? *options.line : own;
   const auto begin = [&](const Open& next) -> const Question& {
     const std::string& name = questions[next.question].scene.definition.name;
@@ -149,7 +144,7 @@ std::vector<Answers> answer_all(const std::vector<Question>& questions, const Fi
     return answers;
   }
   run_in_processes(
-      {{options.program, "worker"}, n_workers}, open.size(),
+      {options.program, "worker"}, n_workers, open.size(),
       [&](std::size_t job) { return cases::to_bytes(begin(open[job]), finished.folder()); },
       [&](std::size_t job, const JobAnswer& answer) {
         take(open[job], answers_in(answer, questions[open[job].question].request));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/solve/finished.hpp"
+#include "compare/solve/kept.hpp"
 #include "compare/solve/progress.hpp"
 #include "compare/solve/solve.hpp"
 

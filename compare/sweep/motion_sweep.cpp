@@ -127,10 +127,10 @@ cases::Trajectory reference_motion(const cases::Case& definition, const Cells& c
   exact.dynamics->scheme = {};
   exact.dynamics->scheme.scheme = cases::Scheme::generalized_alpha;
   exact.dynamics->scheme.rho_infinity = 0.8;
-  const FemAnswer found = solve_fem_as_given(cases::make_scene(exact));
-  if (!found.answer.converged() || !found.answer.solution.trajectory)
-    throw cases::SolveError("the reference of the sweep: " + found.answer.solution.message);
-  return *found.answer.solution.trajectory;
+  const Answer found = solve_fem_as_given(cases::make_scene(exact));
+  if (!found.converged() || !found.solution.trajectory)
+    throw cases::SolveError("the reference of the sweep: " + found.solution.message);
+  return *found.solution.trajectory;
 }
 
 /// The levels, of a case that can be swept.
@@ -219,7 +219,7 @@ Sweep sweep_motion(const cases::Case& definition, Extent extent,
         });
   for (const Cells& cells : levels)
     add({Program::finite_elements, {}, definition.fem.formulation, definition.fem.element, cells},
-        Settings::all, [](const cases::Scene& scene) { return solve_fem_as_given(scene).answer; });
+        Settings::all, solve_fem_as_given);
   return sweep;
 }
 

@@ -150,7 +150,7 @@ VariantRun failed_run(const std::string& reason) {
 VariantRun run_in_own_process(const Sweep& sweep, const Variant& variant, const std::string& program) {
   const JobAnswer answer =
       run_in_processes(
-          {{program, "worker", "--timing"}, 1}, 1,
+          {program, "worker", "--timing"}, 1, 1,
           [&](std::size_t) { return timing_job(sweep.definition, variant, sweep.rules); },
           [](std::size_t, const JobAnswer&) {})
           .front();
@@ -198,9 +198,11 @@ void finish(const Sweep& sweep, SweepRow& row) {
 /// @param program  whose hidden command `worker` serves
 VariantRun run_variant(const Sweep& sweep, const Variant& variant, const std::string& program,
                        ProgressLine& line) {
-  const ProgressLine::Shown shown(line, full_name(variant), estimate_of(sweep, variant).seconds);
-  return sweep.processes == Processes::this_one ? run_here(sweep, variant)
-                                                : run_in_own_process(sweep, variant, program);
+  line.begin(full_name(variant), estimate_of(sweep, variant).seconds);
+  VariantRun run = sweep.processes == Processes::this_one ? run_here(sweep, variant)
+                                                          : run_in_own_process(sweep, variant, program);
+  line.finish(full_name(variant));
+  return run;
 }
 
 /// Adds the next of the plan's variants. With the last mesh of the reference, all rows get their errors.
@@ -307,7 +309,7 @@ Sweep make_sweep(const cases::Case& definition, Extent extent, const TimingRules
 Sweep run_sweep(Sweep sweep, const std::string& program, const std::function<void(const Sweep&)>& on_row) {
   const Stopwatch stopwatch;
   ProgressLine line(1);
-  for (const double seconds : estimated_seconds(sweep)) line.expect({1, seconds});
+  for (const double seconds : estimated_seconds(sweep)) line.expect(seconds);
   for (std::size_t v = 0; v < sweep.plan.variants.size(); ++v) {
     const Variant& variant = sweep.plan.variants[v];
     add_row(sweep, variant, run_variant(sweep, variant, program, line));

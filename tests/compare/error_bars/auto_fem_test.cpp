@@ -55,17 +55,17 @@ TEST_CASE("small strain is chosen for small strains alone, and its solve is the 
        {std::pair(1e-3, cases::Formulation::small_strain), std::pair(0.3, cases::Formulation::log_strain)}) {
     cases::Scene scene = cases::make_scene(block(traction, 8));
     scene.definition.fem.has_auto_formulation = true;
-    const FemAnswer chosen = solve_fem(scene, 0);
+    const Answers chosen = solve_fem(scene, 0);
     CHECK(chosen.resolved.formulation == formulation);
     REQUIRE(chosen.choices.size() == 1);
     CHECK_THAT(chosen.choices[0], Catch::Contains("largest displacement gradient"));
     cases::Scene given = cases::make_scene(block(traction, 8));
     given.definition.fem.formulation = formulation;
-    CHECK(shift(scene, chosen.answer) == shift(given, solve_fem_as_given(given).answer));
+    CHECK(shift(scene, chosen.fem) == shift(given, solve_fem_as_given(given)));
     if (formulation == cases::Formulation::log_strain) continue;
     given.definition.fem.formulation = cases::Formulation::log_strain;
-    const double finite = shift(given, solve_fem_as_given(given).answer);
-    CHECK(std::abs(shift(scene, chosen.answer) / finite - 1) < 0.02); // what the expectation tolerates
+    const double finite = shift(given, solve_fem_as_given(given));
+    CHECK(std::abs(shift(scene, chosen.fem) / finite - 1) < 0.02); // what the expectation tolerates
   }
 }
 
@@ -76,17 +76,17 @@ TEST_CASE(
   definition.fem.formulation = cases::Formulation::small_strain;
   definition.fem.refine = 5;
   cases::Scene finest = cases::make_scene(definition);
-  const double truth = shift(finest, solve_fem_as_given(finest).answer);
+  const double truth = shift(finest, solve_fem_as_given(finest));
   definition.fem.refine = 0;
   definition.fem.has_auto_accuracy = true;
   std::size_t last = 1;
   for (const double width : {100., 40., 10.}) {
     definition.expectations[0].interval = {0, width};
     const cases::Scene scene = cases::make_scene(definition);
-    const FemAnswer fem = solve_fem(scene, 0);
+    const Answers fem = solve_fem(scene, 0);
     CAPTURE(width, fem.choices);
     CHECK(fem.resolved.refine == 0); // the answer is that of the case's own mesh
-    CHECK(shift(scene, fem.answer) == shift(scene, solve_fem_as_given(scene).answer));
+    CHECK(shift(scene, fem.fem) == shift(scene, solve_fem_as_given(scene)));
     REQUIRE(fem.refined.has_value());
     CHECK(fem.refined->solutions.size() >= last);
     last = fem.refined->solutions.size();
@@ -98,7 +98,7 @@ TEST_CASE(
   }
   CHECK(last > 2);
   definition.expectations[0].interval = {0, 1e-9};
-  const FemAnswer never = solve_fem(cases::make_scene(definition), 0);
+  const Answers never = solve_fem(cases::make_scene(definition), 0);
   CHECK_THAT(never.choices.back(),
              Catch::Contains("not reached") && Catch::Contains("the next mesh would have"));
 }
@@ -147,7 +147,7 @@ TEST_CASE("a mesh that fails costs the others nothing") {
     return failed;
   };
   kept.keep = [&](const cases::Fem& fem, const Answer&) { solved.push_back(fem.refine); };
-  const FemAnswer fem = solve_fem(scene, 4, kept);
+  const Answers fem = solve_fem(scene, 4, kept);
   REQUIRE(fem.refined.has_value());
   CHECK(fem.refined->refine == std::vector<int>{0, 1});
   CHECK(solved == std::vector<int>{0, 1});
@@ -177,10 +177,10 @@ TEST_CASE("meshes that an earlier command has solved are not solved again") {
   kept.keep = [&](const cases::Fem& fem, const Answer& answer) {
     if (store.size() < 2) store.emplace_back(fem.refine, answer); // interrupted after two
   };
-  const FemAnswer first = solve_fem(scene, 3, kept);
+  const Answers first = solve_fem(scene, 3, kept);
   CHECK(n_found == 0);
   REQUIRE(store.size() == 2);
-  const FemAnswer second = solve_fem(scene, 3, kept);
+  const Answers second = solve_fem(scene, 3, kept);
   CHECK(n_found == 2);
   for (std::size_t m = 0; m < 3; ++m)
     CHECK(second.refined->solutions[m].displacement == first.refined->solutions[m].displacement);

@@ -110,11 +110,11 @@ TEST_CASE("where a load jumps on the way, the error of time integration is told 
 TEST_CASE("a model that fails with half the step is told with its reason") {
   const cases::Scene scene = cases::make_scene(pulled("newmark", 0.0004));
   const auto fails = [](const cases::Scene& halved, int n_meshes, const compare::KeptMeshes& kept) {
-    compare::FemAnswer found = compare::solve_fem(halved, n_meshes, kept);
-    found.answer.solution = {};
-    found.answer.solution.status = cases::Status::failed;
-    found.answer.solution.message = "no balance";
-    found.answer.solution.load_reached = 0.25;
+    compare::Answers found = compare::solve_fem(halved, n_meshes, kept);
+    found.fem.solution = {};
+    found.fem.solution.status = cases::Status::failed;
+    found.fem.solution.message = "no balance";
+    found.fem.solution.load_reached = 0.25;
     return found;
   };
   const auto study = compare::study_time(scene, solved(scene), {}, fails);

@@ -1,4 +1,4 @@
-#include "compare/report/bodies.hpp"
+#include "compare/report/pages.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

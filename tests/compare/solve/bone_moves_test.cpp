@@ -39,7 +39,7 @@ cases::ScaledDisplacement along_x(double length) {
 std::vector<cases::Solution> solve_both(const cases::Scene& scene) {
   std::optional<msm::DesignResult> design;
   const compare::Answer springs = compare::solve_springs(scene, 1, design);
-  const compare::Answer fem = compare::solve_fem_as_given(scene).answer;
+  const compare::Answer fem = compare::solve_fem_as_given(scene);
   for (const compare::Answer* answer : {&fem, &springs}) {
     INFO(answer->solution.message);
     REQUIRE(answer->converged());

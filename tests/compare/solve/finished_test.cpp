@@ -1,4 +1,3 @@
-#include "compare/solve/finished.hpp"
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/whole_file.hpp"

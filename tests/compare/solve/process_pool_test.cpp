@@ -10,8 +10,7 @@ namespace {
 
 /// A worker in a few lines of Python: "crash" kills it, "leave" makes it end, "fail" is refused, "chatter"
 /// comes back as no message, "zeros N" as N zeros, anything else with the worker's process number behind it.
-compare::ProcessPool python_pool(int n_workers) {
-  return {{"python3", "-c", R"(
+const std::vector<std::string> worker{"python3", "-c", R"(
 import os, signal, sys
 def answer(kind, content):
     sys.stdout.buffer.write(b"%b %d\n" % (kind, len(content)) + content)
@@ -26,13 +25,12 @@ while heading := sys.stdin.buffer.readline():
     elif job == b"chatter": print("x" * 200, flush=True)
     elif job.startswith(b"zeros "): answer(b"ok", bytes(int(job.split()[1])))
     else: answer(b"ok", job + b" %d" % os.getpid())
-)"},
-          n_workers};
-}
+)"};
 
-std::vector<compare::JobAnswer> run(const compare::ProcessPool& pool, const std::vector<std::string>& jobs) {
+std::vector<compare::JobAnswer> run(int n_workers, const std::vector<std::string>& jobs,
+                                    const std::vector<std::string>& by = worker) {
   return compare::run_in_processes(
-      pool, jobs.size(), [&](std::size_t j) { return jobs[j]; },
+      by, n_workers, jobs.size(), [&](std::size_t j) { return jobs[j]; },
       [](std::size_t, const compare::JobAnswer&) {});
 }
 
@@ -49,7 +47,7 @@ TEST_CASE("every job is answered once, in its own place, whatever the number of 
   for (const int n_workers : {1, 3, 50}) {
     std::multiset<std::size_t> done;
     const auto answers = compare::run_in_processes(
-        python_pool(n_workers), jobs.size(), [&](std::size_t j) { return jobs[j]; },
+        worker, n_workers, jobs.size(), [&](std::size_t j) { return jobs[j]; },
         [&](std::size_t j, const compare::JobAnswer&) { done.insert(j); });
     REQUIRE(answers.size() == jobs.size());
     for (std::size_t j = 0; j < jobs.size(); ++j) {
@@ -60,7 +58,7 @@ TEST_CASE("every job is answered once, in its own place, whatever the number of 
 }
 
 TEST_CASE("a job that fails or crashes its worker fails alone, with the reason, and another worker goes on") {
-  const auto answers = run(python_pool(1), {"a", "fail", "b", "crash", "c", "leave", "crash", "d"});
+  const auto answers = run(1, {"a", "fail", "b", "crash", "c", "leave", "crash", "d"});
   for (const std::size_t j : {0, 2, 4, 7}) CHECK(answers[j].bytes);
   for (const std::size_t j : {1, 3, 5, 6}) CHECK_FALSE(answers[j].bytes);
   CHECK(answers[1].reason == "why");
@@ -73,24 +71,23 @@ TEST_CASE("a job that fails or crashes its worker fails alone, with the reason, 
 
 TEST_CASE("a job may hold any bytes") {
   const std::string job{"\0\n\t\xff job 3 x\n", 14};
-  CHECK(run(python_pool(1), {job})[0].bytes->substr(0, job.size()) == job);
+  CHECK(run(1, {job})[0].bytes->substr(0, job.size()) == job);
 }
 
 TEST_CASE("an answer that is no message fails its job, and another worker goes on") {
-  const auto answers = run(python_pool(1), {"chatter", "a"});
+  const auto answers = run(1, {"chatter", "a"});
   CHECK_THAT(answers[0].reason, Catch::Contains("no message"));
   CHECK(answers[1].bytes);
 }
 
 TEST_CASE("long answers arrive whole") {
-  const auto answers = run(python_pool(2), {"zeros 1000000", "zeros 0", "zeros 300000"});
+  const auto answers = run(2, {"zeros 1000000", "zeros 0", "zeros 300000"});
   CHECK(*answers[0].bytes == std::string(1000000, '\0'));
   CHECK(answers[1].bytes->empty());
   CHECK(answers[2].bytes->size() == 300000);
 }
 
 TEST_CASE("a worker program that does not exist is an error, no jobs start no worker") {
-  const compare::ProcessPool pool{{"/no/such/program"}, 1};
-  CHECK_THROWS_AS(run(pool, {"a"}), std::system_error);
-  CHECK(run(pool, {}).empty());
+  CHECK_THROWS_AS(run(1, {"a"}, {"/no/such/program"}), std::system_error);
+  CHECK(run(1, {}, {"/no/such/program"}).empty());
 }

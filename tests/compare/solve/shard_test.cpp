@@ -1,4 +1,4 @@
-#include "compare/solve/shard.hpp"
+#include "compare/solve/kept.hpp"
 
 #include "cases/case/error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -24,7 +24,7 @@ struct Finished {
   }
   Finished(const Finished&) = delete;
   static ShardRecord record(int index, int count) {
-    return {{index, count}, {"gate", "a.toml"}, "digest of a"};
+    return {{index, count}, {"gate", "a.toml"}, compare::digest_of({})};
   }
   /// @return the folder
   std::string add(const ShardRecord& record) {
@@ -79,14 +79,12 @@ TEST_CASE("all shards of one command are read in their order, whatever the order
   Finished finished(3);
   std::reverse(finished.folders.begin(), finished.folders.end());
   const compare::Shards shards = compare::read_shards(finished.folders);
-  REQUIRE(shards.records.size() == 3);
-  for (int s = 0; s < 3; ++s) {
-    CHECK(shards.records[static_cast<std::size_t>(s)].shard.index == s + 1);
-    CHECK(shards.folders[static_cast<std::size_t>(s)] == finished.folders[static_cast<std::size_t>(2 - s)]);
-  }
-  CHECK(shards.records[1].command == std::vector<std::string>{"gate", "a.toml"});
-  CHECK_NOTHROW(compare::check_questions(shards, "digest of a"));
-  CHECK_THROWS_AS(compare::check_questions(shards, "digest of b"), cases::InputError);
+  CHECK(shards.folders ==
+        std::vector<std::string>(finished.folders.rbegin(), finished.folders.rend())); // shards 1 to 3
+  CHECK(shards.record.command == std::vector<std::string>{"gate", "a.toml"});
+  CHECK(compare::answers_of(shards, {}, compare::FileNames::of_cases).empty());
+  CHECK_THROWS_WITH(compare::answers_of(shards, {{}}, compare::FileNames::of_cases),
+                    Contains("not what they were"));
 }
 
 TEST_CASE("a missing shard, one that is there twice, and shards of different wholes are refused with their "

@@ -226,7 +226,7 @@ TEST_CASE(
     const std::string job = timing_job(cases::read_case(sweep_cases + "cube_tensile.toml"), variant, rules);
     const JobAnswer answer =
         run_in_processes(
-            {{SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1}, 1, [&](std::size_t) { return job; },
+            {SPRINGPROOF_PROGRAM, "worker", "--timing"}, 1, 1, [&](std::size_t) { return job; },
             [](std::size_t, const compare::JobAnswer&) {})
             .front();
     INFO(answer.reason);
