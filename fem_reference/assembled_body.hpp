@@ -3,13 +3,15 @@
 #include "cases/mesh/sharing.hpp"
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/equations.hpp"
-#include "fem_reference/grid/grid_body.hpp"
 #include "mechanics/state_on_mesh.hpp"
 
 namespace springproof::fem_reference {
 
-/// The case's formulation with each of the scene's materials.
-std::vector<Formulation> formulations_of(const cases::Scene& scene);
+/// The elements of a state of the equations of a scene, refined as its definition says.
+/// @param scene  the one on the body's own mesh; all must outlive the result, as must the state
+ElementsInState elements_of(const cases::Scene& scene, const std::vector<Formulation>& formulations,
+                            const Discretisation& discretisation, EquilibriumEquations& equations,
+                            const State& state);
 
 /// A scene as assembled finite elements, with their states evaluated on the body's own mesh. The member
 /// functions are named like those of grid::GridBody.
@@ -27,20 +29,12 @@ struct AssembledBody {
 
   mechanics::StateOnMesh on_mesh();
   std::vector<double> node_displacements(const State& state) const;
+  /// @param state  must outlive the result
+  ElementsInState elements(const State& state, const cases::Sharing*) {
+    return elements_of(scene, formulations, discretisation, equations, state);
+  }
   void add_guess(mechanics::EquilibriumSettings&) const {}
   void set_in_motion(const mechanics::EquilibriumSettings&);
 };
-
-/// Norms of a state, if the case measures norms that need more than the body's nodes. Collective.
-std::optional<cases::FieldNorms> norms_of(AssembledBody& body, const State& state,
-                                          const cases::Sharing* sharing);
-std::optional<cases::FieldNorms> norms_of(const grid::GridBody& body, const State& state,
-                                          const cases::Sharing* sharing);
-
-/// Fields of an equilibrium at a load factor. Collective.  @param sharing  the solution's
-cases::Fields fields_of(AssembledBody& body, const State& state, const cases::Sharing* sharing,
-                        double load_factor);
-cases::Fields fields_of(const grid::GridBody& body, const State& state, const cases::Sharing* sharing,
-                        double load_factor);
 
 } // namespace springproof::fem_reference

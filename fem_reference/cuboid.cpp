@@ -1,24 +1,17 @@
 #include "fem_reference/cuboid.hpp"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 
 namespace springproof::fem_reference {
 
-namespace {
-
-/// Shape functions on the unit interval and their slopes, at one point.
-struct Interval {
-  double value[3], slope[3];
-};
-
-Interval linear_at(double x) {
-  return {{1 - x, x, 0}, {-1, 1, 0}};
-}
-
-Interval quadratic_at(double x) {
+IntervalShapes interval_shapes(int degree, double x) {
+  if (degree == 1) return {{1 - x, x, 0}, {-1, 1, 0}};
   return {{(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}, {4 * x - 3, 4 - 8 * x, 4 * x - 1}};
 }
+
+namespace {
 
 struct GaussPoint {
   double at, weight;
@@ -34,30 +27,35 @@ std::vector<GaussPoint> gauss_points(int degree) {
 
 } // namespace
 
-Cuboid::Cuboid(const ElementType& element, const Eigen::Vector3d& edges) {
-  assert(element.n_pressure_modes <= 1);
-  const int n = element.degree + 1, n_nodes = n * n * n;
-  const std::vector<GaussPoint> points = gauss_points(element.degree);
-  for (int a = 0; a < n_nodes; ++a)
-    nodes_.push_back(Eigen::Vector3d(a % n, a / n % n, a / (n * n)) / element.degree);
+Cuboid::Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges) {
+  assert(n_pressure_modes <= 1);
+  const int n = degree + 1, n_nodes = n * n * n;
+  const std::vector<GaussPoint> points = gauss_points(degree);
+  const auto places = [n](int a) { return std::array<int, 3>{a % n, a / n % n, a / (n * n)}; };
+  for (int a = 0; a < n_nodes; ++a) {
+    const auto [i, j, k] = places(a);
+    nodes_.push_back(Eigen::Vector3d(i, j, k) / degree);
+  }
   for (int q = 0; q < n_nodes; ++q) { // as many points as nodes
-    Interval along[3];
-    double weight = edges.prod();
-    const int of_axis[3] = {q % n, q / n % n, q / (n * n)};
-    for (int d = 0; d < 3; ++d) {
-      const GaussPoint& point = points[static_cast<std::size_t>(of_axis[d])];
-      along[d] = element.degree == 1 ? linear_at(point.at) : quadratic_at(point.at);
+    IntervalShapes along[3];
+    double weight = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const GaussPoint& point = points[static_cast<std::size_t>(places(q)[d])];
+      along[d] = interval_shapes(degree, point.at);
       weight *= point.weight;
     }
-    weights_.push_back(weight);
-    for (int j = 0; j < 3; ++j)
-      for (int a = 0; a < n_nodes; ++a) {
-        const int node[3] = {a % n, a / n % n, a / (n * n)};
-        double gradient = 1 / edges[j];
-        for (int d = 0; d < 3; ++d) gradient *= d == j ? along[d].slope[node[d]] : along[d].value[node[d]];
-        gradients_.push_back(gradient);
-      }
-    if (element.n_pressure_modes == 1) modes_.push_back(1);
+    weights_.push_back(weight * edges.prod());
+    const auto product = [&](int a, double factor, std::size_t slope_along) {
+      const std::array<int, 3> node = places(a);
+      for (std::size_t d = 0; d < 3; ++d)
+        factor *= d == slope_along ? along[d].slope[node[d]] : along[d].value[node[d]];
+      return factor;
+    };
+    for (int a = 0; a < n_nodes; ++a) values_.push_back(product(a, 1, 3));
+    for (std::size_t j = 0; j < 3; ++j)
+      for (int a = 0; a < n_nodes; ++a)
+        gradients_.push_back(product(a, 1 / edges[static_cast<Eigen::Index>(j)], j));
+    if (n_pressure_modes == 1) modes_.push_back(1);
   }
 }
 

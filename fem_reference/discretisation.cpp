@@ -4,6 +4,7 @@
 #include "cases/scene/loads.hpp"
 #include "fem_reference/space.hpp"
 
+#include <algorithm>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -14,6 +15,7 @@
 #include <deal.II/lac/sparsity_tools.h>
 #include <fmt/format.h>
 #include <set>
+#include <utility>
 
 namespace springproof::fem_reference {
 
@@ -68,16 +70,6 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
   }
 }
 
-void add_body_force(const Nodes& nodes, const Geometry& geometry, const Prescribed& prescribed, Vec load) {
-  for (int cell = 0; cell < nodes.n_cells; ++cell)
-    for (int q = 0; q < geometry.n_points; ++q) {
-      const Vector3d force = geometry.of(cell).weights[q] * prescribed.body_force(geometry.point(cell, q));
-      for (int a = 0; a < nodes.per_cell; ++a)
-        add(load, nodes.of_cell[index(cell * nodes.per_cell + a)],
-            geometry.shape_values[index(q * nodes.per_cell + a)] * force);
-    }
-}
-
 /// The weight of the cells, and of what [[mass]] adds to nodes.
 void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& geometry, Vec load) {
   const Vector3d gravity = cases::gravity(scene);
@@ -115,30 +107,93 @@ void check_resultant(const cases::Scene& scene, const std::vector<double>& load,
                     fmt::join(carried, ", "), fmt::join(applied, ", ")));
 }
 
-/// Point forces, tractions, torques, gravity and the body force at full load, N per owned degree of freedom.
+/// Point forces, tractions, torques and gravity at full load, N per owned degree of freedom.
 std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
-                                   const Geometry& geometry, const Prescribed& prescribed) {
+                                   const Geometry& geometry) {
   const Vector load = nodes.make_vector(space.mesh.get_communicator());
   add_point_forces(scene, nodes, load.get());
   for (const auto& applied : scene.loads) add_traction(scene, applied, space, nodes, load.get());
   add_gravity(scene, nodes, geometry, load.get());
-  if (prescribed.body_force) add_body_force(nodes, geometry, prescribed, load.get());
   check(VecAssemblyBegin(load.get()));
   check(VecAssemblyEnd(load.get()));
   const ReadEntries values(load.get());
   std::vector<double> owned(values.data(), values.data() + 3 * nodes.n_owned);
-  if (!prescribed.body_force) check_resultant(scene, owned, space.mesh.get_communicator());
+  check_resultant(scene, owned, space.mesh.get_communicator());
   return owned;
+}
+
+/// A vertex, an edge or a face by its vertices' numbers.
+using Part = std::set<int>;
+
+/// The vertices, edges and faces of a selection, edges of its faces included.
+std::set<Part> parts_of(const cases::Selection& selection) {
+  std::set<Part> parts;
+  for (const int node : selection.nodes) parts.insert(Part{node});
+  for (const auto& edge : selection.edges) parts.emplace(edge.begin(), edge.end());
+  for (const auto& face : selection.faces) {
+    parts.emplace(face.begin(), face.end());
+    for (std::size_t v = 0; v < 4; ++v) parts.insert(Part{face[v], face[(v + 1) % 4]});
+  }
+  return parts;
+}
+
+/// Local nodes on a selection's vertices, edges and faces.
+std::set<int> nodes_on(const cases::Selection& selection, const cases::Scene& scene, const Nodes& nodes) {
+  const std::set<Part> parts = parts_of(selection);
+  std::vector<char> is_seen(nodes.point.size());
+  std::set<int> found;
+  for (std::size_t i = 0; i < nodes.of_cell.size(); ++i) {
+    const int node = nodes.of_cell[i];
+    if (std::exchange(is_seen[index(node)], 1)) continue;
+    const auto& cell = scene.mesh.cells[index(nodes.mesh_cell[i / index(nodes.per_cell)])];
+    Part part;
+    for (const int v : nodes.between[i % index(nodes.per_cell)]) part.insert(cell[index(v)]);
+    if (parts.count(part) != 0) found.insert(node);
+  }
+  return found;
 }
 
 } // namespace
 
-Discretisation::Discretisation(const cases::Scene& scene, const ElementType& type,
-                               const Prescribed& prescribed, MPI_Comm all_ranks)
+Constraints::Constraints(const cases::Scene& scene, const Nodes& nodes, MPI_Comm communicator)
+    : is_constrained(3 * nodes.point.size()), at_full_load(3 * nodes.point.size()) {
+  for (const auto& fixed : scene.constrained)
+    for (const int node : nodes_on(fixed.selection, scene, nodes))
+      for (std::size_t c = 0; c < 3; ++c)
+        if (fixed.components[c]) is_constrained[3 * index(node) + c] = 1;
+  are_moved = !scene.moved.empty();
+  for (const auto& [selection, motion] : scene.moved)
+    for (const int node : nodes_on(selection, scene, nodes))
+      moved_.push_back({node, nodes.point[index(node)], motion});
+  n_unknowns = std::count(is_constrained.begin(), is_constrained.begin() + 3 * nodes.n_owned, 0);
+  MPI_Allreduce(MPI_IN_PLACE, &n_unknowns, 1, MPI_LONG, MPI_SUM, communicator);
+}
+
+void Constraints::prescribe(double load_factor, std::vector<double>& displacement) const {
+  displacement.resize(at_full_load.size());
+  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = load_factor * at_full_load[i];
+  prescribe_moved([=](const cases::Moved& /*motion*/) { return load_factor; }, displacement);
+}
+
+void Constraints::prescribe_at(double time, std::vector<double>& displacement) const {
+  displacement.assign(at_full_load.size(), 0);
+  prescribe_moved([=](const cases::Moved& motion) { return motion.history.at(time); }, displacement);
+}
+
+/// Sets the moved degrees of freedom.  @param factor  returns the factor of a motion (Moved)
+template<class Factor>
+void Constraints::prescribe_moved(const Factor& factor, std::vector<double>& displacement) const {
+  for (const auto& [node, rest, motion] : moved_) {
+    const Vector3d value = cases::moved_by(motion, rest, factor(motion));
+    for (std::size_t c = 0; c < 3; ++c)
+      if (motion.components[c]) displacement[3 * index(node) + c] = value[static_cast<Eigen::Index>(c)];
+  }
+}
+
+Discretisation::Discretisation(const cases::Scene& scene, const ElementType& type, MPI_Comm all_ranks)
     : space_(std::make_unique<Space>(scene, type, all_ranks)), communicator(space_->mesh.get_communicator()),
       element(type), nodes(*space_, scene), geometry(*space_, nodes, element),
-      constraints(scene, nodes, prescribed, communicator),
-      load(assemble_loads(scene, *space_, nodes, geometry, prescribed)) {
+      constraints(scene, nodes, communicator), load(assemble_loads(scene, *space_, nodes, geometry)) {
   if (!scene.material_of_cell.empty())
     for (const int cell : nodes.mesh_cell) material_of_cell.push_back(scene.material_of_cell[index(cell)]);
 }
@@ -146,7 +201,7 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& typ
 Discretisation::~Discretisation() = default;
 
 std::vector<double> Discretisation::load_of(const cases::Scene& scene) const {
-  return assemble_loads(scene, *space_, nodes, geometry, {});
+  return assemble_loads(scene, *space_, nodes, geometry);
 }
 
 Matrix Discretisation::make_tangent_matrix() const {

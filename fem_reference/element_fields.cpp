@@ -1,6 +1,7 @@
 #include "fem_reference/element_fields.hpp"
 
 #include "cases/scene/loads.hpp"
+#include "fem_reference/cuboid.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 
@@ -23,25 +24,25 @@ ElementPlace place_of(std::size_t refined_cell, int n_refinements) {
   return place;
 }
 
-ElementFields::ElementFields(const cases::Scene& scene, Kinematics kinematics, std::vector<Vector3d> nodes,
-                             const cases::Range& cells)
-    : scene_(scene), kinematics_(kinematics), nodes_(std::move(nodes)),
-      sums_(cases::vertices_of(scene.mesh, cells), cells) {}
+namespace {
 
-void ElementFields::add(const ElementState& element) {
-  const auto& [place, geometry, displacement, force, energy] = element;
-  const std::array<int, 8> vertices = scene_.mesh.cells[place.cell];
-  const std::array<Vector3d, 8> corners = cases::cell_vertices(scene_.mesh, place.cell);
-  const bool is_linear = kinematics_ == Kinematics::linear; // the virial is that of the body at rest
+/// Adds an element's part of the fields.
+/// @param nodes  an element's, in its unit cube     @param force  CellResult::plain_force, N
+void add(mechanics::FieldSums& sums, const cases::Scene& scene, const std::vector<Vector3d>& nodes,
+         const ElementState& element, bool is_linear, const Eigen::VectorXd& force, double energy) {
+  const auto& [place, geometry, displacement, pressure] = element;
+  const std::array<int, 8> vertices = scene.mesh.cells[place.cell];
+  const std::array<Vector3d, 8> corners = cases::cell_vertices(scene.mesh, place.cell);
   const Vector3d first(displacement);
-  mechanics::CellSums& sum = sums_.cell(place.cell);
+  mechanics::CellSums& sum = sums.cell(place.cell);
   for (int a = 0; a < geometry.n_nodes; ++a) {
-    const std::array<double, 8> shape = mechanics::shape_values(place.lower + place.edge * nodes_[index(a)]);
+    const std::array<double, 8> shape = mechanics::shape_values(place.lower + place.edge * nodes[index(a)]);
     const Vector3d f(force[a], force[geometry.n_nodes + a], force[2 * geometry.n_nodes + a]);
+    // the virial of linear kinematics is that of the body at rest
     Vector3d at = is_linear ? Vector3d(0, 0, 0) : Vector3d(Vector3d(displacement + 3 * a) - first);
     for (std::size_t v = 0; v < 8; ++v) {
       at += shape[v] * (corners[v] - corners[0]); // forces add up to 0: any origin serves
-      sums_.force(index(vertices[v])) += shape[v] * f;
+      sums.force(index(vertices[v])) += shape[v] * f;
     }
     sum.virial() += f * at.transpose();
   }
@@ -59,8 +60,6 @@ void ElementFields::add(const ElementState& element) {
   sum.energy() += energy;
 }
 
-namespace {
-
 /// Whether elements give each node the same load as the scene does. They do not for forces and masses that a
 /// region's nodes share on a refined mesh, nor for the weight of cells that are no boxes.
 mechanics::Balance balance_of(const cases::Scene& scene) {
@@ -75,59 +74,54 @@ mechanics::Balance balance_of(const cases::Scene& scene) {
 
 } // namespace
 
-cases::Fields ElementFields::fields(const cases::Sharing* sharing, double load_factor) {
-  return mechanics::fields_of(scene_, std::move(sums_), sharing,
-                              {load_factor,
-                               kinematics_ == Kinematics::linear ? mechanics::StrainMeasure::linear
-                                                                 : mechanics::StrainMeasure::logarithmic,
-                               cases::PointMass::cells,
-                               load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene_)});
+cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* sharing, double load_factor) {
+  const cases::Scene& scene = elements.scene;
+  const auto kernels = kernels_of(elements.formulations, elements.type);
+  const bool is_linear = elements.formulations.front().kinematics == Kinematics::linear;
+  mechanics::FieldSums sums(cases::vertices_of(scene.mesh, elements.cells), elements.cells);
+  elements.for_each([&](const ElementState& element) {
+    CellKernel& kernel = *kernels[index(cases::material_of(scene, element.place.cell))];
+    const CellResult& result =
+        kernel.evaluate(element.geometry, element.displacement, element.pressure, Wanted::stress);
+    add(sums, scene, elements.nodes, element, is_linear, result.plain_force,
+        kernel.energy(element.geometry, element.displacement, element.pressure));
+  });
+  return mechanics::fields_of(
+      scene, std::move(sums), sharing,
+      {load_factor, is_linear ? mechanics::StrainMeasure::linear : mechanics::StrainMeasure::logarithmic,
+       cases::PointMass::cells, load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene)});
 }
 
-namespace {
-
-/// Lagrange's polynomial on the unit interval: 1 at one of the nodes 0, 1/degree, ... 1 and 0 at the others.
-double lagrange(int degree, double node, double x) {
-  double value = 1;
-  for (int other = 0; other <= degree; ++other)
-    if (const double at = double(other) / degree; std::abs(at - node) > 1e-9) value *= (x - at) / (node - at);
-  return value;
-}
-
-} // namespace
-
-DisplacementNorms::DisplacementNorms(int degree, const std::vector<Vector3d>& nodes) {
-  const int n = degree + 1; // Gauss points along an axis, x fastest
-  const double offset = degree == 1 ? 0.5 / std::sqrt(3.) : std::sqrt(0.15);
-  for (int q = 0; q < n * n * n; ++q)
-    for (const Vector3d& node : nodes) {
-      double& value = shape_.emplace_back(1);
-      const int place[3] = {q % n, q / n % n, q / (n * n)};
-      for (int a = 0; a < 3; ++a)
-        value *= lagrange(degree, node[a], 0.5 + (2. * place[a] / degree - 1) * offset);
-    }
-}
-
-void DisplacementNorms::add(const CellGeometry& geometry, const double* displacement) {
-  const int n = geometry.n_nodes;
-  for (int q = 0; q < geometry.n_points; ++q) {
-    Vector3d value = Vector3d::Zero();
-    for (int a = 0; a < n; ++a) value += shape_[index(q * n + a)] * Vector3d(displacement + 3 * a);
-    integral_ += geometry.weights[q] * value.squaredNorm();
-    volume_ += geometry.weights[q];
+cases::FieldNorms displacement_norms(const ElementsInState& elements, const cases::Sharing* sharing) {
+  const int degree = elements.type.degree, n = degree + 1;
+  const Cuboid cuboid(degree, 0, Vector3d::Ones());
+  std::vector<std::size_t> number; // each node's in the cuboid
+  for (const Vector3d& node : elements.nodes) {
+    const Eigen::Vector3i at = (degree * node).array().round().cast<int>();
+    number.push_back(index(at.x() + n * (at.y() + n * at.z())));
   }
-  for (int a = 0; a < n; ++a) largest_ = mechanics::larger(largest_, Vector3d(displacement + 3 * a).norm());
+  double integral = 0, volume = 0, largest = 0;
+  elements.for_each([&](const ElementState& element) {
+    const auto at_node = [&](std::size_t a) { return Vector3d(element.displacement + 3 * a); };
+    for (std::size_t q = 0; q < index(element.geometry.n_points); ++q) {
+      Vector3d value = Vector3d::Zero();
+      for (std::size_t a = 0; a < number.size(); ++a)
+        value += cuboid.values()[q * number.size() + number[a]] * at_node(a);
+      integral += element.geometry.weights[q] * value.squaredNorm();
+      volume += element.geometry.weights[q];
+    }
+    for (std::size_t a = 0; a < number.size(); ++a) largest = mechanics::larger(largest, at_node(a).norm());
+  });
+  if (!sharing) return {std::sqrt(integral / volume), largest};
+  return {std::sqrt(sharing->sum(integral) / sharing->sum(volume)), sharing->largest(largest)};
 }
 
-cases::FieldNorms DisplacementNorms::norms(const cases::Sharing* sharing) const {
-  if (!sharing) return {std::sqrt(integral_ / volume_), largest_};
-  return {std::sqrt(sharing->sum(integral_) / sharing->sum(volume_)), sharing->largest(largest_)};
-}
-
-bool has_own_norms(const cases::Case& definition, int degree) {
+std::optional<cases::FieldNorms> norms_of(const ElementsInState& elements, const cases::Sharing* sharing) {
+  const cases::Case& definition = elements.scene.definition;
   const auto is_norm = [](const cases::Measure& measure) { return cases::is_field_norm(measure.kind); };
-  return (degree > 1 || definition.fem.refine > 0) &&
-         std::any_of(definition.measures.begin(), definition.measures.end(), is_norm);
+  const bool are_measured = (elements.type.degree > 1 || definition.fem.refine > 0) &&
+                            std::any_of(definition.measures.begin(), definition.measures.end(), is_norm);
+  return are_measured ? std::optional(displacement_norms(elements, sharing)) : std::nullopt;
 }
 
 } // namespace springproof::fem_reference

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/element.hpp"
+#include "fem_reference/laws/formulation.hpp"
 #include "mechanics/field_sums.hpp"
 
 namespace springproof::fem_reference {
@@ -16,52 +16,35 @@ struct ElementPlace {
 /// number's last three bits being the octant.
 ElementPlace place_of(std::size_t refined_cell, int n_refinements);
 
-/// What one element adds to the fields. Arrays are laid out as in CellKernel::evaluate().
+/// An element in a state. Arrays are laid out as in CellKernel::evaluate().
 struct ElementState {
   ElementPlace place;
   CellGeometry geometry;
   const double* displacement; ///< mm
-  const double* force;        ///< internal, N: CellResult::plain_force
-  double energy;              ///< N mm
+  const double* pressure;     ///< MPa
 };
 
-/// Adds elements up to fields on the body's own mesh, refined or not: the forces of the elements' nodes go to
-/// the vertices of the body's cell by its trilinear shape functions, so that the sum over a support is the
-/// support's force on every mesh, and a node's has a limit under refinement.
-class ElementFields {
- public:
-  /// @param scene  the scene on the body's own mesh    @param nodes  an element's nodes in its unit cube
-  /// @param cells  range that contains the body's cells of all elements to be added
-  ElementFields(const cases::Scene& scene, Kinematics kinematics, std::vector<Eigen::Vector3d> nodes,
-                const cases::Range& cells);
-
-  void add(const ElementState& element);
-  /// Fields of an equilibrium under the scene's loads times a factor: mechanics::fields_of(). Call it once.
-  cases::Fields fields(const cases::Sharing* sharing, double load_factor);
-
- private:
-  const cases::Scene& scene_;
-  Kinematics kinematics_;
-  std::vector<Eigen::Vector3d> nodes_;
-  mechanics::FieldSums sums_;
+/// The elements of a body in a state, as its fields and norms are made of them.
+struct ElementsInState {
+  const cases::Scene& scene;             ///< on the body's own mesh
+  std::vector<Formulation> formulations; ///< one for each of its materials
+  ElementType type;
+  std::vector<Eigen::Vector3d> nodes; ///< an element's, in its unit cube
+  cases::Range cells;                 ///< contains the body's cells of all elements here
+  /// Calls action(element). Of the ranks that share a state, one has each element.
+  std::function<void(const std::function<void(const ElementState&)>& action)> for_each;
 };
 
-/// Norms of the elements' own displacement over the body at rest, of all of its nodes.
-class DisplacementNorms {
- public:
-  /// @param nodes  an element's nodes in its unit cube
-  DisplacementNorms(int degree, const std::vector<Eigen::Vector3d>& nodes);
-  /// @param displacement  mm, as in CellKernel::evaluate()
-  void add(const CellGeometry& geometry, const double* displacement);
-  /// Collective.
-  cases::FieldNorms norms(const cases::Sharing* sharing) const;
+/// Fields of an equilibrium under the scene's loads times a factor, on the body's own mesh: the forces of the
+/// elements' nodes go to the vertices of the body's cell by its trilinear shape functions, so that the sum
+/// over a support is the support's force on every mesh, and a node's has a limit under refinement.
+/// Collective.  @param sharing  the solution's
+cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* sharing, double load_factor);
 
- private:
-  std::vector<double> shape_; ///< N_a at Gauss point q: [q*n_nodes + a]
-  double integral_ = 0, volume_ = 0, largest_ = 0;
-};
+/// Norms of the elements' own displacement over the body at rest, of all of its nodes. Collective.
+cases::FieldNorms displacement_norms(const ElementsInState& elements, const cases::Sharing* sharing);
 
-/// Whether a case measures displacement norms that need more than the nodes of the body's mesh.
-bool has_own_norms(const cases::Case& definition, int degree);
+/// The same if the case measures norms that need more than the nodes of the body's mesh.
+std::optional<cases::FieldNorms> norms_of(const ElementsInState& elements, const cases::Sharing* sharing);
 
 } // namespace springproof::fem_reference

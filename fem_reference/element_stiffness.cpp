@@ -2,7 +2,6 @@
 
 #include "cases/case/error.hpp"
 #include "fem_reference/law_kernel.hpp"
-#include "fem_reference/laws/isotropic.hpp"
 #include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>

@@ -6,13 +6,121 @@
 
 namespace springproof::fem_reference {
 
+using cases::index;
 using mechanics::petsc::total;
+
+Assembly::Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations)
+    : discretisation_(discretisation), kernels_(kernels_of(formulations, discretisation.element)),
+      tangent_(discretisation.make_tangent_matrix()) {
+  const std::size_t n_dofs = 3 * index(discretisation.nodes.per_cell);
+  pressure_residual_.resize(index(discretisation.nodes.n_cells) *
+                            index(discretisation.element.n_pressure_modes));
+  pressure_slope_.resize(n_pressures() * n_dofs);
+  cell_displacement_.resize(n_dofs);
+  rows_.resize(n_dofs);
+}
+
+std::size_t Assembly::dof(int cell, std::size_t k) const {
+  const auto n = index(discretisation_.nodes.per_cell);
+  return 3 * index(discretisation_.nodes.of_cell[index(cell) * n + k % n]) + k / n;
+}
+
+CellKernel& Assembly::kernel(int cell) const {
+  const auto& material = discretisation_.material_of_cell;
+  return *kernels_[material.empty() ? 0 : index(material[index(cell)])];
+}
+
+const double* Assembly::pressure(int cell, const State& state) const {
+  return state.data() + n_displacements() + cell * discretisation_.element.n_pressure_modes;
+}
+
+const double* Assembly::displacement(int cell, const State& state) {
+  const Nodes& nodes = discretisation_.nodes;
+  const auto n = index(nodes.per_cell);
+  for (std::size_t a = 0; a < n; ++a)
+    std::copy_n(state.data() + 3 * nodes.of_cell[index(cell) * n + a], 3, cell_displacement_.data() + 3 * a);
+  return cell_displacement_.data();
+}
+
+/// Rows and columns of constrained degrees of freedom are left out.
+void Assembly::add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
+                           const WriteEntries& condensed) {
+  const std::size_t n_dofs = rows_.size();
+  for (std::size_t k = 0; k < n_dofs; ++k) {
+    rows_[k] = static_cast<PetscInt>(dof(cell, k));
+    condensed[index(rows_[k])] += result.force[k];
+  }
+  for (std::size_t l = 0; l < n_dofs; ++l) {
+    const double change = gap[index(rows_[l])];
+    for (std::size_t k = 0; k < n_dofs && change != 0; ++k)
+      condensed[index(rows_[k])] += result.tangent(k, l) * change;
+  }
+  for (PetscInt& row : rows_)
+    if (discretisation_.constraints.is_constrained[index(row)]) row = -1; // PETSc ignores it
+  const auto size = static_cast<PetscInt>(n_dofs);
+  check(MatSetValuesLocal(tangent(), size, rows_.data(), size, rows_.data(), result.tangent.data(),
+                          ADD_VALUES));
+  const auto first = cell * discretisation_.element.n_pressure_modes;
+  std::copy(result.pressure_residual.begin(), result.pressure_residual.end(),
+            pressure_residual_.begin() + first);
+  std::copy_n(result.pressure_slope.data(), result.pressure_slope.size(),
+              pressure_slope_.begin() + first * size);
+}
+
+std::optional<double> Assembly::assemble(const State& state, const std::vector<double>& gap, Wanted wanted,
+                                         Vec force, Vec condensed) {
+  const auto& d = discretisation_;
+  const bool wants_tangent = wanted == Wanted::stress_and_tangent;
+  std::optional<double> volume_mismatch = 0;
+  if (wants_tangent) {
+    check(MatZeroEntries(tangent()));
+    for (int i = 0; i < 3 * d.nodes.n_owned; ++i)
+      if (d.constraints.is_constrained[index(i)]) check(MatSetValueLocal(tangent(), i, i, 1, ADD_VALUES));
+  }
+  {
+    const WriteEntries plain(force), with_pressures(condensed);
+    std::fill_n(plain.data(), n_displacements(), 0.);
+    if (wants_tangent) std::fill_n(with_pressures.data(), n_displacements(), 0.);
+    for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
+      const CellResult& result = kernel(cell).evaluate(d.geometry.of(cell), displacement(cell, state),
+                                                       pressure(cell, state), wanted);
+      if (!result.valid) {
+        volume_mismatch.reset();
+        break;
+      }
+      *volume_mismatch = std::max(*volume_mismatch, result.volume_mismatch);
+      for (std::size_t k = 0; k < rows_.size(); ++k) plain[dof(cell, k)] += result.plain_force[k];
+      if (wants_tangent) add_tangent(cell, result, gap, with_pressures);
+    }
+  }
+  mechanics::petsc::add_ghosts(force);
+  if (!wants_tangent) return volume_mismatch;
+  mechanics::petsc::add_ghosts(condensed);
+  check(MatAssemblyBegin(tangent(), MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(tangent(), MAT_FINAL_ASSEMBLY));
+  return volume_mismatch;
+}
+
+void Assembly::complete_correction(State& correction) const {
+  const std::size_t n_dofs = rows_.size(), n_modes = index(discretisation_.element.n_pressure_modes);
+  for (std::size_t m = 0; m < n_pressures(); ++m) {
+    double change = pressure_residual_[m];
+    for (std::size_t k = 0; k < n_dofs; ++k)
+      change += pressure_slope_[m * n_dofs + k] * correction.data()[dof(static_cast<int>(m / n_modes), k)];
+    correction.data()[n_displacements() + m] = change;
+  }
+}
+
+void Assembly::pressures_are_balanced() {
+  std::fill(pressure_residual_.begin(), pressure_residual_.end(), 0.);
+}
 
 EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
                                            const std::vector<Formulation>& formulations)
-    : DistributedProblem(discretisation.communicator), discretisation_(discretisation),
-      formulation_(formulations.front()), assembly_(discretisation, formulations),
-      solver_(discretisation, assembly_.tangent(), formulation_.symmetry),
+    : DistributedProblem(discretisation.communicator, discretisation.element.pressure == Pressure::modes,
+                         formulations.front().kinematics == Kinematics::linear),
+      discretisation_(discretisation), assembly_(discretisation, formulations),
+      solver_(discretisation, assembly_.tangent(), formulations.front().symmetry),
       force_(discretisation.make_vector()), right_hand_side_(discretisation.make_vector()),
       correction_(discretisation.make_vector()), inertia_force_(discretisation.make_vector()) {
   const auto& d = discretisation_;
@@ -49,11 +157,6 @@ bool EquilibriumEquations::direction(const State& at, const State&, double load_
   return true;
 }
 
-mechanics::Merit EquilibriumEquations::merit() const {
-  const bool saddle_point = discretisation_.element.pressure == Pressure::modes;
-  return saddle_point || is_linear() || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
-}
-
 std::optional<bool> EquilibriumEquations::is_stable(const State&) {
   negative_eigenvalues_ = solver_.negative_eigenvalues();
   return negative_eigenvalues_ ? std::optional(*negative_eigenvalues_ == 0) : std::nullopt;
@@ -84,22 +187,15 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
 void EquilibriumEquations::set_in_motion(const cases::Scene& scene,
                                          const std::vector<Formulation>& formulations) {
   const auto& d = discretisation_;
-  motion_.emplace(Motion{make_inertia(scene, d, formulations), {}, {}, d.make_vector()});
-  cases::Scene alone = scene;
-  for (const auto& applied : scene.loads) {
-    alone.loads = {applied};
+  motion_.emplace(Motion{make_inertia(scene, d, formulations), {}});
+  set_loads(scene, [&](const cases::Scene& alone) {
     const std::vector<double> load = d.load_of(alone);
     State force = rest();
     for (std::size_t i = 0; i < load.size(); ++i)
       if (!d.constraints.is_constrained[i]) force[static_cast<Eigen::Index>(i)] = load[i];
-    motion_->loads.emplace_back(applied.load.history, force);
-  }
+    return force;
+  });
   motion_->added = 0. * motion_->inertia.mass + 0. * motion_->inertia.damping; // the pattern of every step
-}
-
-void EquilibriumEquations::external_force(double time, State& force) {
-  force = rest();
-  for (const mechanics::LoadInTime& load : motion_->loads) load.add(time, force);
 }
 
 void EquilibriumEquations::supports_at(double time, State& displacement) const {
@@ -118,36 +214,42 @@ void EquilibriumEquations::set_step(const mechanics::StepTerms& terms) {
   has_tangent_ = false;
 }
 
+namespace {
+
+void write(const State& from, Vec to) {
+  const WriteEntries entries(to);
+  Eigen::Map<State>(entries.data(), from.size()) = from;
+}
+
+} // namespace
+
+/// Returns a motion's degrees of freedom, those of other ranks brought up to date.
+State EquilibriumEquations::with_ghosts(const State& motion) {
+  const auto n = static_cast<Eigen::Index>(n_dofs());
+  write(motion.head(n), correction_.get());
+  mechanics::petsc::update_ghosts(correction_.get());
+  const ReadEntries all(correction_.get());
+  return Eigen::Map<const State>(all.data(), n);
+}
+
+/// Sets inertia_force_ to a matrix, which all ranks add to, times a motion with current ghosts.
+void EquilibriumEquations::set_inertia_force(const LocalMatrix& matrix, const State& motion) {
+  write(matrix * motion, inertia_force_.get());
+  mechanics::petsc::add_ghosts(inertia_force_.get());
+}
+
 /// Multiplies on free degrees of freedom of this rank; the product is 0 elsewhere.
 void EquilibriumEquations::multiply(const LocalMatrix& matrix, const State& motion, State& product) {
-  const auto n = static_cast<Eigen::Index>(n_dofs());
-  {
-    const WriteEntries all(motion_->moved.get());
-    Eigen::Map<State>(all.data(), n) = motion.head(n);
-  }
-  mechanics::petsc::update_ghosts(motion_->moved.get());
-  {
-    const ReadEntries from(motion_->moved.get());
-    const WriteEntries to(inertia_force_.get());
-    Eigen::Map<State>(to.data(), n) = matrix * Eigen::Map<const State>(from.data(), n);
-  }
-  mechanics::petsc::add_ghosts(inertia_force_.get());
+  set_inertia_force(matrix, with_ghosts(motion));
   product.setZero(motion.size());
   const ReadEntries of_all(inertia_force_.get());
   for (int i = 0; i < 3 * discretisation_.nodes.n_owned; ++i)
-    if (!discretisation_.constraints.is_constrained[cases::index(i)]) product[i] = of_all[i];
+    if (!discretisation_.constraints.is_constrained[index(i)]) product[i] = of_all[i];
 }
 
 void EquilibriumEquations::complete(State& motion) {
-  const auto n = static_cast<Eigen::Index>(n_dofs());
-  {
-    const WriteEntries all(correction_.get());
-    Eigen::Map<State>(all.data(), n) = motion.head(n);
-  }
-  mechanics::petsc::update_ghosts(correction_.get());
-  const ReadEntries all(correction_.get());
-  motion.head(n) = Eigen::Map<const State>(all.data(), n);
-  if (!is_linear() || assembly_.n_pressures() == 0) return;
+  motion.head(static_cast<Eigen::Index>(n_dofs())) = with_ghosts(motion);
+  if (!is_linear_ || assembly_.n_pressures() == 0) return;
   if (!has_tangent_) evaluate(rest(), 0, Wanted::stress_and_tangent);
   assembly_.pressures_are_balanced();
   assembly_.complete_correction(motion);
@@ -163,11 +265,7 @@ double EquilibriumEquations::load(std::size_t dof, double load_factor) const {
 void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
   const auto n = static_cast<Eigen::Index>(n_dofs());
   const auto add = [&](const State& way, Vec to) {
-    {
-      const WriteEntries product(inertia_force_.get());
-      Eigen::Map<State>(product.data(), n) = motion_->added * way;
-    }
-    mechanics::petsc::add_ghosts(inertia_force_.get());
+    set_inertia_force(motion_->added, way);
     const ReadEntries product(inertia_force_.get());
     const WriteEntries sum(to);
     for (std::size_t i = 0; i < discretisation_.load.size(); ++i) sum[i] += product[i];
@@ -186,11 +284,11 @@ void EquilibriumEquations::add_to_tangent(const LocalMatrix& added) {
   std::vector<PetscInt> columns;
   std::vector<PetscScalar> values;
   for (PetscInt row = 0; row < added.rows(); ++row) {
-    if (is_constrained[cases::index(row)]) continue;
+    if (is_constrained[index(row)]) continue;
     columns.clear();
     values.clear();
     for (LocalMatrix::InnerIterator entry(added, row); entry; ++entry) {
-      if (is_constrained[cases::index(entry.col())]) continue;
+      if (is_constrained[index(entry.col())]) continue;
       columns.push_back(static_cast<PetscInt>(entry.col()));
       values.push_back(entry.value());
     }
@@ -204,7 +302,7 @@ void EquilibriumEquations::add_to_tangent(const LocalMatrix& added) {
 /// Evaluates with the tangent and the right side. A linear body's tangent, once assembled, is left as it is:
 /// it cannot have changed. The state's pressures are balanced: at rest or solved for.
 void EquilibriumEquations::evaluate_for_direction(const State& state, double load_factor) {
-  if (is_linear() && has_tangent_) {
+  if (is_linear_ && has_tangent_) {
     evaluate(state, load_factor, Wanted::stress);
     // The tangent is needed for the forces of supports that have to move; supports that a step in time has
     // moved leave pressures behind.
@@ -237,12 +335,8 @@ void EquilibriumEquations::measure(std::optional<double> volume_mismatch, double
   }
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
-  // A body moved by prescribed displacements alone is measured against its reactions; one in motion that is
-  // moved by them, against these if they are the larger.
-  double scale = step_ ? step_->scale : load_norm_;
-  if (step_ ? d.constraints.are_moved : !(load_norm_ > 0))
-    scale = std::max(scale, std::sqrt(total(reaction, MPI_SUM, communicator_)));
-  size_.relative = imbalance == 0 ? 0 : imbalance / scale;
+  reaction = std::sqrt(total(reaction, MPI_SUM, communicator_));
+  size_.relative = imbalance == 0 ? 0 : imbalance / scale(d.constraints.are_moved, reaction);
   size_.constraints_hold =
       total(volume_mismatch.value_or(0), MPI_MAX, communicator_) <= volume_tolerance && largest_gap_ <= 1e-12;
   if (total(volume_mismatch ? 1 : 0, MPI_MIN, communicator_) == 0 || !std::isfinite(imbalance))

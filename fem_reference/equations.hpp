@@ -1,12 +1,65 @@
 #pragma once
 
-#include "fem_reference/assembly.hpp"
+#include "fem_reference/discretisation.hpp"
 #include "fem_reference/element_equations.hpp"
 #include "fem_reference/inertia.hpp"
+#include "fem_reference/laws/formulation.hpp"
 #include "fem_reference/linear_solver.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
 namespace springproof::fem_reference {
+
+/// Displacement of every local degree of freedom (ghosts current, mm), then the pressures of this rank's
+/// cells (MPa, n_pressure_modes per cell).
+using State = mechanics::Vector;
+
+/// The loop over cells: internal forces, the assembled tangent, and what the condensed pressures need.
+class Assembly {
+ public:
+  /// @param formulations  one for each of the discretisation's materials
+  Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
+
+  /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
+  /// @param force      becomes the internal force, N
+  /// @param condensed  when a tangent is wanted, becomes the internal force with the pressures' imbalance and
+  ///                   what the gap will add to it, N
+  /// @return the largest volume mismatch of this rank's cells; nothing when one of them is inverted at a
+  ///         quadrature point, or not a number: sums are then incomplete
+  std::optional<double> assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
+                                 Vec condensed);
+
+  /// Sets the pressures that belong to a correction's displacement.
+  void complete_correction(State& correction) const;
+  /// Takes the pressures of the current state as balanced, for a linear body's next correction.
+  void pressures_are_balanced();
+  /// Calls action(cell, its geometry, displacement, pressure) for this rank's cells.
+  template<class Action>
+  void for_each_cell(const State& state, const Action& action) {
+    for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
+      action(cell, discretisation_.geometry.of(cell), displacement(cell, state), pressure(cell, state));
+  }
+
+  std::size_t n_pressures() const { return pressure_residual_.size(); }
+  Mat tangent() const { return tangent_.get(); }
+
+ private:
+  CellKernel& kernel(int cell) const;
+  const double* pressure(int cell, const State& state) const;
+  /// Displacement of a cell's nodes, mm, kept until the next call.
+  const double* displacement(int cell, const State& state);
+  void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
+                   const WriteEntries& condensed);
+  /// Local degree of freedom k of a cell, in the order of its forces.
+  std::size_t dof(int cell, std::size_t k) const;
+  std::size_t n_displacements() const { return discretisation_.constraints.is_constrained.size(); }
+
+  const Discretisation& discretisation_;
+  std::vector<std::unique_ptr<CellKernel>> kernels_; ///< one for each material
+  Matrix tangent_;
+  std::vector<double> pressure_residual_, pressure_slope_; ///< C^-1 R and C^-1 B of every cell
+  std::vector<double> cell_displacement_;
+  std::vector<PetscInt> rows_;
+};
 
 constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
 
@@ -27,9 +80,6 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   Size size(const State& /*residual*/, const State& /*at*/) override { return size_; }
   bool direction(const State& at, const State& residual, double load_factor, double forcing,
                  mechanics::Convexity convexity, State& step) override;
-  /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
-  /// exact.
-  mechanics::Merit merit() const override;
   /// Stability by the tangent last solved with.
   std::optional<bool> is_stable(const State& at) override;
   Work work() const override { return {solver_.n_iterations(), solver_.n_factorisations(), n_evaluations_}; }
@@ -37,8 +87,6 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   std::size_t n_unknowns() const override {
     return static_cast<std::size_t>(discretisation_.constraints.n_unknowns);
   }
-
-  std::optional<int> negative_eigenvalues() const override { return negative_eigenvalues_; }
 
   /// Gives the body a scene's masses, damping and loads in time, which the functions below use.
   /// @param scene         the discretisation's, already refined
@@ -50,7 +98,6 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   void damping_product(const State& motion, State& product) override {
     multiply(motion_->inertia.damping, motion, product);
   }
-  void external_force(double time, State& force) override;
   void supports_at(double time, State& displacement) const override;
   /// Completes a velocity whose own degrees of freedom are given: sets those of other ranks and, in a linear
   /// body, the pressures that belong to them.
@@ -58,27 +105,25 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   /// Makes residuals those of the step, relative to its scale, whatever the load factor.
   void set_step(const mechanics::StepTerms& terms) override;
 
-  /// Deformed volume of this rank's cells, mm³, with the element's own displacement.
-  std::vector<double> cell_volumes(const State& state) { return assembly_.cell_volumes(state); }
-  void add_norms(const State& state, DisplacementNorms& norms) { assembly_.add_norms(state, norms); }
   /// See Assembly.
-  void add_fields(const State& state, int n_refinements, ElementFields& fields) {
-    assembly_.add_fields(state, n_refinements, fields);
+  template<class Action>
+  void for_each_cell(const State& state, const Action& action) {
+    assembly_.for_each_cell(state, action);
   }
 
  private:
   std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }
-  bool is_linear() const { return formulation_.kinematics == Kinematics::linear; }
   void evaluate(const State& state, double load_factor, Wanted wanted);
   void evaluate_for_direction(const State& state, double load_factor);
   double load(std::size_t dof, double load_factor) const;
   void add_inertia(const State& state, Wanted wanted);
   void multiply(const LocalMatrix& matrix, const State& motion, State& product);
+  State with_ghosts(const State& motion);
+  void set_inertia_force(const LocalMatrix& matrix, const State& motion);
   void add_to_tangent(const LocalMatrix& added);
   void measure(std::optional<double> volume_mismatch, double load_factor);
 
   const Discretisation& discretisation_;
-  Formulation formulation_; ///< the first material's
   Assembly assembly_;
   LinearSolver solver_;
   Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
@@ -87,21 +132,15 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   Vector inertia_force_;   ///< what a step in time adds
   struct Motion {
     Inertia inertia;
-    std::vector<mechanics::LoadInTime> loads;
     LocalMatrix added; ///< mass M + damping C of the step, N/mm; its pattern is part of the tangent's
-    Vector moved;      ///< with ghosts
   };
   std::optional<Motion> motion_; ///< present for a body in motion
-  std::optional<mechanics::StepTerms> step_;
-  double load_norm_ = 0;
   long n_evaluations_ = 0, n_tangents_ = 0;
   bool has_tangent_ = false; ///< it was assembled at a valid state
   // results for the state last evaluated
   bool has_right_hand_side_ = false;
   Size size_ = {};                     ///< not finite: inverted at a quadrature point, or not a number
   std::vector<double> prescribed_gap_; ///< mm per local degree of freedom
-  double largest_gap_ = 0;             ///< mm
-  std::optional<int> negative_eigenvalues_;
 };
 
 } // namespace springproof::fem_reference

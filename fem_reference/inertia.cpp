@@ -23,28 +23,19 @@ Eigen::MatrixXd node_masses(const Discretisation& d, int cell, double density, c
   return mass;
 }
 
-/// The cell's tangent at rest; degree of freedom i*n_nodes + a is component i of node a.
-class RestStiffness {
- public:
-  RestStiffness(const Discretisation& d, const std::vector<Formulation>& formulations)
-      : d_(d), displacement_(3 * index(d.nodes.per_cell), 0.),
-        pressure_(index(d.element.n_pressure_modes), 0.) {
-    for (const Formulation& formulation : formulations)
-      kernels_.push_back(formulation.make_kernel(d.element));
-  }
-  const RowMajorMatrix& of(int cell) {
-    const auto& material = d_.material_of_cell;
-    CellKernel& kernel = *kernels_[material.empty() ? 0 : index(material[index(cell)])];
-    return kernel
-        .evaluate(d_.geometry.of(cell), displacement_.data(), pressure_.data(), Wanted::stress_and_tangent)
-        .tangent;
-  }
-
- private:
-  const Discretisation& d_;
-  std::vector<std::unique_ptr<CellKernel>> kernels_;
-  std::vector<double> displacement_, pressure_; ///< 0
-};
+/// Returns a function of a cell, its tangent at rest; degree of freedom i*n_nodes + a is component i of node
+/// a.
+auto rest_stiffness_of_cells(const Discretisation& d, const std::vector<Formulation>& formulations) {
+  return
+      [&d, kernels = kernels_of(formulations, d.element),
+       displacement = std::vector<double>(3 * index(d.nodes.per_cell)),
+       pressure = std::vector<double>(index(d.element.n_pressure_modes))](int cell) -> const RowMajorMatrix& {
+        const auto& material = d.material_of_cell;
+        return kernels[material.empty() ? 0 : index(material[index(cell)])]
+            ->evaluate(d.geometry.of(cell), displacement.data(), pressure.data(), Wanted::stress_and_tangent)
+            .tangent;
+      };
+}
 
 /// Adds a factor times a cell's tangent at rest.
 void add_stiffness(const Discretisation& d, int cell, const RowMajorMatrix& tangent, double factor,
@@ -68,7 +59,7 @@ LocalMatrix matrix_of(const Triplets& entries, std::size_t n) {
 Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
                      const std::vector<Formulation>& formulations) {
   const int n = d.nodes.per_cell;
-  RestStiffness stiffness(d, formulations);
+  const auto stiffness = rest_stiffness_of_cells(d, formulations);
   Triplets mass, damping;
   for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
     const auto dynamics = cases::dynamics_of(scene, index(d.nodes.mesh_cell[index(cell)]));
@@ -84,7 +75,7 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
           add(damping, a, b, i, dynamics.mass_damping * of_nodes(a, b));
         }
     if (dynamics.stiffness_damping > 0)
-      add_stiffness(d, cell, stiffness.of(cell), dynamics.stiffness_damping, damping);
+      add_stiffness(d, cell, stiffness(cell), dynamics.stiffness_damping, damping);
   }
   const cases::NodeMasses added = cases::added_masses(scene);
   for (int node = 0; node < d.nodes.n_owned; ++node) {
@@ -96,9 +87,9 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
 }
 
 LocalMatrix rest_stiffness(const Discretisation& d, const std::vector<Formulation>& formulations) {
-  RestStiffness stiffness(d, formulations);
+  const auto stiffness = rest_stiffness_of_cells(d, formulations);
   Triplets entries;
-  for (int cell = 0; cell < d.nodes.n_cells; ++cell) add_stiffness(d, cell, stiffness.of(cell), 1, entries);
+  for (int cell = 0; cell < d.nodes.n_cells; ++cell) add_stiffness(d, cell, stiffness(cell), 1, entries);
   return matrix_of(entries, d.constraints.is_constrained.size());
 }
 

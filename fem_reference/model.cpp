@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "fem_reference/assembled_body.hpp"
+#include "fem_reference/grid/grid_body.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "fem_reference/solved_body.hpp"
 
@@ -26,99 +27,71 @@ Eigen::SparseMatrix<double> on_free_dofs(const LocalMatrix& all, const std::vect
 
 } // namespace
 
+/// A model on the grid, until its multigrid proves not to serve, or an assembled one.
 struct Model::Implementation {
-  virtual ~Implementation() = default;
-  virtual cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings) = 0;
-  virtual void back_to_rest() = 0;
-  virtual cases::Fields fields(const cases::Sharing* sharing) = 0;
-  virtual std::vector<double> node_displacements() const = 0; ///< this rank's, as from the bodies
+  MPI_Comm communicator;
+  std::optional<SolvedBody<grid::GridBody>> grid{};
+  std::optional<SolvedBody<AssembledBody>> assembled{}; ///< takes the grid's place
+  bool stays_on_grid = false;
+
+  template<class Action>
+  auto with_body(const Action& action) {
+    return assembled ? action(*assembled) : action(*grid);
+  }
+
+  /// Blames multigrid and not the body for a failed path if multigrid fails the body at rest too, or is known
+  /// to. It may be to blame if no load at all was reached: bending a long body of nu = 0.499 is too much for
+  /// multigrid, which the first small step from rest does not show. A body that can be factorised is then
+  /// solved once more.
+  bool is_multigrid_to_blame(const cases::SolveError& error) {
+    const cases::Scene& scene = grid->body.scene;
+    return grid::bulk_over_shear(scene) > most_incompressible ||
+           (error.so_far().load_reached == 0 && takes_factorisation(n_element_nodes(scene))) ||
+           !grid->body.can_leave_rest();
+  }
 };
-
-template<class Body>
-struct Model::Of : Model::Implementation, SolvedBody<Body> {
-  using Solved = SolvedBody<Body>;
-  using Solved::Solved, Solved::body, Solved::last;
-
-  cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings) override {
-    cases::Solution solution = Solved::solve(load_factor, settings);
-    solution.norms = norms_of(body, last, solution.sharing.get());
-    return solution;
-  }
-  void back_to_rest() override { Solved::back_to_rest(); }
-  cases::Fields fields(const cases::Sharing* sharing) override {
-    return fields_of(body, last, sharing, Solved::last_load_factor);
-  }
-  std::vector<double> node_displacements() const override { return body.node_displacements(last); }
-};
-
-/// A model on the grid, until its multigrid proves not to serve.
-struct Model::OnGrid : Model::Implementation {
-  OnGrid(const cases::Scene& scene, MPI_Comm communicator) : grid(scene, communicator) {}
-  cases::Solution solve(double load_factor, const mechanics::EquilibriumSettings& settings) override;
-  void back_to_rest() override {
-    grid.back_to_rest();
-    if (assembled) assembled->back_to_rest();
-  }
-  cases::Fields fields(const cases::Sharing* sharing) override {
-    return assembled ? assembled->fields(sharing) : grid.fields(sharing);
-  }
-  std::vector<double> node_displacements() const override {
-    return assembled ? assembled->node_displacements() : grid.node_displacements();
-  }
-
-  Of<grid::GridBody> grid;
-  std::unique_ptr<Of<AssembledBody>> assembled;
-};
-
-/// Blames multigrid and not the body for a failed path if multigrid fails the body at rest too, or is known
-/// to. It may be to blame if no load at all was reached: bending a long body of nu = 0.499 is too much for
-/// multigrid, which the first small step from rest does not show. A body that can be factorised is then
-/// solved once more.
-cases::Solution Model::OnGrid::solve(double load_factor, const mechanics::EquilibriumSettings& settings) {
-  const cases::Scene& scene = grid.body.scene;
-  if (!assembled) try {
-      return grid.solve(load_factor, settings);
-    } catch (const cases::SolveError& error) {
-      const bool may_be_multigrid =
-          grid::bulk_over_shear(scene) > most_incompressible ||
-          (error.so_far().load_reached == 0 && takes_factorisation(n_element_nodes(scene)));
-      if (!may_be_multigrid && grid.body.can_leave_rest()) throw;
-      assembled = std::make_unique<Of<AssembledBody>>(scene, grid.body.communicator);
-    }
-  cases::Solution solution = assembled->solve(load_factor, settings);
-  solution.message = by_assembled_tangent;
-  return solution;
-}
 
 Model::Model(const cases::Scene& scene, MPI_Comm communicator, Backend backend)
-    : communicator_(communicator) {
+    : implementation_(new Implementation{communicator}) {
   if (backend_of(scene, backend) == Backend::assembled)
-    implementation_ = std::make_unique<Of<AssembledBody>>(scene, communicator);
-  else if (backend == Backend::grid)
-    implementation_ = std::make_unique<Of<grid::GridBody>>(scene, communicator);
+    implementation_->assembled.emplace(scene, communicator);
   else
-    implementation_ = std::make_unique<OnGrid>(scene, communicator);
+    implementation_->grid.emplace(scene, communicator);
+  implementation_->stays_on_grid = backend == Backend::grid;
 }
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 
 cases::Solution Model::solve(const mechanics::EquilibriumSettings& settings) {
-  implementation_->back_to_rest();
-  return implementation_->solve(1, settings);
+  implementation_->with_body([](auto& elements) { elements.back_to_rest(); });
+  return solve_again(1, settings);
 }
 
 cases::Solution Model::solve_again(double load_factor, const mechanics::EquilibriumSettings& settings) {
-  return implementation_->solve(load_factor, settings);
+  auto& [communicator, grid, assembled, stays_on_grid] = *implementation_;
+  if (!assembled) try {
+      return grid->solve(load_factor, settings);
+    } catch (const cases::SolveError& error) {
+      if (stays_on_grid || !implementation_->is_multigrid_to_blame(error)) throw;
+      assembled.emplace(grid->body.scene, communicator);
+    }
+  cases::Solution solution = assembled->solve(load_factor, settings);
+  if (grid) solution.message = by_assembled_tangent;
+  return solution;
 }
 
 cases::Fields Model::fields(const cases::Sharing* sharing) {
-  return implementation_->fields(sharing);
+  return implementation_->with_body([&](auto& elements) {
+    return fields_of(elements.body.elements(elements.last, sharing), sharing, elements.last_load_factor);
+  });
 }
 
 std::vector<NodeDisplacement> Model::node_displacements() const {
+  const auto here = implementation_->with_body(
+      [](const auto& elements) { return elements.body.node_displacements(elements.last); });
   std::vector<NodeDisplacement> nodes;
   for (const std::vector<double>& part :
-       dealii::Utilities::MPI::all_gather(communicator_, implementation_->node_displacements()))
+       dealii::Utilities::MPI::all_gather(implementation_->communicator, here))
     for (const double* at = part.data(); at != part.data() + part.size(); at += 6)
       nodes.push_back({Eigen::Vector3d(at), Eigen::Vector3d(at + 3)});
   return nodes;
@@ -132,24 +105,17 @@ mechanics::IntegrationSettings default_steps() {
 
 cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSettings& settings,
                        Backend backend, MPI_Comm communicator) {
-  const auto followed = [&](auto& elements) {
-    cases::Solution solution = elements.follow(settings);
-    solution.norms = norms_of(elements.body, elements.last, solution.sharing.get());
-    return solution;
-  };
-  std::string message;
-  if (backend_of(scene, backend) == Backend::grid) {
+  const bool is_on_grid = backend_of(scene, backend) == Backend::grid;
+  if (is_on_grid) {
     SolvedBody<grid::GridBody> elements(scene, communicator);
     try {
-      return followed(elements);
+      return elements.follow(settings);
     } catch (const cases::SolveError&) {
       if (backend == Backend::grid || !elements.body.equations.linear_solver_failed()) throw;
     }
-    message = by_assembled_tangent;
   }
-  SolvedBody<AssembledBody> elements(scene, communicator);
-  cases::Solution solution = followed(elements);
-  solution.message = message;
+  cases::Solution solution = SolvedBody<AssembledBody>(scene, communicator).follow(settings);
+  if (is_on_grid) solution.message = by_assembled_tangent;
   return solution;
 }
 

@@ -44,10 +44,6 @@ class Model {
 
  private:
   struct Implementation;
-  template<class Body>
-  struct Of;
-  struct OnGrid;
-  MPI_Comm communicator_;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -1,4 +1,4 @@
-#include "fem_reference/petsc_options.hpp"
+#include "fem_reference/session.hpp"
 
 #include <regex>
 #include <sstream>

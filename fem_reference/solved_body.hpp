@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/scene/in_time.hpp"
+#include "fem_reference/element_fields.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
@@ -39,6 +40,7 @@ struct SolvedBody {
     last_load_factor = load_factor;
     cases::Solution solution = mechanics::to_solution(equilibrium);
     body.on_mesh().add_to(solution, last);
+    add_norms(solution);
     if (settings.stability != mechanics::Stability::ignore)
       solution.negative_eigenvalues = body.equations.negative_eigenvalues();
     return solution;
@@ -49,10 +51,17 @@ struct SolvedBody {
   cases::Solution follow(const mechanics::IntegrationSettings& settings) {
     body.set_in_motion(settings.newton);
     last = start_of_motion(settings.newton);
-    return mechanics::follow_motion(body.scene, body.equations, body.on_mesh(), last, settings);
+    cases::Solution solution =
+        mechanics::follow_motion(body.scene, body.equations, body.on_mesh(), last, settings);
+    add_norms(solution);
+    return solution;
   }
 
  private:
+  void add_norms(cases::Solution& solution) {
+    solution.norms = norms_of(body.elements(last, solution.sharing.get()), solution.sharing.get());
+  }
+
   /// State at the start of the motion: rest, or the static scene's equilibrium on the same nodes and cells.
   mechanics::Vector start_of_motion(const mechanics::EquilibriumSettings& settings) const {
     if (body.scene.definition.dynamics->start == cases::MotionStart::rest) return body.equations.rest();

@@ -3,7 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/installation.hpp"
 #include "compare/provenance/machine.hpp"
-#include "fem_reference/petsc_options.hpp"
+#include "fem_reference/session.hpp"
 
 #include <cstdlib>
 

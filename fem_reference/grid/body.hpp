@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fem_reference/grid/field.hpp"
+#include "cases/scene/scene.hpp"
+#include "fem_reference/grid/slab.hpp"
 
 #include <array>
 #include <functional>
@@ -85,5 +86,24 @@ Slab coarsen(const Slab& fine, const std::array<int, 3>& cells_of_coarse_grid, b
 /// The same body in cells that are `factor` fine ones along each axis: a coarse cell has the mean weight and
 /// parameters of its fine ones; a node is constrained where the fine node at its place is.
 Body coarsen(const Body& fine, const std::array<int, 3>& factor);
+
+/// Loads and supports of a body.
+struct Supported {
+  Field<double> load;                ///< N at full load; 0 on constrained entries
+  std::vector<std::ptrdiff_t> moved; ///< entries of a field whose displacement is prescribed and not 0
+  /// Their displacement (mm) at a load factor; empty when no rank has any. Collective.
+  std::function<std::vector<double>(double load_factor)> prescribed;
+  std::function<std::vector<double>(double time)> prescribed_at; ///< the same in a motion; s
+};
+
+/// The loads and motions of a scene on a rank's part of a grid.
+/// @param scene         the scene on the elements' mesh
+/// @param is_quadratic  elements have nodes on their edges and faces too: places are halves of them
+/// @param body          the body of `places`; its `free` is set
+Supported make_supported(const cases::Scene& scene, bool is_quadratic, const Places& places, Body& body);
+
+/// Loads of a scene, N at full load; 0 on constrained entries.
+/// @param scene, places  as in make_supported(), after which it may be called
+Field<double> make_load(const cases::Scene& scene, bool is_quadratic, const Places& places);
 
 } // namespace springproof::fem_reference::grid

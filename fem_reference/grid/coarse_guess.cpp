@@ -1,6 +1,5 @@
-#include "fem_reference/grid/coarse_guess.hpp"
-
 #include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/grid/grid_equations.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,6 +10,7 @@ namespace {
 
 using cases::index;
 using mechanics::Vector;
+using mechanics::grid::CoarseGuess;
 
 constexpr int fewest_nodes = 200;
 

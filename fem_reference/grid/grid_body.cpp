@@ -1,8 +1,7 @@
 #include "fem_reference/grid/grid_body.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "fem_reference/grid/coarse_guess.hpp"
-#include "fem_reference/grid/grid_equations.hpp"
+#include "fem_reference/cuboid.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/ranks/share_out.hpp"
 
@@ -97,52 +96,36 @@ std::unique_ptr<QuadraticElements> make_quadratic(const cases::Scene& scene, int
 
 } // namespace
 
-/// Parts that refer to each other.
-struct GridBody::Parts {
-  Parts(const cases::Scene& scene, MPI_Comm communicator, int n_threads, int cell_factor)
-      : factor(cell_factor * (is_quadratic(scene) ? 2 : 1)),
-        body(make_body(scene, factor, deal(cells_along(scene, factor), communicator, factor / cell_factor))),
-        places{scene.mesh.grid->origin, scene.mesh.grid->spacing / factor, body},
-        supported(make_supported(cases::refine(scene, scene.definition.fem.refine), is_quadratic(scene),
-                                 places, body)),
-        quadratic(make_quadratic(scene, cell_factor, body, n_threads)),
-        equations(body, supported, n_threads, quadratic.get()) {}
+GridBody::GridBody(const cases::Scene& on_mesh, MPI_Comm the_communicator, int n_threads)
+    : scene(on_mesh), communicator(the_communicator), n_threads_(n_threads),
+      cell_factor_(1 << scene.definition.fem.refine), factor_(cell_factor_ * (is_quadratic(scene) ? 2 : 1)),
+      body_(
+          make_body(scene, factor_, deal(cells_along(scene, factor_), communicator, factor_ / cell_factor_))),
+      places_{scene.mesh.grid->origin, scene.mesh.grid->spacing / factor_, body_},
+      supported_(make_supported(cases::refine(scene, scene.definition.fem.refine), is_quadratic(scene),
+                                places_, body_)),
+      quadratic_(make_quadratic(scene, cell_factor_, body_, n_threads)),
+      equations(body_, supported_, n_threads, quadratic_.get()) {}
 
-  int factor; ///< intervals of the grid of nodes along an edge of the body's own cells
-  Body body;
-  Places places;
-  Supported supported;
-  std::unique_ptr<QuadraticElements> quadratic;
-  GridEquations equations;
+Eigen::Vector3d GridBody::displacement_at(const Place& at, const Vector& state) const {
+  const std::ptrdiff_t entry = places_.entry(at), size = body_.layout.size;
+  return {state[entry], state[entry + size], state[entry + 2 * size]};
+}
 
-  Eigen::Vector3d displacement_at(const Place& at, const Vector& state) const {
-    const std::ptrdiff_t entry = places.entry(at), size = body.layout.size;
-    return {state[entry], state[entry + size], state[entry + 2 * size]};
-  }
-  /// Calls action(Part, its entry in the elements' layout) for the elements that the rank computes, cell by
-  /// cell. Where every rank computes all, for those of the cells that are its own.
-  template<class Action>
-  void for_each_own_element(const GridBody& of, const cases::Sharing* sharing, const Action& action) const {
-    const Slab& slab = body.slab;
-    const Layout& layout = quadratic ? quadratic->cells().layout : body.layout;
-    // the rank's elements have layers of their own
-    const Slab::Range layers = quadratic ? Slab::Range{0, quadratic->cells().cells[2]} : slab.own_layers();
-    const int first = quadratic ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
-    for_each_part(*of.scene.mesh.grid, of.cell_factor, first, layers, [&](const Part& part) {
-      if (!slab.is_shared() && sharing && !sharing->here().cells.has(part.cell)) return;
-      action(part, index(layout.cell(part.at[0], part.at[1], part.layer)));
-    });
-  }
-};
-
-GridBody::GridBody(const cases::Scene& on_mesh, MPI_Comm the_communicator, int threads)
-    : scene(on_mesh), communicator(the_communicator), n_threads(threads),
-      cell_factor(1 << scene.definition.fem.refine),
-      parts(std::make_unique<Parts>(scene, communicator, n_threads, cell_factor)),
-      equations(parts->equations) {}
-GridBody::GridBody(const cases::Scene& another, const GridBody& like)
-    : GridBody(another, like.communicator, like.n_threads) {}
-GridBody::~GridBody() = default;
+/// Calls action(Part, its entry in the elements' layout) for the elements that the rank computes, cell by
+/// cell. Where every rank computes all, for those of the cells that are its own.
+template<class Action>
+void GridBody::for_each_element(const cases::Sharing* sharing, const Action& action) const {
+  const Slab& slab = body_.slab;
+  const Layout& layout = quadratic_ ? quadratic_->cells().layout : body_.layout;
+  // the rank's quadratic elements have layers of their own
+  const Slab::Range layers = quadratic_ ? Slab::Range{0, quadratic_->cells().cells[2]} : slab.own_layers();
+  const int first = quadratic_ ? (slab.first_of_grid() + slab.computed().begin) / 2 : slab.first_of_grid();
+  for_each_part(*scene.mesh.grid, cell_factor_, first, layers, [&](const Part& part) {
+    if (!slab.is_shared() && sharing && !sharing->here().cells.has(part.cell)) return;
+    action(part, index(layout.cell(part.at[0], part.at[1], part.layer)));
+  });
+}
 
 mechanics::StateOnMesh GridBody::on_mesh() const {
   auto shared = mechanics::share_out(scene.mesh, communicator);
@@ -151,17 +134,16 @@ mechanics::StateOnMesh GridBody::on_mesh() const {
   const auto displacements = [this, sharing](const Vector& state) {
     std::vector<cases::Numbered<Eigen::Vector3d>> own;
     for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
-      if (!parts->body.slab.is_shared() && sharing && !sharing->here().own_nodes.has(n)) continue;
-      const Place at = parts->places.of(scene.mesh.nodes[n]);
-      if (parts->places.owns(at))
-        own.push_back({static_cast<std::int64_t>(n), parts->displacement_at(at, state)});
+      if (!body_.slab.is_shared() && sharing && !sharing->here().own_nodes.has(n)) continue;
+      const Place at = places_.of(scene.mesh.nodes[n]);
+      if (places_.owns(at)) own.push_back({static_cast<std::int64_t>(n), displacement_at(at, state)});
     }
     return own;
   };
   const auto cell_volumes = [this, sharing](const Vector& state) {
-    const std::vector<double> of_entries = parts->equations.cell_volumes(state);
+    const std::vector<double> of_entries = equations.cell_volumes(state);
     std::vector<cases::Numbered<double>> volumes;
-    parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t entry) {
+    for_each_element(sharing, [&](const Part& part, std::size_t entry) {
       const auto cell = static_cast<std::int64_t>(part.cell);
       if (volumes.empty() || volumes.back().number != cell) volumes.push_back({cell, 0.});
       volumes.back().value += of_entries[entry];
@@ -175,9 +157,9 @@ std::vector<double> GridBody::node_displacements(const Vector& state) const {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   std::vector<double> numbers;
-  if (rank > 0 && !parts->body.slab.is_shared()) return numbers; // every rank has all of them
-  parts->places.for_each([&](const Place& at) {
-    const Eigen::Vector3d rest = parts->places.rest(at), displacement = parts->displacement_at(at, state);
+  if (rank > 0 && !body_.slab.is_shared()) return numbers; // every rank has all of them
+  places_.for_each([&](const Place& at) {
+    const Eigen::Vector3d rest = places_.rest(at), displacement = displacement_at(at, state);
     numbers.insert(numbers.end(), rest.begin(), rest.end());
     numbers.insert(numbers.end(), displacement.begin(), displacement.end());
   });
@@ -185,22 +167,22 @@ std::vector<double> GridBody::node_displacements(const Vector& state) const {
 }
 
 void GridBody::add_guess(mechanics::EquilibriumSettings& settings) const {
-  if (settings.from != 0 || settings.first_load_step != 1 || parts->body.law == Law::small_strain) return;
-  CoarseGuess coarse = coarse_guess(parts->body, parts->supported, settings.to, n_threads);
+  if (settings.from != 0 || settings.first_load_step != 1 || body_.law == Law::small_strain) return;
+  mechanics::grid::CoarseGuess coarse = coarse_guess(body_, supported_, settings.to, n_threads_);
   settings.guess = std::move(coarse.state);
   settings.first_load_step = coarse.first_load_step;
 }
 
 void GridBody::set_in_motion(const mechanics::EquilibriumSettings& settings) {
-  parts->equations.set_in_motion(cases::refine(scene, scene.definition.fem.refine), parts->places);
-  parts->equations.set_volume_tolerance(volume_tolerance_of(settings.tolerance));
+  equations.set_in_motion(cases::refine(scene, scene.definition.fem.refine), places_);
+  equations.set_volume_tolerance(volume_tolerance_of(settings.tolerance));
 }
 
 bool GridBody::can_leave_rest() {
   constexpr double part = 1e-6; // share of the load: so small that Newton's step is the answer to it
   constexpr double forcing = 1e-3, enough = 0.1;
   const Vector rest = equations.rest();
-  parts->equations.forget_tangent();
+  equations.forget_tangent();
   const Vector residual = equations.residual(rest, part, mechanics::Expect::direction);
   const auto step = equations.direction(rest, residual, part, forcing, mechanics::Convexity::exact);
   if (!step) return false;
@@ -208,30 +190,32 @@ bool GridBody::can_leave_rest() {
   return equations.dot(left, left) <= enough * enough * equations.dot(residual, residual);
 }
 
-cases::Range GridBody::cells(const cases::Sharing* sharing) const {
-  std::optional<cases::Range> cells;
-  parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t) {
-    if (!cells) cells = cases::Range{part.cell, part.cell}; // they come in ascending order
-    cells->end = part.cell + 1;
+ElementsInState GridBody::elements(const Vector& state, const cases::Sharing* sharing) const {
+  cases::Range cells;
+  for_each_element(sharing, [&](const Part& part, std::size_t) { // they come in ascending order
+    cells = {cells.size() == 0 ? part.cell : cells.begin, part.cell + 1};
   });
-  return cells.value_or(cases::Range{});
-}
-
-void GridBody::for_each_element(const Vector& state, const cases::Sharing* sharing,
-                                const std::function<void(const Element&)>& action) const {
-  const int degree = parts->factor / cell_factor, n = degree + 1;
-  std::vector<double> displacement(index(3 * n * n * n));
-  parts->for_each_own_element(*this, sharing, [&](const Part& part, std::size_t entry) {
-    double* to = displacement.data();
-    for (int a = 0; a < n * n * n; ++a, to += 3) {
-      const Place node(degree * part.at[0] + a % n, degree * part.at[1] + a / n % n,
-                       degree * part.at[2] + a / (n * n));
-      Eigen::Map<Eigen::Vector3d>{to} = parts->displacement_at(node, state);
-    }
-    const double pressure =
-        parts->body.has_modes ? state[parts->equations.n_displacements() + Eigen::Index(entry)] : 0;
-    action({part.cell, part.in_cell, cell_factor, displacement, pressure});
-  });
+  std::vector<Formulation> formulations = formulations_of(scene);
+  const ElementType type = element_type(scene.definition.fem, formulations.front());
+  const auto cuboid =
+      std::make_shared<Cuboid>(type.degree, type.n_pressure_modes, scene.mesh.grid->spacing / cell_factor_);
+  const auto for_each = [this, &state, sharing, cuboid, degree = type.degree](const auto& action) {
+    const int n = degree + 1;
+    const double edge = 1. / cell_factor_;
+    std::vector<double> displacement(3 * cuboid->nodes().size());
+    for_each_element(sharing, [&](const Part& part, std::size_t entry) {
+      double* to = displacement.data();
+      for (int a = 0; a < n * n * n; ++a, to += 3) {
+        const Place node(degree * part.at[0] + a % n, degree * part.at[1] + a / n % n,
+                         degree * part.at[2] + a / (n * n));
+        Eigen::Map<Eigen::Vector3d>{to} = displacement_at(node, state);
+      }
+      const double pressure = body_.has_modes ? state[equations.n_displacements() + Eigen::Index(entry)] : 0;
+      const Eigen::Vector3d lower = edge * Eigen::Vector3d(part.in_cell[0], part.in_cell[1], part.in_cell[2]);
+      action({{part.cell, lower, edge}, cuboid->geometry(), displacement.data(), &pressure});
+    });
+  };
+  return {scene, std::move(formulations), type, cuboid->nodes(), cells, for_each};
 }
 
 } // namespace springproof::fem_reference::grid

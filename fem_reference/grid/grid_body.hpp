@@ -1,34 +1,25 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
-#include "fem_reference/element_equations.hpp"
+#include "fem_reference/element_fields.hpp"
+#include "fem_reference/grid/grid_equations.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "mechanics/state_on_mesh.hpp"
-
-#include <array>
-#include <functional>
-#include <memory>
-#include <mpi.h>
 
 namespace springproof::fem_reference::grid {
 
 /// A scene as finite elements on a grid, with their states evaluated on the body's own mesh: matrix-vector
 /// products and multigrid in place of a factorisation. The grid is cut along z, a slab for each rank; every
 /// member function is collective, and the ranks share a state.
-struct GridBody {
+class GridBody {
+ public:
   /// @param on_mesh  a scene as for Model that is_on_grid(); definition.fem.refine is applied here
   GridBody(const cases::Scene& on_mesh, MPI_Comm communicator, int n_threads = 1);
   /// Another scene on the same mesh, by as many threads of the same ranks.
-  GridBody(const cases::Scene& another, const GridBody& like);
-  ~GridBody();
+  GridBody(const cases::Scene& another, const GridBody& like)
+      : GridBody(another, like.communicator, like.n_threads_) {}
 
   const cases::Scene scene; ///< on the body's own mesh
   const MPI_Comm communicator;
-  const int n_threads;
-  const int cell_factor; ///< elements along an edge of the body's own cells
-  struct Parts;
-  const std::unique_ptr<Parts> parts;
-  ElementEquations& equations;
 
   /// Returns what evaluates states on the body's own mesh; it refers to this.
   mechanics::StateOnMesh on_mesh() const;
@@ -43,20 +34,25 @@ struct GridBody {
   /// in single precision has lost the soft ones.
   bool can_leave_rest();
 
-  /// An element in a state. A cell of the body is n_parts elements along each edge.
-  struct Element {
-    std::size_t cell;        ///< number in the body's own mesh
-    std::array<int, 3> part; ///< 0 to n_parts - 1
-    int n_parts;
-    const std::vector<double>& displacement; ///< mm, [3*a + i], a with x fastest: 8 nodes, or 27
-    double pressure;                         ///< MPa; 0 without one of its own
-  };
-  /// Calls action() for elements, cell by cell. Of the ranks that share a solution, one visits each element.
-  /// @param sharing  the solution's; null: one rank has all
-  void for_each_element(const mechanics::Vector& state, const cases::Sharing* sharing,
-                        const std::function<void(const Element&)>& action) const;
-  /// Range of the body's cells that for_each_element() visits.
-  cases::Range cells(const cases::Sharing* sharing) const;
+  /// @param state    must outlive the result
+  /// @param sharing  its solution's; null: one rank has all
+  ElementsInState elements(const mechanics::Vector& state, const cases::Sharing* sharing) const;
+
+ private:
+  int n_threads_;
+  int cell_factor_; ///< elements along an edge of the body's own cells
+  int factor_;      ///< intervals of the grid of nodes along such an edge
+  Body body_;
+  Places places_;
+  Supported supported_;
+  std::unique_ptr<QuadraticElements> quadratic_;
+
+  Eigen::Vector3d displacement_at(const Place& at, const mechanics::Vector& state) const;
+  template<class Action>
+  void for_each_element(const cases::Sharing* sharing, const Action& action) const;
+
+ public:
+  GridEquations equations;
 };
 
 } // namespace springproof::fem_reference::grid

@@ -1,7 +1,6 @@
 #include "fem_reference/grid/grid_equations.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "fem_reference/grid/negative_eigenvalues.hpp"
 #include "mechanics/grid/krylov.hpp"
 
 #include <cmath>
@@ -30,9 +29,12 @@ constexpr int restart_of(std::ptrdiff_t n) {
 
 GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
                              QuadraticElements* quadratic, double volume_tolerance)
-    : body_(body), supported_(supported), space_(body.space(n_threads)), quadratic_(quadratic),
+    : ElementEquations(body.has_modes, body.law == Law::small_strain), body_(body), supported_(supported),
+      space_(body.space(n_threads)), quadratic_(quadratic),
       multigrid_(body, n_threads, quadratic ? quadratic_smoother : linear_smoother),
-      load_norm_(norm(space_, supported.load)), volume_tolerance_(volume_tolerance) {}
+      volume_tolerance_(volume_tolerance) {
+  load_norm_ = norm(space_, supported.load);
+}
 
 /// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
 /// admissible
@@ -47,16 +49,12 @@ bool GridEquations::add_force(const Vector& at, Field<double>& force) {
   const ForceFields fields{at.data(), at.data() + n_displacements(), force.data(),
                            body_.has_modes ? condensed_.data() : nullptr, nullptr};
   const Cells view = body_.view();
-  std::vector<Checks> checks(index(body_.cells[2]));
-  for_each_layer(body_.slab, space_.n_threads,
-                 [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
-  bool is_valid = true;
-  for (const Checks& layer : checks) {
-    is_valid = is_valid && layer.valid;
-    volume_mismatch_ = std::max(volume_mismatch_, layer.volume_mismatch);
-  }
+  const Checks checks = check_layers(body_.slab, space_.n_threads, [&](int k, Checks& of_layer) {
+    kernels().force(view, fields, k, of_layer);
+  });
+  volume_mismatch_ = checks.volume_mismatch;
   if (!body_.has_modes) condensed_ = force;
-  return is_valid;
+  return checks.valid;
 }
 
 /// Adds the inertia and damping of a step in time to the force, and to that with the pressures' imbalance.
@@ -71,12 +69,11 @@ void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
 
 void GridEquations::set_in_motion(const cases::Scene& scene, const Places& places) {
   inertia_ = std::make_unique<Inertia>(scene, places, space_.n_threads);
-  loads_ = loads_in_time(scene, false, places);
-}
-
-void GridEquations::external_force(double time, Vector& force) {
-  force = rest();
-  for (const mechanics::LoadInTime& load : loads_) load.add(time, force);
+  set_loads(scene, [&](const cases::Scene& alone) {
+    Vector force = rest();
+    force.head(n_displacements()) = make_load(alone, false, places);
+    return force;
+  });
 }
 
 void GridEquations::supports_at(double time, Vector& displacement) const {
@@ -99,13 +96,6 @@ void GridEquations::set_step(const mechanics::StepTerms& terms) {
   step_.emplace(terms);
   if (!std::exchange(begins_step_, true)) carries_tangent_ = std::exchange(is_easy_, true);
   if (inertia_->set_step({terms.mass, terms.damping})) has_tangent_ = false;
-}
-
-/// Scale of residuals, N. A body moved by prescribed displacements alone is measured against its
-/// reactions; one in motion that is moved by them, against these if they are the larger.
-double GridEquations::scale() const {
-  if (step_) return supported_.prescribed ? std::max(step_->scale, reaction_) : step_->scale;
-  return load_norm_ > 0 ? load_norm_ : reaction_;
 }
 
 void GridEquations::linearise(const Vector& at) {
@@ -155,7 +145,7 @@ void GridEquations::residual(const Vector& at, double load_factor, mechanics::Ex
 GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
   if (!is_valid_) return {std::numeric_limits<double>::quiet_NaN(), false};
   const double imbalance = std::sqrt(dot(residual, residual));
-  return {imbalance == 0 ? 0 : imbalance / scale(),
+  return {imbalance == 0 ? 0 : imbalance / scale(bool(supported_.prescribed), reaction_),
           volume_mismatch_ <= volume_tolerance_ && largest_gap_ <= 1e-12};
 }
 
@@ -163,9 +153,10 @@ GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
 /// the tangent that the last one ended with.
 bool GridEquations::may_keep_tangent(double norm) const {
   if (!has_tangent_) return false;
-  if (is_linear()) return true;
+  if (is_linear_) return true;
   if (begins_step_) return carries_tangent_;
-  return (step_ || norm <= 0.01 * scale()) && norm <= much_gained * norm_before_;
+  return (step_ || norm <= 0.01 * scale(bool(supported_.prescribed), reaction_)) &&
+         norm <= much_gained * norm_before_;
 }
 
 std::optional<Field<double>> GridEquations::solve(const Field<double>& right_side, double target) {
@@ -197,7 +188,7 @@ bool GridEquations::direction(const Vector& at, const Vector&, double, double fo
   const double imbalance = norm(space_, condensed_);
   if (!may_keep_tangent(imbalance)) {
     linearise(at);
-  } else if (!is_linear()) {
+  } else if (!is_linear_) {
     forcing = std::max(forcing, 0.01); // a tangent of another state gains no more than that a step
   }
   has_tangent_ = true;
@@ -229,10 +220,6 @@ bool GridEquations::direction(const Vector& at, const Vector&, double, double fo
     });
   }
   return true;
-}
-
-mechanics::Merit GridEquations::merit() const {
-  return body_.has_modes || is_linear() || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
 }
 
 double GridEquations::dot(const Vector& left, const Vector& right) const {
@@ -271,17 +258,16 @@ std::optional<bool> GridEquations::is_stable(const Vector&) {
 }
 
 std::vector<double> GridEquations::cell_volumes(const Vector& at) const {
+  const Layout& layout = quadratic_ ? quadratic_->cells().layout : body_.layout;
+  std::vector<double> volumes(index(layout.n_cell_entries() + 16));
   if (quadratic_) {
-    std::vector<double> volumes(index(quadratic_->cells().layout.n_cell_entries() + 16));
     quadratic_->add_force(at.data(), nullptr, volumes.data());
     return volumes;
   }
-  std::vector<double> volumes(index(body_.layout.n_cell_entries() + 16));
   const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, volumes.data()};
   const Cells view = body_.view();
-  std::vector<Checks> checks(index(body_.cells[2]));
-  for_each_plane({0, body_.cells[2]}, space_.n_threads,
-                 [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
+  check_layers(body_.slab, space_.n_threads,
+               [&](int k, Checks& checks) { kernels().force(view, fields, k, checks); });
   return volumes;
 }
 

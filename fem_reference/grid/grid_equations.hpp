@@ -3,7 +3,8 @@
 #include "fem_reference/element_equations.hpp"
 #include "fem_reference/grid/quadratic_elements.hpp"
 #include "fem_reference/grid/stencil_levels.hpp"
-#include "fem_reference/grid/supported.hpp"
+#include "mechanics/grid/coarse_guess.hpp"
+
 #include <memory>
 
 namespace springproof::fem_reference::grid {
@@ -38,7 +39,6 @@ class GridEquations : public ElementEquations {
   Size size(const Vector& residual, const Vector& at) override;
   bool direction(const Vector& at, const Vector& residual, double load_factor, double forcing,
                  mechanics::Convexity convexity, Vector& step) override;
-  mechanics::Merit merit() const override;
   std::optional<bool> is_stable(const Vector& at) override;
   double dot(const Vector& left, const Vector& right) const override; ///< the displacements alone
   bool any_rank(bool here) const override { return space_.slab.largest(here ? 1 : 0) > 0; }
@@ -51,7 +51,6 @@ class GridEquations : public ElementEquations {
   void set_in_motion(const cases::Scene& scene, const Places& places);
   void mass_product(const Vector& motion, Vector& product) override { multiply({1, 0}, motion, product); }
   void damping_product(const Vector& motion, Vector& product) override { multiply({0, 1}, motion, product); }
-  void external_force(double time, Vector& force) override;
   void supports_at(double time, Vector& displacement) const override;
   /// Pressures follow from displacements in each step.
   void complete(Vector& motion) override { body_.slab.update_ghosts(body_.layout, motion.data()); }
@@ -66,7 +65,6 @@ class GridEquations : public ElementEquations {
 
   void set_volume_tolerance(double tolerance) { volume_tolerance_ = tolerance; }
   bool linear_solver_failed() const override { return has_failed_; }
-  std::optional<int> negative_eigenvalues() const override { return negative_eigenvalues_; }
   /// Deformed volumes, mm³, per cell entry of the elements.
   std::vector<double> cell_volumes(const Vector& at) const;
 
@@ -76,32 +74,32 @@ class GridEquations : public ElementEquations {
   Space space_;
   QuadraticElements* quadratic_;
   StencilLevels multigrid_;
-  double load_norm_, volume_tolerance_;
+  double volume_tolerance_;
   Work work_;
   bool has_tangent_ = false;
   double norm_before_ = 0;           ///< norm of the right side last solved for, N
   std::unique_ptr<Inertia> inertia_; ///< null unless the body is in motion
-  std::vector<mechanics::LoadInTime> loads_;
   Field<double> motion_, product_;
-  std::optional<mechanics::StepTerms> step_;
   bool begins_step_ = false;    ///< this step has had no direction yet
   bool is_easy_ = true;         ///< every iteration of the step gained much
   bool carries_tangent_ = true; ///< a step begins with the tangent of the one before
   Field<double> condensed_;     ///< force with the pressures' imbalance in the state last evaluated, N
   std::vector<double> gap_;     ///< gaps of the moved entries there, mm
-  double largest_gap_ = 0, reaction_ = 0, volume_mismatch_ = 0;
+  double reaction_ = 0, volume_mismatch_ = 0;
   bool is_valid_ = false, has_failed_ = false;
-  std::optional<int> negative_eigenvalues_;
 
   bool add_force(const Vector& at, Field<double>& force);
   void add_inertia(const Vector& at, Field<double>& force);
   void multiply(const Inertia::Factors& factors, const Vector& motion, Vector& product);
-  double scale() const;
   void linearise(const Vector& at);
   void product(Field<double>& field, Field<double>& product) const;
   bool may_keep_tangent(double norm) const;
   std::optional<Field<double>> solve(const Field<double>& right_side, double target);
-  bool is_linear() const { return body_.law == Law::small_strain; }
 };
+
+/// The equilibrium of the body in cells twice as large, found the same way and interpolated. A body too small
+/// to be worth it tells nothing.
+mechanics::grid::CoarseGuess coarse_guess(const Body& body, const Supported& supported, double load_factor,
+                                          int n_threads);
 
 } // namespace springproof::fem_reference::grid

@@ -118,13 +118,13 @@ void Inertia::add_product(const Factors& factors, const Field<double>& field, Fi
   // The linear body's force at this displacement, with the pressures that belong to it.
   const Cells view = damping_view(factors.damping);
   const std::vector<double> no_pressure(factored_.size(), 0.);
-  std::vector<Checks> checks(index(body_.cells[2]));
   Field<double>& force = view.has_modes ? pressed_ : force_;
   force_.setZero();
   pressed_.setZero();
   const ForceFields fields{field.data(), no_pressure.data(), force_.data(),
                            view.has_modes ? pressed_.data() : nullptr, nullptr};
-  for_each_layer(body_.slab, n_threads_, [&](int k) { kernels().force(view, fields, k, checks[index(k)]); });
+  check_layers(body_.slab, n_threads_,
+               [&](int k, Checks& checks) { kernels().force(view, fields, k, checks); });
   product += force;
 }
 

@@ -1,8 +1,7 @@
-#include "fem_reference/grid/negative_eigenvalues.hpp"
+#include "fem_reference/grid/stencil_levels.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <random>
 
 namespace springproof::fem_reference::grid {
 
@@ -79,22 +78,13 @@ class Lanczos {
   StencilLevels& multigrid_;
   const Space& space_;
   std::vector<Pair> basis_, found_;
-  std::mt19937 generator_{3};
+  unsigned n_runs_ = 0;
 
   Field<double> random_field() {
-    Field<double> field = Field<double>::Zero(body_.free.size());
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const Layout& layout = body_.layout;
-    for (int k = -body_.slab.first_of_grid(); k < body_.slab.n_planes_of_grid() - body_.slab.first_of_grid();
-         ++k)
-      for (int c = 0; c < 3; ++c)
-        for (int j = 0; j < layout.nodes[1]; ++j)
-          for (int i = 0; i < layout.nodes[0]; ++i) {
-            const double value = uniform(generator_); // the same on any number of ranks
-            if (k < 0 || k >= layout.nodes[2]) continue;
-            const std::ptrdiff_t entry = c * layout.size + layout.at(i, j, k);
-            if (body_.free[entry] > 0) field[entry] = value;
-          }
+    Field<double> field =
+        mechanics::grid::random_field<double>(body_.layout, {0, 0, body_.slab.first_of_grid()}, ++n_runs_ + 2,
+                                              std::uniform_real_distribution<double>(-1, 1));
+    field.array() *= body_.free.cast<double>().array();
     return field;
   }
 

@@ -1,8 +1,8 @@
 #include "fem_reference/grid/quadratic_elements.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
+#include "fem_reference/cuboid.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace springproof::fem_reference::grid {
@@ -17,30 +17,12 @@ QuadraticElements::QuadraticElements(const Body& nodes, Body cells, int n_thread
 
 Quadratic QuadraticElements::view() const {
   Quadratic view{cells_.view(), above_first_, {}, {}};
-  // on the unit interval: nodes at 0, 1/2, 1; Gauss points
-  const double at[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
-               weight[3] = {5. / 18, 4. / 9, 5. / 18};
-  double value[3][3], slope[3][3];
-  for (int p = 0; p < 3; ++p) {
-    const double x = at[p];
-    const double n[3] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)},
-                 d[3] = {4 * x - 3, 4 - 8 * x, 4 * x - 1};
-    for (int a = 0; a < 3; ++a) {
-      value[p][a] = n[a];
-      slope[p][a] = d[a];
-    }
-  }
+  const Cuboid cuboid(2, 0, cells_.spacing);
+  const CellGeometry geometry = cuboid.geometry();
   for (int q = 0; q < 27; ++q) {
-    const int p[3] = {q % 3, q / 3 % 3, q / 9};
-    view.weights[q] = weight[p[0]] * weight[p[1]] * weight[p[2]] * cells_.spacing.prod();
-    for (int a = 0; a < 27; ++a) {
-      const int n[3] = {a % 3, a / 3 % 3, a / 9};
-      for (int j = 0; j < 3; ++j) {
-        double product = 1 / cells_.spacing[j];
-        for (int d = 0; d < 3; ++d) product *= d == j ? slope[p[d]][n[d]] : value[p[d]][n[d]];
-        view.gradients[q][a][j] = product;
-      }
-    }
+    view.weights[q] = geometry.weights[q];
+    for (int a = 0; a < 27; ++a)
+      for (int j = 0; j < 3; ++j) view.gradients[q][a][j] = geometry.gradients[27 * (3 * q + j) + a];
   }
   return view;
 }
@@ -48,11 +30,11 @@ Quadratic QuadraticElements::view() const {
 bool QuadraticElements::add_force(const double* displacement, double* force, double* cell_volumes) const {
   const ForceFields fields{displacement, nullptr, force, nullptr, cell_volumes};
   const Quadratic elements = view();
-  std::vector<Checks> checks(index(cells_.cells[2]));
-  for_each_layer(cells_.slab, n_threads_,
-                 [&](int k) { kernels().quadratic_force(elements, fields, k, checks[index(k)]); });
+  const Checks checks = check_layers(cells_.slab, n_threads_, [&](int k, Checks& of_layer) {
+    kernels().quadratic_force(elements, fields, k, of_layer);
+  });
   if (force) slab_.add_to_next(nodes_, force);
-  return std::all_of(checks.begin(), checks.end(), [](const Checks& c) { return c.valid; });
+  return checks.valid;
 }
 
 void QuadraticElements::linearise(const double* displacement) {

@@ -18,30 +18,6 @@ MPI_Datatype type_of() {
   return std::is_same_v<Real, float> ? MPI_FLOAT : MPI_DOUBLE;
 }
 
-/// Messages to and from the ranks below and above; all are under way at the same time.
-class Messages {
- public:
-  explicit Messages(MPI_Comm communicator) : communicator_(communicator) {}
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-  ~Messages() { MPI_Waitall(n_, requests_.data(), MPI_STATUSES_IGNORE); }
-
-  template<class Real>
-  void send(const Real* from, std::ptrdiff_t n, int rank) {
-    MPI_Isend(from, static_cast<int>(n), type_of<Real>(), rank, 0, communicator_, &next());
-  }
-  template<class Real>
-  void receive(Real* to, std::ptrdiff_t n, int rank) {
-    MPI_Irecv(to, static_cast<int>(n), type_of<Real>(), rank, 0, communicator_, &next());
-  }
-
- private:
-  MPI_Comm communicator_;
-  std::array<MPI_Request, 4> requests_{};
-  int n_ = 0;
-  MPI_Request& next() { return requests_[index(n_++)]; }
-};
-
 /// Copies a plane of the three components into one piece.
 template<class Real>
 std::vector<Real> copy_of_plane(const Layout& layout, const Real* field, int plane) {
@@ -129,6 +105,16 @@ Slab::Range Slab::own_layers() const {
   return {layer_begin(rank_) - first_, layer_begin(rank_ + 1) - first_};
 }
 
+/// Sends a plane to one rank and returns what comes from another; either may be MPI_PROC_NULL, which is none.
+template<class Real>
+std::vector<Real> Slab::exchange(const std::vector<Real>& sent, int to, int from) const {
+  std::vector<Real> received(sent.size());
+  const int n = static_cast<int>(sent.size());
+  MPI_Sendrecv(sent.data(), n, type_of<Real>(), to, 0, received.data(), n, type_of<Real>(), from, 0,
+               communicator_, MPI_STATUS_IGNORE);
+  return received;
+}
+
 template<class Real>
 void Slab::complete(const Layout& layout, Real* field) const {
   if (n_ranks() == 1) return;
@@ -138,22 +124,12 @@ void Slab::complete(const Layout& layout, Real* field) const {
     return;
   }
   const auto [begin, end] = own();
-  const bool has_below = rank_ > 0, has_above = rank_ + 1 < n_ranks();
-  const std::ptrdiff_t n = 3 * layout.plane;
-  std::vector<Real> to_below, to_above, from_below(index(n)), from_above(index(n));
-  {
-    Messages messages(communicator_);
-    if (has_below) {
-      messages.receive(from_below.data(), n, rank_ - 1);
-      messages.send((to_below = copy_of_plane(layout, field, begin)).data(), n, rank_ - 1);
-    }
-    if (has_above) {
-      messages.receive(from_above.data(), n, rank_ + 1);
-      messages.send((to_above = copy_of_plane(layout, field, end - 1)).data(), n, rank_ + 1);
-    }
-  }
-  if (has_below) write_plane(layout, from_below, field, begin - 1);
-  if (has_above) write_plane(layout, from_above, field, end);
+  const auto pass_on = [&](int sent, int to, int received, int from) {
+    const std::vector<Real> plane = exchange(copy_of_plane(layout, field, sent), to, from);
+    if (from != MPI_PROC_NULL) write_plane(layout, plane, field, received);
+  };
+  pass_on(begin, below(), end, above());
+  pass_on(end - 1, above(), begin - 1, below());
 }
 
 /// Where a boundary between ranks cuts a coarse layer, the rank above has all of its fine layers; where it
@@ -162,35 +138,27 @@ template<class Real>
 void Slab::complete_layers(Real* layers, std::ptrdiff_t n) const {
   if (n_ranks() == 1) return;
   if (is_gathered_) return gather(layer_begins_, layers, n, communicator_);
-  Messages messages(communicator_);
   for (const int upper : {rank_, rank_ + 1}) {
     const int other = upper == rank_ ? rank_ - 1 : upper;
     if (other < 0 || other == n_ranks()) continue;
     const bool is_upper = upper == rank_, upper_has_it = layer_begin(upper) < begin(upper);
     Real* const layer = layers + (begin(upper) - 1 - first_) * n;
     if (is_upper == upper_has_it)
-      messages.send(layer, n, other);
+      MPI_Send(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_);
     else
-      messages.receive(layer, n, other);
+      MPI_Recv(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_, MPI_STATUS_IGNORE);
   }
 }
 
 void Slab::add_to_next(const Layout& layout, double* field) const {
   if (!is_shared()) return;
   const auto [begin, end] = own();
-  const std::ptrdiff_t n = 3 * layout.plane;
-  std::vector<double> sent, received(index(n));
-  {
-    Messages messages(communicator_);
-    if (rank_ > 0) messages.receive(received.data(), n, rank_ - 1);
-    if (rank_ + 1 < n_ranks())
-      messages.send((sent = copy_of_plane(layout, static_cast<const double*>(field), end)).data(), n,
-                    rank_ + 1);
-  }
-  if (rank_ == 0) return;
+  const std::vector<double> plane =
+      exchange(copy_of_plane(layout, static_cast<const double*>(field), end), above(), below());
+  if (below() == MPI_PROC_NULL) return;
   for (std::ptrdiff_t c = 0; c < 3; ++c)
     for (std::ptrdiff_t i = 0; i < layout.plane; ++i)
-      field[c * layout.size + layout.at(0, 0, begin) + i] += received[index(c * layout.plane + i)];
+      field[c * layout.size + layout.at(0, 0, begin) + i] += plane[index(c * layout.plane + i)];
 }
 
 double Slab::largest(double value) const {

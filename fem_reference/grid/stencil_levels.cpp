@@ -75,16 +75,8 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
   }
   double norm(const Field<float>& field) const override { return grid::norm(space_, field); }
   void set_rough(Field<float>& rough) const override {
-    std::mt19937 generator(7);
-    std::uniform_real_distribution<float> uniform(-1, 1);
-    rough.setZero();
-    for (int k = -space_.slab.first_of_grid(); k < layout().nodes[2]; ++k)
-      for (int c = 0; c < 3; ++c)
-        for (int j = 0; j < layout().nodes[1]; ++j)
-          for (int i = 0; i < layout().nodes[0]; ++i) {
-            const float value = uniform(generator); // the same on any number of ranks
-            if (k >= 0) rough[layout().at(i, j, k, c)] = value;
-          }
+    rough = mechanics::grid::random_field<float>(layout(), {0, 0, space_.slab.first_of_grid()}, 7,
+                                                 std::uniform_real_distribution<float>(-1, 1));
   }
   bool factorise() override {
     Eigen::MatrixXd& matrix = factorisation_.begin(

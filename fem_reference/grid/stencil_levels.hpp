@@ -3,6 +3,8 @@
 #include "fem_reference/grid/inertia.hpp"
 #include "mechanics/grid/cycle.hpp"
 
+#include <functional>
+
 namespace springproof::fem_reference::grid {
 
 /// The tangent of a body and an approximate inverse of it: a multigrid cycle. Coarse matrices are Galerkin's,
@@ -43,5 +45,16 @@ class StencilLevels {
   mechanics::grid::Cycle cycle_;
   StencilLevel* finest_ = nullptr;
 };
+
+/// Counts the negative eigenvalues of the last linearised tangent's symmetric part, on free degrees of
+/// freedom. Lanczos' method runs on the preconditioned tangent: its spectrum is a cluster about 1 and
+/// whatever the cycle cannot invert, so that few steps find a negative end of it. By Sylvester's law of
+/// inertia it has as many negative eigenvalues as the tangent. Runs are repeated, deflated by what was found,
+/// until one finds none: a multiple eigenvalue shows once in each.
+/// @param linear_iterations  added to: products with the tangent
+/// @param product  multiplies by the tangent on the free degrees of freedom
+int count_negative_eigenvalues(const Body& body,
+                               const std::function<void(Field<double>&, Field<double>&)>& product,
+                               StencilLevels& multigrid, long& linear_iterations);
 
 } // namespace springproof::fem_reference::grid

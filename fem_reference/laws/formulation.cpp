@@ -1,7 +1,6 @@
 #include "fem_reference/laws/formulation.hpp"
 
 #include "fem_reference/law_kernel.hpp"
-#include "fem_reference/laws/isotropic.hpp"
 #include "fem_reference/laws/transverse_log_strain.hpp"
 #include "fem_reference/laws/transverse_small_strain.hpp"
 
@@ -41,6 +40,20 @@ Formulation make_formulation(const cases::Fem& fem, const cases::Material& mater
     break;
   }
   return with_material<Ogden>(fem, material);
+}
+
+std::vector<Formulation> formulations_of(const cases::Scene& scene) {
+  std::vector<Formulation> formulations;
+  for (const cases::Material& material : cases::materials_of(scene.definition))
+    formulations.push_back(make_formulation(scene.definition.fem, material));
+  return formulations;
+}
+
+std::vector<std::unique_ptr<CellKernel>> kernels_of(const std::vector<Formulation>& formulations,
+                                                    const ElementType& element) {
+  std::vector<std::unique_ptr<CellKernel>> kernels;
+  for (const Formulation& formulation : formulations) kernels.push_back(formulation.make_kernel(element));
+  return kernels;
 }
 
 } // namespace springproof::fem_reference

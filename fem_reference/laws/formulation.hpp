@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/scene/scene.hpp"
 #include "fem_reference/element.hpp"
 
 #include <functional>
@@ -16,5 +17,12 @@ struct Formulation : LawTraits {
 /// The formulation a case asks for, with its material.
 /// @throws InputError when the material does not belong to it
 Formulation make_formulation(const cases::Fem& fem, const cases::Material& material);
+
+/// The case's formulation with each of the scene's materials.
+std::vector<Formulation> formulations_of(const cases::Scene& scene);
+
+/// Their kernels for an element.
+std::vector<std::unique_ptr<CellKernel>> kernels_of(const std::vector<Formulation>& formulations,
+                                                    const ElementType& element);
 
 } // namespace springproof::fem_reference

@@ -1,6 +1,11 @@
 #pragma once
 
+#include "mechanics/laws/in_principal_stretches.hpp"
+#include "mechanics/laws/log_strain.hpp"
+#include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "mechanics/laws/saint_venant_kirchhoff.hpp"
+#include "mechanics/laws/small_strain.hpp"
 
 #include <Eigen/Core>
 
@@ -110,5 +115,10 @@ class AtPoint {
  private:
   mechanics::Parameters<double> parameters_;
 };
+
+using SmallStrain = AtPoint<mechanics::SmallStrain>;
+using SaintVenantKirchhoff = AtPoint<mechanics::SaintVenantKirchhoff>;
+using LogStrain = AtPoint<mechanics::InPrincipalStretches<mechanics::LogStrain>>;
+using Ogden = AtPoint<mechanics::InPrincipalStretches<mechanics::Ogden>>;
 
 } // namespace springproof::fem_reference

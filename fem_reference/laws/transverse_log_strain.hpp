@@ -1,12 +1,9 @@
 #pragma once
 
 #include "fem_reference/laws/transverse_small_strain.hpp"
-#include "mechanics/laws/in_principal_stretches.hpp"
-#include "mechanics/laws/log_strain.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace springproof::fem_reference {
 
@@ -89,12 +86,10 @@ struct LogStretch {
 /// With isotropic constants that is LogStrain, sigma = lambda tr(e) I + 2 mu e. As there the stress depends
 /// on F alone but has no energy, and the tangent is slightly unsymmetric; P/J would have the energy E : C :
 /// E/2 per rest volume (Miehe, Apel & Lambrecht 2002).
-class TransverseLogStrain {
+class TransverseLogStrain : public TransverseLaw<mechanics::LogStrain> {
  public:
-  using Material = cases::TransverselyIsotropic;
   static constexpr LawTraits traits{Kinematics::finite, TangentSymmetry::unsymmetric, Split::pressure};
-
-  explicit TransverseLogStrain(const Material& material) : elasticity_(material) {}
+  using TransverseLaw::TransverseLaw;
 
   /// Work on the straight path of logarithmic strain E s, s from 0 to 1, along which U keeps its axes, as for
   /// LogStrain: the integral of J^s s E : C' : E.
@@ -102,10 +97,6 @@ class TransverseLogStrain {
     const LogStretch log(h);
     const Vector9 strain = flatten(log.axes * log.strains.asDiagonal() * log.axes.transpose());
     return strain.dot(elasticity_.rest() * strain) * mechanics::ramp_integral(log.strains.sum());
-  }
-  double volume_energy(double dilatation) const {
-    const double log = std::log1p(dilatation);
-    return elasticity_.kappa() * log * log * mechanics::ramp_integral(log);
   }
   void stress(const Matrix3& h, Wanted wanted, PointStress& result) const {
     const LogStretch log(h);
@@ -143,16 +134,6 @@ class TransverseLogStrain {
       for (int k = 0; k < 3; ++k)
         result.tangent.block<3, 3>(3 * i, 3 * k) = n * in_axes.block<3, 3>(3 * i, 3 * k) * n.transpose();
   }
-  ValueAndSlope pressure(double dilatation) const {
-    return {elasticity_.kappa() * std::log1p(dilatation), elasticity_.kappa() / (1 + dilatation)};
-  }
-  ValueAndSlope dilatation(double p) const {
-    const double y = p / elasticity_.kappa();
-    return {std::expm1(y), std::exp(y) / elasticity_.kappa()};
-  }
-
- private:
-  TransverseElasticity elasticity_;
 };
 
 } // namespace springproof::fem_reference

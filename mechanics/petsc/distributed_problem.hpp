@@ -3,6 +3,7 @@
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
 #include <mpi.h>
+#include <utility>
 
 namespace springproof::mechanics::petsc {
 
@@ -18,7 +19,9 @@ inline double total(double value, MPI_Op operation, MPI_Comm communicator) {
 template<class Problem = NonlinearProblem>
 class DistributedProblem : public Problem {
  public:
-  explicit DistributedProblem(MPI_Comm communicator) : communicator_(communicator) {}
+  template<class... Arguments>
+  explicit DistributedProblem(MPI_Comm communicator, Arguments&&... of_problem)
+      : Problem(std::forward<Arguments>(of_problem)...), communicator_(communicator) {}
 
   double dot(const mechanics::Vector& left, const mechanics::Vector& right) const override {
     return total(left.dot(right), MPI_SUM, communicator_);

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "mechanics/petsc/handles.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <slepceps.h>
@@ -11,16 +12,6 @@
 namespace springproof::mechanics::petsc {
 
 namespace {
-
-using OwnedSolver = Owned<EPS, EPSDestroy>;
-
-/// Returns a solver for the eigenpairs of a symmetric matrix, or of one and a mass matrix.
-OwnedSolver solver_for(Mat matrix, Mat mass = nullptr) {
-  OwnedSolver solver(get<EPS>(EPSCreate, PETSC_COMM_SELF));
-  check(EPSSetOperators(solver.get(), matrix, mass));
-  check(EPSSetProblemType(solver.get(), mass ? EPS_GHEP : EPS_HEP));
-  return solver;
-}
 
 /// Uses the values where they are.
 Matrix symmetric_matrix(Eigen::SparseMatrix<double>& values) {
@@ -33,27 +24,18 @@ Matrix symmetric_matrix(Eigen::SparseMatrix<double>& values) {
   return matrix;
 }
 
-Spectrum solve(EPS solver, PetscInt size, PetscInt n_wanted) {
-  check(EPSSolve(solver));
-  const auto n_found = get<PetscInt>(EPSGetConverged, solver);
-  if (n_found < n_wanted)
-    throw cases::SolveError("eigenproblem: only " + std::to_string(n_found) + " of " +
-                            std::to_string(n_wanted) + " eigenpairs converged");
-  Spectrum found{Eigen::VectorXd(n_found), Eigen::MatrixXd(size, n_found)};
-  for (PetscInt i = 0; i < n_found; ++i) {
-    const Vector column(
-        get<Vec>(VecCreateSeqWithArray, PETSC_COMM_SELF, 1, size, found.vectors.col(i).data()));
-    check(EPSGetEigenpair(solver, i, &found.values(i), nullptr, column.get(), nullptr));
-  }
-  std::vector<int> order(n_found);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return found.values(a) < found.values(b); });
-  order.resize(n_wanted);
-  return {found.values(order), found.vectors(Eigen::all, order)};
-}
-
-/// @param shift  below zero
-Spectrum solve_by_shift(EPS solver, PetscInt size, int n_pairs, double shift) {
+/// @param stiffness, mass  read in place; null: the eigenpairs of the stiffness alone
+Spectrum lowest_pairs(Eigen::SparseMatrix<double>& stiffness, Eigen::SparseMatrix<double>* mass,
+                      int n_pairs) {
+  // The shift is far enough below zero that the shifted matrix is safely definite, near enough that low modes
+  // stay dominant.
+  const double shift = -1e-4 * stiffness.diagonal().mean() / (mass ? mass->diagonal().mean() : 1);
+  const auto size = static_cast<PetscInt>(stiffness.rows());
+  const Matrix matrix = symmetric_matrix(stiffness), weights = mass ? symmetric_matrix(*mass) : Matrix();
+  const Owned<EPS, EPSDestroy> owned(get<EPS>(EPSCreate, PETSC_COMM_SELF));
+  EPS solver = owned.get();
+  check(EPSSetOperators(solver, matrix.get(), weights.get()));
+  check(EPSSetProblemType(solver, mass ? EPS_GHEP : EPS_HEP));
   check(EPSSetDimensions(solver, n_pairs, std::min<PetscInt>(size, 3 * n_pairs + 20), PETSC_DEFAULT));
   check(EPSSetTarget(solver, shift));
   check(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
@@ -65,38 +47,38 @@ Spectrum solve_by_shift(EPS solver, PetscInt size, int n_pairs, double shift) {
   const auto factorisation = get<PC>(KSPGetPC, linear);
   check(PCSetType(factorisation, PCCHOLESKY));
   check(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
-  return solve(solver, size, n_pairs);
+  check(EPSSolve(solver));
+  const auto n_found = get<PetscInt>(EPSGetConverged, solver);
+  if (n_found < n_pairs)
+    throw cases::SolveError("eigenproblem: only " + std::to_string(n_found) + " of " +
+                            std::to_string(n_pairs) + " eigenpairs converged");
+  Spectrum found{Eigen::VectorXd(n_found), Eigen::MatrixXd(size, n_found)};
+  for (PetscInt i = 0; i < n_found; ++i) {
+    const Vector column(
+        get<Vec>(VecCreateSeqWithArray, PETSC_COMM_SELF, 1, size, found.vectors.col(i).data()));
+    check(EPSGetEigenpair(solver, i, &found.values(i), nullptr, column.get(), nullptr));
+  }
+  std::vector<int> order(n_found);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return found.values(a) < found.values(b); });
+  order.resize(n_pairs);
+  return {found.values(order), found.vectors(Eigen::all, order)};
 }
-
-// Shifts are far enough below zero that the shifted matrix is safely definite, near enough that low modes
-// stay dominant.
-constexpr double shift_of_diagonal = -1e-4;
 
 } // namespace
 
-Spectrum full_spectrum(const Eigen::MatrixXd& values) {
-  Eigen::MatrixXd symmetric = (values + values.transpose()) / 2; // read in place by PETSc
-  const auto n = static_cast<PetscInt>(values.rows());
-  const Matrix matrix(get<Mat>(MatCreateSeqDense, PETSC_COMM_SELF, n, n, symmetric.data()));
-  const OwnedSolver solver = solver_for(matrix.get());
-  check(EPSSetType(solver.get(), EPSLAPACK));
-  check(EPSSetDimensions(solver.get(), n, PETSC_DEFAULT, PETSC_DEFAULT));
-  return solve(solver.get(), n, n);
+Spectrum full_spectrum(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((matrix + matrix.transpose()) / 2);
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-Spectrum lowest_spectrum(Eigen::SparseMatrix<double> values, int n_pairs) {
-  const Matrix matrix = symmetric_matrix(values);
-  const OwnedSolver solver = solver_for(matrix.get());
-  return solve_by_shift(solver.get(), static_cast<PetscInt>(values.rows()), n_pairs,
-                        shift_of_diagonal * values.diagonal().mean());
+Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs) {
+  return lowest_pairs(matrix, nullptr, n_pairs);
 }
 
 Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
                            int n_pairs) {
-  const Matrix matrix = symmetric_matrix(stiffness), mass_matrix = symmetric_matrix(mass);
-  const OwnedSolver solver = solver_for(matrix.get(), mass_matrix.get());
-  return solve_by_shift(solver.get(), static_cast<PetscInt>(stiffness.rows()), n_pairs,
-                        shift_of_diagonal * stiffness.diagonal().mean() / mass.diagonal().mean());
+  return lowest_pairs(stiffness, &mass, n_pairs);
 }
 
 } // namespace springproof::mechanics::petsc

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-/// Eigenpairs of symmetric matrices by SLEPc, for callers that include none of its headers.
+/// Eigenpairs of symmetric matrices, for callers that include none of SLEPc's headers.
 namespace springproof::mechanics::petsc {
 
 /// Eigenvalues in ascending order and their orthonormal eigenvectors, a column each. Inside a multiple
@@ -13,9 +13,8 @@ struct Spectrum {
   Eigen::MatrixXd vectors;
 };
 
-/// All eigenpairs of a small dense matrix, by LAPACK behind SLEPc's EPS. PETSc must be initialised; every
-/// rank solves all by itself.
-/// @param matrix  only its symmetric part counts    @throws SolveError if SLEPc returns fewer pairs
+/// All eigenpairs of a small dense matrix, by Eigen.
+/// @param matrix  only its symmetric part counts
 Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
 
 /// The lowest eigenpairs of a sparse positive semidefinite matrix, by Krylov-Schur on the inverse shifted

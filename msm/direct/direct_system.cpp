@@ -1,8 +1,8 @@
 #include "msm/direct/direct_system.hpp"
 
+#include "mechanics/grid/lowest_mode.hpp"
 #include "msm/direct/factorisation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,35 +10,6 @@
 namespace springproof::msm {
 
 namespace {
-
-/// Largest eigenvalue of a symmetric operator and its eigenvector, by Lanczos with full reorthogonalisation
-/// from a fixed pseudo-random vector: to 1e-6 relative, or what 60 steps give.
-mechanics::NonlinearProblem::Mode largest_mode(const std::function<Vector(const Vector&)>& apply,
-                                               Eigen::Index n) {
-  const Eigen::Index max_steps = std::min<Eigen::Index>(60, n);
-  Eigen::MatrixXd basis(n, max_steps);
-  Vector alpha(max_steps), beta(max_steps);
-  std::mt19937 generator(1);
-  std::normal_distribution<double> normal;
-  for (Eigen::Index i = 0; i < n; ++i) basis(i, 0) = normal(generator);
-  basis.col(0).normalize();
-  for (Eigen::Index step = 0;; ++step) {
-    Vector next = apply(basis.col(step));
-    alpha[step] = next.dot(basis.col(step));
-    for (int pass = 0; pass < 2; ++pass) // twice is enough (Kahan)
-      next -= basis.leftCols(step + 1) * (basis.leftCols(step + 1).transpose() * next);
-    beta[step] = next.norm();
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(alpha.head(step + 1), beta.head(step));
-    const double largest = ritz.eigenvalues()[step];
-    const Vector weights = ritz.eigenvectors().col(step);
-    // |A x - theta x| = beta |last weight|
-    const bool converged = beta[step] * std::abs(weights[step]) <= 1e-6 * std::abs(largest);
-    if (converged || step + 1 == max_steps)
-      return {largest, (basis.leftCols(step + 1) * weights).normalized()};
-    basis.col(step + 1) = next / beta[step];
-  }
-}
 
 /// Calls action(point, component, place in a vector): free degrees of freedom, and then, if supports move,
 /// constrained ones.
@@ -80,7 +51,7 @@ class DirectSystem : public SpringSystem {
     return factorise(displacement, TransverseTerm::exact, 0);
   }
 
-  /// Lanczos on the inverse, shifted until the tangent is positive definite.
+  /// Preconditions by the inverse, shifted until the tangent is positive definite.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     double shift = 0;
     while (!factorise(displacement, TransverseTerm::exact, shift)) {
@@ -88,10 +59,14 @@ class DirectSystem : public SpringSystem {
       if (!(largest > no_stiffness && shift < 1e3 * largest)) return std::nullopt; // or it is not a number
       shift = shift == 0 ? 1e-9 * largest : 10 * shift;
     }
-    const auto apply = [&](const Vector& v) { return factorisation_.solve(v); };
     const OneThread one;
-    const Mode mode = largest_mode(apply, tangent_.n_free());
-    return Mode{1 / mode.eigenvalue - shift, with_supports(mode.shape)};
+    const auto mode = mechanics::grid::lowest_mode(
+        {[&](const Vector& in, Vector& out) { out = matrix_->selfadjointView<Eigen::Lower>() * in; },
+         [&](const Vector& in, Vector& out) { out = factorisation_.solve(in); },
+         [](const Vector& a, const Vector& b) { return a.dot(b); }, 1, 1e-8},
+        random_force(1));
+    if (!mode) return std::nullopt;
+    return Mode{mode->eigenvalue, with_supports(mode->shape)};
   }
 
   /// A mechanism's lowest pivot is lost in rounding. So may be that of a slender or nearly incompressible
@@ -105,10 +80,7 @@ class DirectSystem : public SpringSystem {
     if (is_definite && factorisation_.smallest_pivot_ratio(diagonal_) > rounding) return RestState::sound;
     if (is_definite && has_negative_springs()) return RestState::mechanism; // what a motion stores may cancel
     if (is_definite) {
-      std::mt19937 generator(3);
-      std::normal_distribution<double> normal;
-      Vector force = rest;
-      for (double& entry : force.head(tangent_.n_free())) entry = normal(generator);
+      const Vector force = with_supports(random_force(3));
       Vector motion;
       const bool moves = solve(rest, force, 0, TransverseTerm::exact, 0, motion);
       const double stored = moves ? small_motion_energy(problem_.lattice, to_points(problem_, motion)) : 0;
@@ -161,6 +133,7 @@ class DirectSystem : public SpringSystem {
   const Problem& problem_;
   Tangent tangent_;
   Vector load_, diagonal_;
+  const Tangent::Matrix* matrix_ = nullptr; ///< the tangent, as it was assembled last
   Factorisation factorisation_;
   std::optional<std::tuple<Vector, TransverseTerm, double>> factorised_; ///< displacement, term and shift
   bool is_definite_ = false;
@@ -192,6 +165,14 @@ class DirectSystem : public SpringSystem {
     return step.allFinite() && step.dot(residual) > 0;
   }
 
+  /// Fixed forces on the free degrees of freedom, with a part in every motion.
+  Vector random_force(unsigned seed) const {
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> normal;
+    Vector force(tangent_.n_free());
+    for (double& entry : force) entry = normal(generator);
+    return force;
+  }
   /// A vector of forces: 0 on supports.
   Vector on_free(Vector all) const {
     all.tail(all.size() - tangent_.n_free()).setZero();
@@ -214,11 +195,11 @@ class DirectSystem : public SpringSystem {
   bool factorise(const Vector& displacement, TransverseTerm term, double shift) {
     if (factorised_ == std::tie(displacement, term, shift)) return is_definite_;
     const OneThread one;
-    const Tangent::Matrix& matrix = tangent_.assemble(positions(displacement), term);
-    diagonal_ = matrix.diagonal();
+    matrix_ = &tangent_.assemble(positions(displacement), term);
+    diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();
-    is_definite_ = factorisation_.factorise(matrix, shift);
+    is_definite_ = factorisation_.factorise(*matrix_, shift);
     factorised_.emplace(displacement, term, shift);
     return is_definite_;
   }

@@ -3,9 +3,9 @@
 #include "cases/mesh/sharing.hpp"
 #include "mechanics/grid/coarse_guess.hpp"
 #include "mechanics/grid/krylov.hpp"
+#include "mechanics/grid/lowest_mode.hpp"
 #include "msm/grid/transfer.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -122,60 +122,17 @@ class MatrixFreeSystem : public GridSystem {
     return found.converged ? RestState::sound : RestState::unknown;
   }
 
-  /// LOBPCG with one vector (Knyazev 2001): Rayleigh-Ritz on the vector, its preconditioned residual and the
-  /// last step. Images under the tangent are combined like the vectors, so that each iteration needs one.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     if (mode_at_.size() > 0 && !any_rank(mode_at_ != displacement)) return mode_;
     multigrid().linearise(displacement);
-    const Eigen::Index size = problem_.load.size();
-    const Body& body = problem_.body;
-    using Columns = std::array<Vector, 3>; // the vector, its preconditioned residual, the last step
-    Columns basis, image;
-    for (std::size_t c = 0; c < 3; ++c) basis[c] = image[c] = Vector::Zero(size);
-    const auto examine = [&](std::size_t c, const Vector& right_side) {
-      multigrid().apply(right_side, basis[c]);
-      scale(basis[c], 1 / norm(body, basis[c], n_threads_));
-      springs_.product(Clamp::no, displacement, basis[c], image[c]);
+    const auto product = [&](const Vector& in, Vector& out) {
+      springs_.product(Clamp::no, displacement, in, out);
     };
-    examine(0, probe()); // rich in low modes
-    double eigenvalue = dot(basis[0], image[0]);
-    int n = 2;
-    for (int iteration = 0; iteration < max_mode_iterations; ++iteration, n = 3) {
-      Vector residual = image[0];
-      add(residual, -eigenvalue, basis[0], n_threads_);
-      examine(1, residual);
-      const auto products = [&](const Columns& left, const Columns& right) {
-        Eigen::MatrixXd all(n, n); // symmetric, both of them
-        for (int r = 0; r < n; ++r)
-          for (int c = 0; c <= r; ++c) all(r, c) = all(c, r) = dot(left[index(r)], right[index(c)]);
-        return all;
-      };
-      const Eigen::MatrixXd gram = products(basis, basis), small = products(basis, image);
-      const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-      if (factor.info() != Eigen::Success || !(factor.matrixL().toDenseMatrix().diagonal().minCoeff() > 1e-7))
-        break; // nothing new in the residual
-      const Eigen::MatrixXd left = factor.matrixL().solve(small);
-      const Eigen::MatrixXd reduced = factor.matrixL().solve(left.transpose());
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
-      const Eigen::VectorXd weights = factor.matrixU().solve(ritz.eigenvectors().col(0));
-      const double before = std::exchange(eigenvalue, ritz.eigenvalues()[0]);
-      for (Columns* columns : {&basis, &image}) {
-        auto& [now, residual_part, step] = *columns;
-        scale(step, n == 3 ? weights[2] : 0);
-        add(step, weights[1], residual_part, n_threads_);
-        scale(now, weights[0]);
-        add(now, 1.0, step, n_threads_);
-      }
-      const double to_unit = 1 / norm(body, basis[0], n_threads_),
-                   step_to_unit = 1 / norm(body, basis[2], n_threads_);
-      for (Columns* columns : {&basis, &image}) {
-        scale((*columns)[0], to_unit);
-        scale((*columns)[2], step_to_unit);
-      }
-      if (iteration > 2 && before - eigenvalue <= 1e-4 * std::abs(eigenvalue)) break;
-    }
-    if (!std::isfinite(eigenvalue)) return std::nullopt; // the stiffness is lost in rounding
-    mode_ = Mode{eigenvalue, basis[0]};
+    const auto precondition = [&](const Vector& in, Vector& out) { multigrid().apply(in, out); };
+    const auto dots = [&](const Vector& a, const Vector& b) { return dot(a, b); };
+    const auto found = mechanics::grid::lowest_mode({product, precondition, dots, n_threads_}, probe());
+    if (!found) return std::nullopt;
+    mode_ = *found;
     mode_at_ = displacement;
     return mode_;
   }
@@ -222,8 +179,8 @@ class MatrixFreeSystem : public GridSystem {
   }
 
  private:
-  static constexpr int max_iterations = 300, max_mode_iterations = 100; ///< healthy lattices take 30
-  static constexpr double rounding = 1e-12; ///< relative eigenvalue: 1e-16 by rounding, 1e-8 softest lattice
+  static constexpr int max_iterations = 300; ///< healthy lattices take 30
+  static constexpr double rounding = 1e-12;  ///< relative eigenvalue: 1e-16 by rounding, 1e-8 softest lattice
   static constexpr double no_energy = 1e-18, no_stiffness = 1e-290; ///< as in the direct system
 
   const GridProblem& problem_;
@@ -252,11 +209,6 @@ class MatrixFreeSystem : public GridSystem {
   LinearSolution answer_to_probe(const Vector& displacement) {
     const double target = 1e-3 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, n_unknowns())));
     return solve_fresh(displacement, probe(), target, TransverseTerm::exact, 0);
-  }
-
-  void scale(Vector& v, double factor) const {
-    for_each_piece(v.size(), n_threads_,
-                   [&](std::ptrdiff_t first, std::ptrdiff_t n) { v.segment(first, n) *= factor; });
   }
 
   bool solve(const Vector& displacement, const Vector& right_side, double forcing, TransverseTerm term,

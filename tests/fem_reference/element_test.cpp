@@ -32,7 +32,7 @@ struct OneCell {
   OneCell(cases::Formulation name, Element element, const cases::Material& material)
       : scene(scenes::distorted_box(1, scenes::Surface::free, material, name, element)),
         formulation(make(scene)),
-        discretisation(scene, element_type(scene.definition.fem, formulation), {}, MPI_COMM_SELF),
+        discretisation(scene, element_type(scene.definition.fem, formulation), MPI_COMM_SELF),
         kernel(formulation.make_kernel(discretisation.element)), pressure(Eigen::VectorXd::Zero(4)) {}
 
   static Formulation make(cases::Scene& scene) {

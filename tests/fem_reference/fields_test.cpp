@@ -1,4 +1,4 @@
-#include "fem_reference/element_fields.hpp"
+#include "fem_reference/assembled_body.hpp"
 
 #include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
@@ -50,11 +50,10 @@ std::vector<LawOfFormulation> laws() {
           {cases::Formulation::hyperelastic, ogden, point_law<Ogden>(ogden)}};
 }
 
-cases::Fields fields_of(Solved& solved, const cases::Scene& scene, int n_refinements) {
-  ElementFields sums(scene, solved.formulation.kinematics, solved.discretisation.nodes.in_unit_cube(),
-                     {0, scene.mesh.cells.size()});
-  solved.equations.add_fields(solved.state, n_refinements, sums);
-  return sums.fields(nullptr, 0);
+cases::Fields fields_of(Solved& solved, const cases::Scene& scene) {
+  return fem_reference::fields_of(
+      elements_of(scene, {solved.formulation}, solved.discretisation, solved.equations, solved.state),
+      nullptr, 0);
 }
 
 double sum(const std::vector<double>& values) {
@@ -87,7 +86,7 @@ TEST_CASE("distorted cells under a uniform strain have the law's stress, its ene
       const Matrix3 f = is_linear ? stretched : turned;
       const auto scene = scenes::distorted_box(3, scenes::Surface::fixed, material, formulation, element);
       Solved solved(scene, {nullptr, [&](const Vector3d& x) { return Vector3d(f * x - x); }});
-      const cases::Fields fields = fields_of(solved, scene, 0);
+      const cases::Fields fields = fields_of(solved, scene);
       const Matrix3 first = unflattened(whole_stress(law, f));
       const Matrix3 stress = is_linear ? first : Matrix3(first * f.transpose() / f.determinant());
       const Matrix3 gradient = f - Matrix3::Identity();
@@ -203,24 +202,22 @@ TEST_CASE("a cell's stress, strain and energy approach their limits with the squ
     return 0.06 * Vector3d(std::sin(2 * x.y() + x.z()), std::cos(2 * x.x() - x.z()),
                            std::sin(1.5 * x.x() + 1.5 * x.y() - x.z()));
   };
-  const auto body = scenes::distorted_box(2, scenes::Surface::fixed, scenes::thesis_elastic(),
-                                          cases::Formulation::log_strain, Element::q1);
+  auto body = scenes::distorted_box(2, scenes::Surface::fixed, scenes::thesis_elastic(),
+                                    cases::Formulation::log_strain, Element::q1);
   std::vector<std::array<double, 3>> values;
   for (const int refine : {2, 3, 4}) {
     cases::Scene fine = body;
     fine.constrained.clear();
     for (int i = 0; i < refine; ++i) fine.mesh = cases::refine(fine.mesh);
     const Formulation formulation = make_formulation(fine.definition.fem, fine.definition.material);
-    const Discretisation discretisation(fine, element_type(fine.definition.fem, formulation), {},
-                                        MPI_COMM_SELF);
+    const Discretisation discretisation(fine, element_type(fine.definition.fem, formulation), MPI_COMM_SELF);
     EquilibriumEquations equations(discretisation, {formulation});
     State state = equations.rest();
     for (std::size_t n = 0; n < discretisation.nodes.point.size(); ++n)
       state.segment<3>(Eigen::Index(3 * n)) = field(discretisation.nodes.point[n]);
-    ElementFields sums(body, formulation.kinematics, discretisation.nodes.in_unit_cube(),
-                       {0, body.mesh.cells.size()});
-    equations.add_fields(state, refine, sums);
-    const cases::Fields fields = sums.fields(nullptr, 0);
+    body.definition.fem.refine = refine;
+    const cases::Fields fields = fem_reference::fields_of(
+        elements_of(body, {formulation}, discretisation, equations, state), nullptr, 0);
     values.push_back({fields.stress[3][0], fields.strain[3][3], fields.strain_energy[3]});
   }
   for (std::size_t i = 0; i < 3; ++i) {

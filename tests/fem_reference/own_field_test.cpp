@@ -85,25 +85,26 @@ TEST_CASE("the volume of bent trilinear cells is that between their nodes, of bo
 }
 
 TEST_CASE("the norms of one quadratic element are its field's and not its corners'", "[verification]") {
-  const fem_reference::ElementType type = fem_reference::element_type(
-      [] {
-        cases::Fem fem;
-        fem.element = Element::q2;
-        return fem;
-      }(),
-      {fem_reference::Kinematics::linear, fem_reference::TangentSymmetry::symmetric,
-       fem_reference::Split::none});
   const Vector3d edges(2, 3, 5);
-  const fem_reference::Cuboid cuboid(type, edges);
+  const fem_reference::Cuboid cuboid(2, 0, edges);
   std::vector<double> displacement;
   for (const Vector3d& node : cuboid.nodes()) {
     const double x = edges.x() * node.x();
     for (const double u : {x * x, 0., -1.}) displacement.push_back(u);
   }
-  fem_reference::DisplacementNorms norms(2, cuboid.nodes());
-  norms.add(cuboid.geometry(), displacement.data());
-  CHECK(norms.norms(nullptr).root_mean_square == Approx(std::sqrt(16. / 5 + 1)).epsilon(1e-13)); // mean of x⁴
-  CHECK(norms.norms(nullptr).largest == Approx(std::sqrt(17.)));
+  const cases::Scene scene;
+  const auto norms = fem_reference::displacement_norms(
+      {scene,
+       {},
+       {Element::q2, 2, fem_reference::Pressure::pointwise, 0},
+       cuboid.nodes(),
+       {},
+       [&](const auto& action) {
+         action({{0, Vector3d::Zero(), 1}, cuboid.geometry(), displacement.data(), nullptr});
+       }},
+      nullptr);
+  CHECK(norms.root_mean_square == Approx(std::sqrt(16. / 5 + 1)).epsilon(1e-13)); // mean of x⁴
+  CHECK(norms.largest == Approx(std::sqrt(17.)));
 }
 
 namespace {

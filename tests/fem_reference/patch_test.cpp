@@ -50,8 +50,7 @@ TEST_CASE("an unsupported cell of rest shape has six motions without force and n
   const auto scene = scenes::distorted_box(1, scenes::Surface::free, scenes::thesis_elastic(),
                                            cases::Formulation::small_strain, element);
   const Formulation formulation = make_formulation(scene.definition.fem, scene.definition.material);
-  const Discretisation discretisation(scene, element_type(scene.definition.fem, formulation), {},
-                                      MPI_COMM_WORLD);
+  const Discretisation discretisation(scene, element_type(scene.definition.fem, formulation), MPI_COMM_WORLD);
   const auto kernel = formulation.make_kernel(discretisation.element);
   const std::vector<double> rest(3 * static_cast<std::size_t>(discretisation.nodes.per_cell), 0.),
       pressure(4, 0.);

@@ -8,10 +8,34 @@ using namespace springproof;
 using namespace fem_reference;
 using Eigen::Vector3d;
 
+namespace {
+
+/// On one rank, which has all nodes.
+Discretisation& prescribe(const Prescribed& prescribed, Discretisation& d) {
+  const auto n = static_cast<std::size_t>(d.nodes.per_cell);
+  for (int cell = 0; prescribed.body_force && cell < d.nodes.n_cells; ++cell)
+    for (int q = 0; q < d.geometry.n_points; ++q) {
+      const Vector3d force =
+          d.geometry.of(cell).weights[q] * prescribed.body_force(d.geometry.point(cell, q));
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const int node = d.nodes.of_cell[static_cast<std::size_t>(cell) * n + a];
+          d.load[3 * static_cast<std::size_t>(node) + c] +=
+              d.geometry.shape_values[static_cast<std::size_t>(q) * n + a] * force[static_cast<int>(c)];
+        }
+    }
+  for (std::size_t i = 0; prescribed.displacement && i < d.constraints.is_constrained.size(); ++i)
+    if (d.constraints.is_constrained[i])
+      d.constraints.at_full_load[i] = prescribed.displacement(d.nodes.point[i / 3])[static_cast<int>(i % 3)];
+  return d;
+}
+
+} // namespace
+
 Solved::Solved(const cases::Scene& scene, const Prescribed& prescribed)
     : formulation(make_formulation(scene.definition.fem, scene.definition.material)),
-      discretisation(scene, element_type(scene.definition.fem, formulation), prescribed, MPI_COMM_SELF),
-      equations(discretisation, {formulation}),
+      discretisation(scene, element_type(scene.definition.fem, formulation), MPI_COMM_SELF),
+      equations(prescribe(prescribed, discretisation), {formulation}),
       state(mechanics::find_equilibrium(equations, equations.rest(), "test", default_settings()).state) {}
 
 std::vector<Vector3d> Solved::displacement() const {

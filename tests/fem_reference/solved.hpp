@@ -4,6 +4,13 @@
 
 using namespace springproof;
 
+/// What verification needs beyond a case. None: zero.
+struct Prescribed {
+  using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d& rest_point)>;
+  Field body_force;   ///< N/mm³ at rest
+  Field displacement; ///< mm, on constrained components
+};
+
 /// A scene solved under body forces and prescribed displacements, with its degrees of freedom in view.
 struct Solved {
   fem_reference::Formulation formulation;
@@ -12,9 +19,9 @@ struct Solved {
   fem_reference::State state;
 
   /// @throws SolveError
-  Solved(const cases::Scene& scene, const fem_reference::Prescribed& prescribed);
+  Solved(const cases::Scene& scene, const Prescribed& prescribed);
 
-  using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d& rest_point)>;
+  using Field = Prescribed::Field;
 
   /// Displacement of each local node (one rank: of every node), mm.
   std::vector<Eigen::Vector3d> displacement() const;

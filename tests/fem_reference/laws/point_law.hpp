@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem_reference/laws/isotropic.hpp"
+#include "fem_reference/laws/point.hpp"
 #include "fem_reference/laws/transverse_log_strain.hpp"
 #include "fem_reference/laws/transverse_small_strain.hpp"
 
