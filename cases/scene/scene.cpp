@@ -7,7 +7,6 @@
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/regions.hpp"
 
