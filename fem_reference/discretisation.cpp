@@ -29,7 +29,8 @@ void add(Vec load, int local_node, const Vector3d& force) {
 }
 
 void add_point_forces(const cases::Scene& scene, const Nodes& nodes, Vec load) {
-  const std::vector<Vector3d> forces = cases::point_forces(scene);
+  const std::vector<Vector3d> forces =
+      cases::on_all_nodes(cases::nodes_with_point_forces(scene), scene.mesh.nodes.size());
   for (int node = 0; node < nodes.n_owned; ++node)
     if (nodes.mesh_node[index(node)] >= 0) add(load, node, forces[index(nodes.mesh_node[index(node)])]);
 }

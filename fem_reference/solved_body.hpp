@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "fem_reference/element_fields.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"

@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "cases/scene/network.hpp"
+#include "cases/scene/scene.hpp"
 #include "msm/lattice.hpp"
 
 #include <functional>

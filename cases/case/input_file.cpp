@@ -36,11 +36,6 @@ std::size_t size_of_readable(int file, const std::string& path) {
 
 constexpr const char* blanks = " \t\r\v\f";
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::vector<std::string_view> fields_of(std::string_view line, Between between) {
   std::vector<std::string_view> fields;
   const bool by_blanks = between == Between::commas_or_blanks && line.find(',') == line.npos;
@@ -61,6 +56,11 @@ bool is_heading(const TextRow& row) {
 }
 
 } // namespace
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
 
 std::string read_bytes(const std::string& path, std::uint64_t largest) {
   // Opening waits for no writer of a pipe.

@@ -47,6 +47,8 @@ inline std::string in_small_letters(std::string text) {
   return text;
 }
 
+std::string_view without_blanks(std::string_view text);
+
 /// One row of a table; views of the text that it was read from.
 struct TextRow {
   std::vector<std::string_view> fields; ///< without the blanks around them

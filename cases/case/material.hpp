@@ -33,7 +33,7 @@ struct TransverselyIsotropic {
   double poissons_ratio_along;  ///< nu_LT: contraction across the fibre, pulled along it
   double poissons_ratio_across; ///< nu_TT in (-1, 1): contraction across the fibre, pulled across it
   double shear_modulus_along;   ///< G_LT, MPa, > 0: between the fibre and a direction across it
-  Eigen::Vector3d fibre;        ///< unit length
+  Eigen::Vector3d fibre = Eigen::Vector3d::UnitX(); ///< unit length
 };
 SPRINGPROOF_FIELDS(TransverselyIsotropic, youngs_modulus_along, youngs_modulus_across, poissons_ratio_along,
                    poissons_ratio_across, shear_modulus_along, fibre)

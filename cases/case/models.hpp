@@ -72,7 +72,7 @@ struct Msm {
   std::optional<std::array<double, 7>> axis_stiffness;
   std::optional<double> uniform_stiffness; ///< every spring's, N/m; design = "uniform"
   double volume_stiffness = 0;             ///< MPa: k_v; design = "given"
-  std::optional<NamedFile> network;        ///< design = "network", CSV: cases/scene/network.hpp
+  std::optional<NamedFile> network;        ///< design = "network", CSV: read_network()
   SpringLaw law = SpringLaw::hooke;
   std::optional<std::array<double, 3>> exponent; ///< p of edges, face and internal diagonals; power_log. The
                                                  ///< matched design finds its own where there is none

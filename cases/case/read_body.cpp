@@ -1,6 +1,5 @@
 #include "cases/case/readers.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>

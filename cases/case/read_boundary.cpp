@@ -1,7 +1,6 @@
 #include "cases/case/readers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <sstream>
 

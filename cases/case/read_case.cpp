@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace springproof::cases {
@@ -284,18 +283,12 @@ Outcome read_outcome(const Entry& entry) {
 }
 
 /// Models of a hard case that outcomes can be expected of: the table, and what is solved for it.
-struct HardModel {
-  const char* name;
-  Side side;
-  std::optional<Design> design;
-};
-const HardModel models[] = {{"msm", Side::msm, std::nullopt},
-                            {"hybrid", Side::msm, Design::hybrid},
-                            {"fem", Side::fem, std::nullopt}};
+const ExpectedOutcome models[] = {{"msm", Side::msm, {}, {}, {}, {}},
+                                  {"hybrid", Side::msm, Design::hybrid, {}, {}, {}},
+                                  {"fem", Side::fem, {}, {}, {}, {}}};
 
-ExpectedOutcome read_expected(Table& table, const HardModel& model) {
-  ExpectedOutcome expected{model.name, model.side, model.design, table.required("outcome", read_outcome),
-                           {},         {}};
+ExpectedOutcome read_expected(Table& table, ExpectedOutcome expected) {
+  expected.outcome = table.required("outcome", read_outcome);
   const std::string allowed = "an interval [lower, upper] with 0 <= lower <= upper <= 1";
   const auto is_part = [](double load) { return 0 <= load && load <= 1; };
   expected.load_reached = table.optional("load_reached", Interval<std::less_equal<>>{allowed, is_part});
@@ -333,9 +326,9 @@ Stress read_stress(Table& table, Msm& msm) {
       table.optional("least_load_steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
   result.max_seconds = table.required("max_seconds", Number{"a number above 0", is_positive});
   result.max_iterations = table.required("max_iterations", WholeNumber{"a whole number from 1", 1, 1000000});
-  for (const HardModel& model : models)
-    if (const auto expected =
-            table.section_if_there(model.name, [&](Table& section) { return read_expected(section, model); }))
+  for (const ExpectedOutcome& model : models)
+    if (const auto expected = table.section_if_there(
+            model.model, [&](Table& section) { return read_expected(section, model); }))
       result.expected.push_back(*expected);
   if (result.expected.empty())
     table.entry("msm").refuse("a table [stress.msm], [stress.hybrid] or [stress.fem] with an outcome");

@@ -72,11 +72,6 @@ void check_lines(const std::string& text, const std::string& path) {
              "has more than {} points, must be divided: a list may have several lines", most_points);
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// Steps "name" or "name[3]" joined by points.
 toml::path parse_path(const std::string& path, const Where& where) {
   static const std::regex form(R"([\w-]+(\[\d{1,6}\])?(\.[\w-]+(\[\d{1,6}\])?)*)");
@@ -110,9 +105,9 @@ toml::table parse_value(const std::string& text, const Where& where) {
 /// Puts a setting into a document.
 void apply_override(toml::table& document, const std::string& setting) {
   const std::size_t equals = setting.find('=');
-  const Where where{"", 0, 0, trimmed(setting.substr(0, equals))};
+  const Where where{"", 0, 0, std::string(without_blanks(std::string_view(setting).substr(0, equals)))};
   if (equals == std::string::npos) throw InputError(where, "is not KEY=VALUE");
-  const std::string text = trimmed(setting.substr(equals + 1));
+  const std::string text(without_blanks(std::string_view(setting).substr(equals + 1)));
   if (text.empty()) throw InputError(where, "has no value, must be KEY=VALUE");
 
   const toml::path path = parse_path(where.key, where);

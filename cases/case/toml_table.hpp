@@ -89,7 +89,7 @@ struct Array {
   Condition condition = is_anything;
   std::array<double, count> operator()(const Entry& entry) const {
     const std::vector<double> read = Numbers{allowed, count, condition}(entry);
-    std::array<double, count> values;
+    std::array<double, count> values{};
     std::copy(read.begin(), read.end(), values.begin());
     return values;
   }

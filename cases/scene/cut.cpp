@@ -1,4 +1,4 @@
-#include "cases/scene/cut.hpp"
+#include "cases/scene/scene.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/regions.hpp"

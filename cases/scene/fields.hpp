@@ -6,7 +6,6 @@
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/variant.hpp>
-#include <type_traits>
 
 /// The fields of scenes and solutions, for cereal: see cases/mesh/fields.hpp.
 namespace cereal {

@@ -1,4 +1,4 @@
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 
 #include <algorithm>
 

@@ -249,10 +249,6 @@ std::vector<Vector3d> nodal_forces(const Scene& scene) {
   return on_all_nodes(loaded_nodes(scene), scene.mesh.nodes.size());
 }
 
-std::vector<Vector3d> point_forces(const Scene& scene) {
-  return on_all_nodes(nodes_with_point_forces(scene), scene.mesh.nodes.size());
-}
-
 CellDynamics dynamics_of(const Scene& scene, std::size_t cell) {
   const int material = material_of(scene, cell);
   const MaterialDynamics& dynamics = material == 0

@@ -48,7 +48,6 @@ std::vector<Eigen::Vector3d> on_all_nodes(const std::vector<NodeVector>& some, s
 
 /// The same for all nodes of the mesh.
 std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
-std::vector<Eigen::Vector3d> point_forces(const Scene& scene);
 
 /// The dead surface traction (MPa) of a load on an area, as a function of a point (mm) of its region at rest;
 /// empty for other loads.

@@ -7,7 +7,6 @@
 #include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "cases/scene/cut.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/regions.hpp"
 
@@ -98,20 +97,24 @@ void hold_rigid_nodes(Scene& scene) {
   }
 }
 
+template<class Action>
+void for_each_dof(const Scene::ConstrainedNodes& fixed, const Action& action) {
+  for (const int node : fixed.selection.nodes)
+    for (std::size_t a = 0; a < 3; ++a)
+      if (fixed.components[a]) action(3 * index(node) + a);
+}
+
 /// A degree of freedom is constrained once: not both fixed and moved, nor moved by two regions.
 void check_motions(const Scene& scene) {
   std::vector<bool> is_taken(3 * scene.mesh.nodes.size(), false);
   const std::size_t n_resting = scene.constrained.size() - scene.moved.size();
   for (std::size_t f = 0; f < scene.constrained.size(); ++f)
-    for (const int node : scene.constrained[f].selection.nodes)
-      for (std::size_t a = 0; a < 3; ++a) {
-        if (!scene.constrained[f].components[a]) continue;
-        const std::size_t d = 3 * index(node) + a;
-        if (f >= n_resting && is_taken[d])
-          throw InputError(scene.moved[f - n_resting].motion.region.where,
-                           "shares nodes with another region that is held or moved in the same component");
-        is_taken[d] = true;
-      }
+    for_each_dof(scene.constrained[f], [&](std::size_t d) {
+      if (f >= n_resting && is_taken[d])
+        throw InputError(scene.moved[f - n_resting].motion.region.where,
+                         "shares nodes with another region that is held or moved in the same component");
+      is_taken[d] = true;
+    });
 }
 
 /// Loads and motions that double precision cannot tell from none would be "carried" by a body at rest.
@@ -218,19 +221,6 @@ void check_measure(const Scene& scene, const Measure& measure) {
   std::visit(check_kind, measure.kind);
 }
 
-} // namespace
-
-int material_of(const Scene& scene, std::size_t cell) {
-  return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
-}
-
-bool is_rigid(const Scene& scene, std::size_t cell) {
-  const LabelClass* rigid = rigid_class(scene.definition.body);
-  return rigid != nullptr && scene.mesh.group_of_cell[cell] == rigid->name;
-}
-
-namespace {
-
 /// Drops triangles on planes of symmetry: no part of the surface, beyond them the body goes on.
 void open_at_symmetry(const HexMesh& mesh, const std::vector<Fixed>& symmetry, TriangleMesh& surface) {
   for (const Fixed& plane : symmetry) {
@@ -277,6 +267,15 @@ void resolve_network(Scene& scene) {
 }
 
 } // namespace
+
+int material_of(const Scene& scene, std::size_t cell) {
+  return scene.material_of_cell.empty() ? 0 : scene.material_of_cell[cell];
+}
+
+bool is_rigid(const Scene& scene, std::size_t cell) {
+  const LabelClass* rigid = rigid_class(scene.definition.body);
+  return rigid != nullptr && scene.mesh.group_of_cell[cell] == rigid->name;
+}
 
 Scene make_scene(const Case& definition) {
   Scene scene;
@@ -349,9 +348,7 @@ Scene refine(const Scene& scene, int n) {
 std::vector<bool> constrained_dofs(const Scene& scene) {
   std::vector<bool> is_constrained(3 * scene.mesh.nodes.size(), false);
   for (const auto& fixed : scene.constrained)
-    for (int node : fixed.selection.nodes)
-      for (std::size_t a = 0; a < 3; ++a)
-        if (fixed.components[a]) is_constrained[3 * index(node) + a] = true;
+    for_each_dof(fixed, [&](std::size_t d) { is_constrained[d] = true; });
   return is_constrained;
 }
 

@@ -3,9 +3,18 @@
 #include "cases/case/case.hpp"
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
-#include "cases/scene/network.hpp"
+
+#include <functional>
 
 namespace springproof::cases {
+
+/// A spring of a user's own network (`design = "network"`) between two nodes of the mesh, by their numbers.
+struct NetworkSpring {
+  int a, b;
+  double stiffness;                    ///< N/mm, > 0
+  std::optional<double> rest_length{}; ///< mm, > 0; absent: the distance of the nodes at rest
+  std::optional<double> exponent{};    ///< power-log law; absent: Hooke's
+};
 
 /// A case with its mesh built and its regions resolved: all that a model needs.
 struct Scene {
@@ -68,5 +77,62 @@ std::vector<bool> constrained_dofs(const Scene& scene);
 /// Displacement (mm) that a motion prescribes at a load factor for a point with rest position `rest` (mm); 0
 /// on components that the motion leaves free. Where it is scaled, that is as at a smaller load factor.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
+
+// Networks: `file = "NAME.csv"` in [msm]
+
+/// Reads lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes),
+/// stiffness in N/m, and perhaps rest length in mm and exponent of the power-log law. These two may be empty.
+/// Empty lines, those that begin with #, and a heading (the first line alone may be one) are skipped.
+/// @param text  the file's content    @param name  the file's, for messages    @param n_nodes  the mesh's
+/// @throws InputError with the line and the field
+std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,
+                                        std::size_t n_nodes);
+
+/// Likely mistakes in a network, with the number of springs: nodes that several springs join, and rest
+/// lengths more than 10 % from the distance of the nodes.
+std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
+                                   const std::function<Eigen::Vector3d(int)>& node);
+
+// Cuts and what moves with them: pieces removed from a body, their sides joined, motions that fade out
+
+/// A mesh without the pieces that are cut out of it.
+/// @throws InputError, at the piece, if the mesh is no grid of cells or has groups of nodes, if a piece has
+/// no cells or one that another has too, and if the rest is not one body whose cells hang together by faces
+HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed);
+
+/// The first piece whose sides are joined, if there is one.
+std::optional<Removed> first_joined(const Case& definition);
+
+/// Closes the cuts that are to be joined: the nodes on both sides of the piece get a prescribed displacement
+/// along the axis, that of the side's nodes that are held or moved already (the bone's), so that the sides
+/// meet in one plane. There they stay, free to slide: where both sides are mirror images of each other, that
+/// is as if their nodes were merged. Nodes of cells that are left between the sides stay free: a cell that
+/// such a node was joined in would be shut.
+/// @param scene  with its supports resolved
+/// @throws InputError, at the piece, if it has nothing on one side, if nothing says how a side moves, or if
+/// the sides do not meet
+void join_cuts(Scene& scene);
+
+/// @throws InputError, at the motion, if no node lies in the zone that is scaled, or none beyond it
+void check_scaled(const Scene& scene);
+
+// A dynamic case's scene at single times, and what is watched of it
+
+/// The static scene whose equilibrium a motion may start from: loads and motions by their factors just before
+/// time 0, at full load, without [dynamics].
+Scene scene_before_start(const Scene& scene);
+
+/// Whether the factor of a load follows time.
+bool has_load_histories(const Scene& scene);
+
+/// Whether the factor of a load or a moved region jumps after time 0 and before the motion's end.
+/// @param scene  a dynamic case's
+bool jumps_on_the_way(const Scene& scene);
+
+/// Nodes that the case's measures look at, ascending.
+std::vector<int> watched_nodes(const Scene& scene);
+
+/// Whether one of its measures needs the body's volume.
+bool watches_volume(const Scene& scene);
 
 } // namespace springproof::cases

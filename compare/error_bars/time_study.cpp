@@ -1,6 +1,6 @@
 #include "compare/error_bars/time_study.hpp"
 
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/table/json.hpp"

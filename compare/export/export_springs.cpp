@@ -1,7 +1,6 @@
 #include "compare/export/export_springs.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"

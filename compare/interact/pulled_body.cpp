@@ -1,7 +1,7 @@
 #include "compare/interact/pulled_body.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/measure/surfaces.hpp"
 
 #include <Eigen/Geometry>

@@ -1,7 +1,6 @@
 #include "compare/peers/calculix.hpp"
 
 #include "cases/case/names.hpp"
-#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
 

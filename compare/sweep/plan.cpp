@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
-#include "cases/scene/cut.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/progress.hpp"
 #include "msm/design/design.hpp"

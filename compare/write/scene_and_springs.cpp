@@ -1,6 +1,5 @@
 #include "compare/write/write.hpp"
 
-#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/regions.hpp"
 #include "compare/table/table.hpp"

@@ -3,7 +3,6 @@
 #include "cases/case/input_file.hpp"
 #include "cases/mesh/sharing.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "cases/scene/in_time.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/of_cells.hpp"

@@ -1,7 +1,7 @@
 #include "mechanics/dynamics/follow_motion.hpp"
 
 #include "cases/case/case.hpp"
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "mechanics/dynamics/slowest_vibration.hpp"
 
 #include <utility>

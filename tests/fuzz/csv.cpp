@@ -1,7 +1,7 @@
 // The readers of comma-separated values as a target for libFuzzer: displacements, measured curves, spring
 // networks and recordings of pulls.
 
-#include "cases/scene/network.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/interact/recording.hpp"
 #include "msm/design/uniaxial.hpp"
 #include "tests/fuzz/displacements.hpp"

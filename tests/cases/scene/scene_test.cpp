@@ -157,7 +157,7 @@ TEST_CASE(
   Case definition = box({1, 1, 4}, {1, 1, 4});
   definition.loads = {{{"z+"}, loads::NodalForce{{0, 0, 1}}}, {{"z+ x-"}, loads::TotalForce{{1, 0, 0}}}};
   const Scene fine = refine(make_scene(definition), 2);
-  const auto forces = point_forces(fine);
+  const auto forces = on_all_nodes(nodes_with_point_forces(fine), fine.mesh.nodes.size());
   int n_pulled = 0, n_pushed = 0;
   for (const Vector3d& force : forces) {
     n_pulled += force.z() != 0;

@@ -2,7 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/measure/measure.hpp"
 

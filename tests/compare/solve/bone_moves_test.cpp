@@ -1,4 +1,4 @@
-#include "cases/scene/cut.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
 #include "tests/support/bodies.hpp"

@@ -1,6 +1,6 @@
 // The two backends of the finite elements in time: the same equations, so the same trajectories.
 
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "fem_reference/model.hpp"
 
 #include "tests/fem_reference/grid/moving_block.hpp"
