@@ -3,7 +3,6 @@
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 

@@ -1,7 +1,7 @@
 #include "cases/mesh/voxels.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
 #include <cmath>

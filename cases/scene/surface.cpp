@@ -1,7 +1,7 @@
 #include "cases/scene/surface.hpp"
 
 #include "cases/mesh/labels.hpp"
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <algorithm>

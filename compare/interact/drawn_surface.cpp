@@ -1,6 +1,6 @@
 #include "compare/interact/drawn_surface.hpp"
 
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <stdexcept>
 

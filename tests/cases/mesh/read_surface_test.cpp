@@ -1,4 +1,4 @@
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include "cases/mesh/voxels.hpp"
 #include "tests/support/case_text.hpp"
