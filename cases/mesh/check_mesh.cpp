@@ -2,9 +2,9 @@
 
 #include "cases/mesh/cell_point.hpp"
 
+#include <boost/pending/disjoint_sets.hpp>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <unsupported/Eigen/BVH>
@@ -103,16 +103,11 @@ class MeshCheck {
 
   /// A piece that shares no node with the rest is unconstrained: most often coincident nodes were not merged.
   void check_in_one_piece() const {
-    std::vector<int> root(mesh_.nodes.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int n) {
-      while (root[index(n)] != n) n = root[index(n)] = root[index(root[index(n)])];
-      return n;
-    };
+    boost::disjoint_sets_with_storage<> pieces(mesh_.nodes.size());
     for (const auto& cell : mesh_.cells)
-      for (const int node : cell) root[index(find(node))] = find(cell[0]);
-    int n_pieces = 0;
-    for (std::size_t n = 0; n < root.size(); ++n) n_pieces += index(root[n]) == n;
+      for (const int node : cell) pieces.union_set(index(cell[0]), index(node));
+    std::size_t n_pieces = 0;
+    for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) n_pieces += pieces.find_set(n) == n;
     if (n_pieces != 1)
       refuse_mesh(
           fmt::format("falls into {} pieces that share no node; where they touch, merge their nodes (gmsh: "

@@ -104,13 +104,6 @@ void fill(Grid& grid, const Surface& surface) {
   }
 }
 
-/// Sizes of the pieces that hang together by faces, the largest first.
-std::vector<std::size_t> sizes_of_pieces(const Grid& grid) {
-  std::vector<std::size_t> sizes = pieces_of(grid).sizes;
-  std::sort(sizes.rbegin(), sizes.rend());
-  return sizes;
-}
-
 } // namespace
 
 Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
@@ -138,6 +131,14 @@ std::size_t n_open_edges(const Surface& surface) {
   return open;
 }
 
+std::string several_pieces(std::vector<std::size_t> sizes, double edge) {
+  std::sort(sizes.rbegin(), sizes.rend());
+  return fmt::format(
+      "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and "
+      "the next of {}: ",
+      edge, sizes.size(), sizes.at(0), sizes.at(1));
+}
+
 VoxelCounts count_voxels(const Voxels& voxels) {
   const Surface surface = scaled_surface(voxels);
   double volume = 0; // sum over the tetrahedra from the origin to the triangles
@@ -160,15 +161,11 @@ HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
                        open, surface.size()));
   Grid grid = empty_grid(surface, voxels);
   fill(grid, surface);
-  const std::vector<std::size_t> sizes = sizes_of_pieces(grid);
+  const std::vector<std::size_t> sizes = pieces_of(grid).sizes;
   if (sizes.empty())
     refuse(fmt::format("no cell of edge {} mm has its centre inside: {}", voxels.edge,
                        scale_hint(box_of(surface).sizes())));
-  if (sizes.size() > 1)
-    refuse(fmt::format(
-        "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and the next of "
-        "{}: a smaller edge joins what is thin",
-        voxels.edge, sizes.size(), sizes[0], sizes[1]));
+  if (sizes.size() > 1) refuse(several_pieces(sizes, voxels.edge) + "a smaller edge joins what is thin");
   return make_grid_mesh(grid);
 }
 

@@ -36,6 +36,10 @@ HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks 
 /// The same for a surface that has been read and scaled.
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
 
+/// Says that a body falls into pieces.
+/// @param sizes  numbers of their cells, two or more   @param edge  of a cell, mm
+std::string several_pieces(std::vector<std::size_t> sizes, double edge);
+
 /// Hint in messages about a body that is too small or too large for its cells.
 /// @param size  along the axes, mm
 inline std::string scale_hint(const Eigen::Vector3d& size) {

@@ -194,11 +194,10 @@ void run_on(const std::string& path, const Action& action) {
 
 constexpr std::uint64_t most_bytes_of_list = 1'000'000, most_bytes_of_project = 20'000'000'000;
 
-/// The content of the first file of a gzipped tar for which `is_wanted(name in its folder)`.
-/// @param is_allowed  whether it may have a size in bytes
-template<class IsWanted, class IsAllowed>
-std::string unpacked(const std::string& path, const std::string& what, const IsWanted& is_wanted,
-                     const IsAllowed& is_allowed) {
+/// The content of the first file of a gzipped tar that has a name in its folder.
+/// @param what  what it is, for messages   @param least, most  how many bytes it may have
+std::string unpacked(const std::string& path, const std::string& what, const std::string& wanted,
+                     std::uint64_t least, std::uint64_t most) {
   const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
   archive_read_support_filter_gzip(reader.get());
   archive_read_support_format_tar(reader.get());
@@ -213,11 +212,12 @@ std::string unpacked(const std::string& path, const std::string& what, const IsW
     if (status == ARCHIVE_EOF) refuse("has no " + what);
     check(status);
     const char* name = archive_entry_pathname(entry);
-    if (name == nullptr || !is_wanted(std::filesystem::path(name).filename().string())) continue;
+    if (name == nullptr || std::filesystem::path(name).filename() != wanted) continue;
     const la_int64_t size = archive_entry_size(entry);
-    if (size < 0 || !is_allowed(static_cast<std::uint64_t>(size)))
+    const auto n_bytes = static_cast<std::uint64_t>(size);
+    if (size < 0 || n_bytes < least || n_bytes > most)
       refuse(what + " has " + std::to_string(size) + " bytes, which cannot be");
-    std::string content(static_cast<std::size_t>(size), '\0');
+    std::string content(n_bytes, '\0');
     const la_ssize_t n = archive_read_data(reader.get(), content.data(), content.size());
     check(n);
     if (n != size) refuse(what + " is cut short");
@@ -261,9 +261,7 @@ std::array<double, 3> numbers_of(vtkXMLDataElement& dictionary, const std::strin
 Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
   // Masks and surfaces beside the voxels may take more than these.
   if (bytes.is_compressed) check_gzip(path, 0, most_bytes_of_project);
-  const std::string list = unpacked(
-      path, "main.plist", [](const std::string& name) { return name == "main.plist"; },
-      [](std::uint64_t size) { return size <= most_bytes_of_list; });
+  const std::string list = unpacked(path, "main.plist", "main.plist", 0, most_bytes_of_list);
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(list.c_str()));
   if (!root || root->GetNumberOfNestedElements() < 1) refuse("main.plist is no property list");
@@ -280,9 +278,8 @@ Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
   volume.spacing = Eigen::Vector3d(spacing.data());
   const std::size_t n = checked_voxels(volume.voxels, volume.spacing, sizeof(std::int16_t), bytes.of_voxels);
   const std::string file = text_of(value_of_key(matrix, "filename"), "filename");
-  const std::string voxels = unpacked(
-      path, "file of voxels", [&](const std::string& name) { return name == file; },
-      [&](std::uint64_t size) { return size == n * sizeof(std::int16_t); });
+  const std::size_t n_bytes = n * sizeof(std::int16_t);
+  const std::string voxels = unpacked(path, "file of voxels", file, n_bytes, n_bytes);
   std::vector<std::int16_t> numbers(n);
   std::memcpy(numbers.data(), voxels.data(), voxels.size());
   volume.intensities.assign(numbers.begin(), numbers.end());

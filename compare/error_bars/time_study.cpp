@@ -11,6 +11,14 @@
 
 namespace springproof::compare {
 
+void to_json(Json& json, const HalvedStep& halved) {
+  json = SPRINGPROOF_MEMBERS(halved, value, half_step, extrapolated, error_percent);
+}
+
+void to_json(Json& json, const TimeError& error) {
+  json = SPRINGPROOF_MEMBERS(error, measure, unit, fem, msm);
+}
+
 namespace {
 
 cases::Scene with_half_the_step(cases::Scene scene) {
@@ -29,21 +37,6 @@ std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases
   const double extrapolated = *with_half + (*with_half - *value) / (std::pow(2, order) - 1);
   return HalvedStep{*value, *with_half, extrapolated,
                     error_percent(extrapolated, *value, zero_of(measure, scene, whole.solution))};
-}
-
-Json halved_to_json(const std::optional<HalvedStep>& halved) {
-  if (!halved) return nullptr;
-  return {{"value", halved->value},
-          {"half_step", halved->with_half},
-          {"extrapolated", halved->extrapolated},
-          {"error_percent", halved->error_percent}};
-}
-
-Json error_to_json(const TimeError& error) {
-  return {{"measure", error.measure},
-          {"unit", error.unit},
-          {"fem", halved_to_json(error.fem)},
-          {"msm", halved_to_json(error.msm)}};
 }
 
 std::vector<std::string> failures_of(const Answers& halves) {
@@ -94,7 +87,7 @@ Json time_study_to_json(const TimeStudy& study) {
   return {{"order", study.order},
           {"load_jumps", study.has_jumps},
           {"failures", study.failures},
-          {"measures", json_list(study.errors, error_to_json)}};
+          {"measures", study.errors}};
 }
 
 } // namespace springproof::compare

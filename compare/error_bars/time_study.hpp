@@ -10,7 +10,7 @@ namespace springproof::compare {
 
 /// A model's value of a measure with the case's step and with half of it.
 struct HalvedStep {
-  double value, with_half; ///< in the measure's unit
+  double value, half_step; ///< with the case's step and half of it, in the measure's unit
   double extrapolated;     ///< Richardson's, by the order p of the study: f0 = f2 + (f2 - f1)/(2^p - 1)
   std::optional<double> error_percent; ///< `value` against that; none where it is 0 but for rounding
 };

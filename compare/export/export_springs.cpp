@@ -25,18 +25,6 @@ std::vector<std::string> exact(const Vector3d& vector) {
   return {exact(vector.x()), exact(vector.y()), exact(vector.z())};
 }
 
-/// 1 in the components that are constrained, else 0.
-std::vector<int> constrained(const msm::Problem& problem, std::size_t node) {
-  std::vector<int> components;
-  for (std::size_t a = 0; a < 3; ++a) components.push_back(problem.is_constrained[3 * node + a] ? 1 : 0);
-  return components;
-}
-
-/// Prescribed displacements at full load, mm.
-msm::Points prescribed(const msm::Problem& problem) {
-  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
-}
-
 #pragma GCC diagnostic error "-Wswitch" // a law that the files cannot tell must not compile
 /// The exponent of a power-log spring, nothing of a spring of Hooke's.
 std::optional<double> exponent_of(const msm::Spring& spring) {
@@ -171,6 +159,16 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
 }
 
 } // namespace
+
+std::vector<int> constrained(const msm::Problem& problem, std::size_t node) {
+  std::vector<int> components;
+  for (std::size_t a = 0; a < 3; ++a) components.push_back(problem.is_constrained[3 * node + a] ? 1 : 0);
+  return components;
+}
+
+msm::Points prescribed(const msm::Problem& problem) {
+  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
+}
 
 msm::Problem exported_problem(const cases::Scene& scene) {
   msm::Problem problem = msm::make_problem(scene);

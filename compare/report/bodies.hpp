@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/measured_values.hpp"
+#include "compare/error_bars/mesh_study.hpp"
 #include "compare/thesis/figures.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -6,7 +6,6 @@
 #include "cases/scene/in_time.hpp"
 #include "cases/scene/masses.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/of_cells.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
