@@ -2,7 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/turns.hpp"
 #include "compare/solve/estimate.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/surfaces.hpp"
 

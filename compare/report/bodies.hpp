@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/thesis/figures.hpp"
 
 #include <nlohmann/json_fwd.hpp>
