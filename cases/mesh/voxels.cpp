@@ -114,17 +114,12 @@ Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
   }
 }
 
-std::size_t n_open_edges(const Surface& surface) {
-  using Point = std::array<double, 3>;
-  std::map<std::array<Point, 2>, long> balance; // edges between two points: one way minus the other way
-  const auto point = [](const Vector3d& v) {
-    return Point{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
-  }; // -0 is 0
-  for (const auto& triangle : surface)
+std::size_t n_open_edges(const TriangleMesh& surface) {
+  std::map<std::array<int, 2>, long> balance; // of edges between two vertices: one way minus the other way
+  for (const auto& triangle : surface.triangles)
     for (std::size_t v = 0; v < 3; ++v) {
-      const Point a = point(triangle[v]), b = point(triangle[(v + 1) % 3]);
-      if (a < b) ++balance[{a, b}];
-      if (b < a) --balance[{b, a}];
+      const int a = triangle[v], b = triangle[(v + 1) % 3];
+      balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
     }
   std::size_t open = 0;
   for (const auto& [edge, difference] : balance) open += static_cast<std::size_t>(std::abs(difference));
@@ -156,7 +151,7 @@ HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks)
 
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
   const auto refuse = [&](const std::string& reason) { voxels.file.refuse(reason); };
-  if (const std::size_t open = n_open_edges(surface))
+  if (const std::size_t open = n_open_edges(joined(surface)))
     refuse(fmt::format("is not closed: {} edges of its {} triangles have no neighbour running the other way",
                        open, surface.size()));
   Grid grid = empty_grid(surface, voxels);

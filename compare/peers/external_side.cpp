@@ -23,13 +23,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A file whose ending and name were looked at.
-struct ResultFile {
-  std::string text;
-  bool is_csv;
-};
-
-ResultFile read_result_file(const std::string& path) {
+/// The content of a file whose ending and name were looked at, and whether it is a .csv.
+std::pair<std::string, bool> read_result_file(const std::string& path) {
   static const std::vector<std::string> endings{".csv", ".vtu", ".vtp", ".vtk", ".vts", ".vtr", ".vti"};
   const std::string ending = std::filesystem::path(path).extension();
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
