@@ -42,15 +42,17 @@ FemAnswer try_small_strain(const cases::Scene& scene) {
   cases::Fem linear = scene.definition.fem;
   linear.formulation = cases::Formulation::small_strain;
   const std::string finite = cases::name_of(scene.definition.fem.formulation);
-  const auto no_answer = [&](const std::string& why) {
-    return FemAnswer{{}, scene.definition.fem, {fmt::format("formulation {}: {}", finite, why)}, {}};
-  };
   if (const double degrees = cases::largest_turn(scene.definition);
       degrees > cases::largest_turn_of_small_strain)
-    return no_answer(fmt::format("a region is turned by {} degrees", degrees));
+    return {{},
+            scene.definition.fem,
+            {fmt::format("formulation {}: a region is turned by {} degrees", finite, degrees)}};
   FemAnswer tried = solve_fem_as_given(with_fem(scene, linear));
   if (!tried.answer.converged())
-    return no_answer("the linear solve that estimates strains failed: " + tried.answer.solution.message);
+    return {{},
+            scene.definition.fem,
+            {fmt::format("formulation {}: the linear solve that estimates strains failed: {}", finite,
+                         tried.answer.solution.message)}};
   const cases::Solution& linearly = tried.answer.solution;
   const double gradient = 100 * largest_gradient(scene.mesh, linearly.displacement, linearly.sharing.get());
   const double tolerated = least_tolerated(scene.definition, [&](const cases::Measure& measure) {
