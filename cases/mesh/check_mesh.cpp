@@ -1,12 +1,13 @@
-#include "cases/mesh/check_mesh.hpp"
+#include "cases/mesh/read_mesh.hpp"
 
 #include "cases/mesh/cell_point.hpp"
 
+#include <boost/pending/disjoint_sets.hpp>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
+#include <unsupported/Eigen/BVH>
 
 namespace springproof::cases {
 
@@ -24,41 +25,15 @@ constexpr const char* way_out =
   throw std::runtime_error(reason);
 }
 
-/// Some nodes, halved again and again along one axis after the other, so that those in a box are found
-/// without a look at most others.
-class NodesInBoxes {
- public:
-  NodesInBoxes(const HexMesh& mesh, std::vector<int> nodes) : mesh_(mesh), nodes_(std::move(nodes)) {
-    divide(0, nodes_.size(), 0);
-  }
-  template<class Action>
-  void for_each_in(const Eigen::AlignedBox3d& box, const Action& action) const {
-    visit(0, nodes_.size(), 0, box, action);
-  }
-
- private:
-  const HexMesh& mesh_;
-  std::vector<int> nodes_;
-
-  double at(std::size_t place, int axis) const { return mesh_.nodes[index(nodes_[place])][axis]; }
-  void divide(std::size_t begin, std::size_t end, int axis) {
-    if (end - begin < 2) return;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto first = nodes_.begin();
-    std::nth_element(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(middle),
-                     first + std::ptrdiff_t(end),
-                     [&](int a, int b) { return mesh_.nodes[index(a)][axis] < mesh_.nodes[index(b)][axis]; });
-    divide(begin, middle, (axis + 1) % 3);
-    divide(middle + 1, end, (axis + 1) % 3);
-  }
-  template<class Action>
-  void visit(std::size_t begin, std::size_t end, int axis, const Eigen::AlignedBox3d& box,
-             const Action& action) const {
-    if (begin == end) return;
-    const std::size_t middle = begin + (end - begin) / 2;
-    if (box.contains(Vector3d(mesh_.nodes[index(nodes_[middle])]))) action(nodes_[middle]);
-    if (box.min()[axis] <= at(middle, axis)) visit(begin, middle, (axis + 1) % 3, box, action);
-    if (box.max()[axis] >= at(middle, axis)) visit(middle + 1, end, (axis + 1) % 3, box, action);
+/// Finds the nodes of a tree that are in a box, without a look at most others.
+struct NodesInBox {
+  const HexMesh& mesh;
+  Eigen::AlignedBox3d box;
+  std::vector<int> found{};
+  bool intersectVolume(const Eigen::AlignedBox3d& volume) const { return volume.intersects(box); }
+  bool intersectObject(int node) {
+    if (box.contains(Vector3d(mesh.nodes[index(node)]))) found.push_back(node);
+    return false; // the search goes on
   }
 };
 
@@ -128,16 +103,11 @@ class MeshCheck {
 
   /// A piece that shares no node with the rest is unconstrained: most often coincident nodes were not merged.
   void check_in_one_piece() const {
-    std::vector<int> root(mesh_.nodes.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int n) {
-      while (root[index(n)] != n) n = root[index(n)] = root[index(root[index(n)])];
-      return n;
-    };
+    boost::disjoint_sets_with_storage<> pieces(mesh_.nodes.size());
     for (const auto& cell : mesh_.cells)
-      for (const int node : cell) root[index(find(node))] = find(cell[0]);
-    int n_pieces = 0;
-    for (std::size_t n = 0; n < root.size(); ++n) n_pieces += index(root[n]) == n;
+      for (const int node : cell) pieces.union_set(index(cell[0]), index(node));
+    std::size_t n_pieces = 0;
+    for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) n_pieces += pieces.find_set(n) == n;
     if (n_pieces != 1)
       refuse_mesh(
           fmt::format("falls into {} pieces that share no node; where they touch, merge their nodes (gmsh: "
@@ -165,23 +135,27 @@ class MeshCheck {
           *least = std::min(*least, length);
       }
     }
-    const NodesInBoxes nodes(mesh_, surface_);
+    std::vector<Eigen::AlignedBox3d> places;
+    for (const int node : surface_) places.emplace_back(Vector3d(mesh_.nodes[index(node)]));
+    const Eigen::KdBVH<double, 3, int> tree(surface_.begin(), surface_.end(), places.begin(), places.end());
     std::vector<Stray> strays;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
       const std::array<int, 8> cell = mesh_.cells[c];
       const auto vertices = cell_vertices(mesh_, c);
-      Eigen::AlignedBox3d box = bounding_box(vertices);
+      const Eigen::AlignedBox3d box = bounding_box(vertices);
       const Vector3d aside = Vector3d::Constant(touching * of_cell[c]);
-      nodes.for_each_in({box.min() - aside, box.max() + aside}, [&](int node) {
-        if (std::find(cell.begin(), cell.end(), node) != cell.end()) return;
+      NodesInBox near{mesh_, {box.min() - aside, box.max() + aside}};
+      Eigen::BVIntersect(tree, near);
+      for (const int node : sorted(near.found)) {
+        if (std::find(cell.begin(), cell.end(), node) != cell.end()) continue;
         const Vector3d point = mesh_.nodes[index(node)];
         const auto place = place_in_cell(vertices, point);
-        if (!place) return;
+        if (!place) continue;
         const Vector3d nearest = place->cwiseMax(0).cwiseMin(1);
         if ((mechanics::image(vertices, nearest) - point).norm() <=
             touching * std::min(of_cell[c], shortest[index(node)]))
           strays.push_back({node, c, nearest});
-      });
+      }
     }
     if (!strays.empty()) refuse_strays(strays);
   }
@@ -204,7 +178,7 @@ class MeshCheck {
       where = fmt::format("in the place of node {}, a vertex", node(cell[index(vertex)]));
     } else {
       where = "inside";
-      for (std::size_t f = 0; f < cell_faces.size(); ++f) // x-, x+, y-, ...
+      for (std::size_t f = cell_faces.size(); f-- > 0;) // ..., y-, x+, x-: the first one stays
         if (std::abs(first->at[int(f) / 2] - double(f % 2)) <= touching)
           where = fmt::format("on the face of nodes {}", nodes_of(pick(cell, cell_faces[f])));
     }

@@ -3,7 +3,6 @@
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
@@ -218,12 +217,8 @@ void keep_piece(LabelGrid& grid, const Labels& labels) {
   int kept = 0;
   if (labels.keep == Keep::all) {
     if (sizes.size() == 1) return;
-    std::vector<std::size_t> largest = sizes;
-    std::sort(largest.rbegin(), largest.rend());
-    refuse_labels(fmt::format("cells of edge {} mm fall into {} pieces that share no face, the largest of {} "
-                              "cells and the next of {}: "
-                              "keep = \"largest\" or a point in one of them leaves one",
-                              labels.edge, sizes.size(), largest[0], largest[1]));
+    refuse_labels(several_pieces(sizes, labels.edge) +
+                  "keep = \"largest\" or a point in one of them leaves one");
   }
   if (labels.keep == Keep::seed) {
     const auto place = place_at(grid, labels.edge, labels.seed);

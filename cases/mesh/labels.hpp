@@ -16,6 +16,9 @@ struct LabelGrid {
   Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< mm, the whole picture
 };
 
+/// @throws std::runtime_error if it is no regular file
+VolumeBytes bytes_of_volume(const std::string& path);
+
 /// Reads the picture of a body, at the body's scale.
 Volume read_scaled_volume(const Labels& labels, const VolumeBytes& bytes);
 

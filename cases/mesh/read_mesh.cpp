@@ -1,10 +1,9 @@
 #include "cases/mesh/read_mesh.hpp"
 
 #include "cases/case/installation.hpp"
-#include "cases/mesh/check_mesh.hpp"
 #include "cases/mesh/confined.hpp"
-#include "cases/mesh/gmsh_functions.hpp"
-#include "cases/mesh/mesh_bytes.hpp"
+#include "cases/mesh/fields.hpp"
+#include "cases/mesh/gmsh_model.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -28,6 +27,8 @@ constexpr Limits limits_to_mesh{600, 8'000'000'000};
 /// Makes the mesh of gmsh's model, and remembers which node and cell is which of gmsh's.
 class Builder {
  public:
+  explicit Builder(const GmshModel& model) : model_(model) {}
+
   HexMesh build() {
     read_cells();
     read_nodes();
@@ -40,25 +41,18 @@ class Builder {
  private:
   /// All three-dimensional elements, their nodes by gmsh's tags for the moment.
   void read_cells() {
-    std::vector<std::string> others;
-    for (const GmshElements& elements : gmsh().elements_of(3, -1)) {
-      if (elements.type != hexahedron) {
-        others.push_back(fmt::format("{} of type {}", elements.tags.size(), gmsh().type_name(elements.type)));
-        continue;
-      }
-      for (std::size_t e = 0; e < elements.tags.size(); ++e) {
-        cell_number_[elements.tags[e]] = mesh_.cells.size();
-        numbers_.of_cells.push_back(elements.tags[e]);
-        std::array<int, 8>& cell = mesh_.cells.stored().emplace_back();
-        for (std::size_t v = 0; v < 8; ++v) {
-          const std::size_t tag = elements.nodes[e][around_cell[v]];
-          if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
-          cell[v] = static_cast<int>(tag);
-        }
-      }
-    }
-    if (!others.empty())
-      refuse(fmt::format("has cells other than eight-node hexahedra: {}", fmt::join(others, ", ")));
+    std::map<int, std::size_t> others; // numbers of elements by type
+    for (const auto& [place, of_entity] : model_.elements)
+      for (const GmshElements& elements : of_entity)
+        if (place[0] == 3 && elements.type == hexahedron)
+          add_cells(elements);
+        else if (place[0] == 3)
+          others[elements.type] += elements.tags.size();
+    std::vector<std::string> shown;
+    for (const auto& [type, n] : others)
+      shown.push_back(fmt::format("{} of type {}", n, model_.type_names.at(type)));
+    if (!shown.empty())
+      refuse(fmt::format("has cells other than eight-node hexahedra: {}", fmt::join(shown, ", ")));
     if (mesh_.cells.empty())
       refuse("has no hexahedra. A file that gmsh has saved has its physical groups alone, where there are "
              "any: one of them must be the body, Physical Volume(\"body\") = {...};, or Mesh.SaveAll must be "
@@ -66,11 +60,23 @@ class Builder {
              "Recombine)");
   }
 
+  void add_cells(const GmshElements& elements) {
+    for (std::size_t e = 0; e < elements.tags.size(); ++e) {
+      cell_number_[elements.tags[e]] = mesh_.cells.size();
+      numbers_.of_cells.push_back(elements.tags[e]);
+      std::array<int, 8>& cell = mesh_.cells.stored().emplace_back();
+      for (std::size_t v = 0; v < 8; ++v) {
+        const std::size_t tag = elements.nodes[8 * e + around_cell[v]];
+        if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
+        cell[v] = static_cast<int>(tag);
+      }
+    }
+  }
+
   /// The nodes that hexahedra have, in the order of their tags.
   void read_nodes() {
-    const auto [tags, coordinates] = gmsh().nodes();
     std::unordered_map<std::size_t, std::size_t> place;
-    for (std::size_t n = 0; n < tags.size(); ++n) place[tags[n]] = n;
+    for (std::size_t n = 0; n < model_.nodes.size(); ++n) place[model_.nodes[n]] = n;
     std::vector<int> used;
     for (const auto& cell : mesh_.cells) used.insert(used.end(), cell.begin(), cell.end());
     make_set(used);
@@ -80,7 +86,7 @@ class Builder {
         refuse(fmt::format("has a hexahedron with node {}, which does not exist", tag));
       node_number_[index(tag)] = static_cast<int>(mesh_.nodes.size());
       numbers_.of_nodes.push_back(index(tag));
-      mesh_.nodes.stored().emplace_back(&coordinates[3 * found->second]);
+      mesh_.nodes.stored().emplace_back(&model_.coordinates[3 * found->second]);
     }
     for (auto& cell : mesh_.cells.stored())
       for (int& node : cell) node = node_number_[index(node)];
@@ -88,10 +94,10 @@ class Builder {
 
   void read_groups() {
     std::map<std::string, std::map<int, Selection>> by_name; // and dimension
-    for (const GmshGroup& group : gmsh().groups()) {
+    for (const GmshGroup& group : model_.groups) {
       const std::string name = group.name.empty() ? std::to_string(group.number) : group.name;
       for (const int entity : group.entities)
-        for (const GmshElements& elements : gmsh().elements_of(group.dimension, entity))
+        for (const GmshElements& elements : model_.elements.at({group.dimension, entity}))
           add_to_group(name, elements, by_name[name][group.dimension]);
     }
     for (auto& [name, of_dimensions] : by_name) {
@@ -129,8 +135,8 @@ class Builder {
   void add_to_group(const std::string& name, const GmshElements& elements, Selection& group) {
     for (std::size_t e = 0; e < elements.tags.size(); ++e) {
       std::vector<int> nodes; // -1: in no hexahedron
-      for (const std::size_t tag : elements.nodes[e])
-        nodes.push_back(node_number_.count(tag) > 0 ? node_number_[tag] : -1);
+      for (std::size_t n = e * elements.n_nodes(); n < (e + 1) * elements.n_nodes(); ++n)
+        nodes.push_back(node_number_.count(elements.nodes[n]) > 0 ? node_number_[elements.nodes[n]] : -1);
       // Points and lines of the geometry may lie off the body; a group's surface must not.
       const bool is_off = std::count(nodes.begin(), nodes.end(), -1) > 0;
       if (is_off && (elements.type == point || elements.type == line)) continue;
@@ -152,12 +158,13 @@ class Builder {
         mesh_.group_of_cell[cell_number_.at(elements.tags[e])] = name;
       } else if (elements.type != point) {
         refuse(fmt::format("group '{}' has elements of type {}, which are no part of a hexahedron", name,
-                           gmsh().type_name(elements.type)));
+                           model_.type_names.at(elements.type)));
       }
       group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
     }
   }
 
+  const GmshModel& model_;
   HexMesh mesh_;
   MeshNumbers numbers_;                              ///< gmsh's tags
   std::unordered_map<std::size_t, int> node_number_; ///< by gmsh's tag; nodes of hexahedra only
@@ -175,28 +182,49 @@ void check_format(std::istream& stream) {
     refuse(fmt::format("has format {}, must be 4 or 4.1 (gmsh -save -format msh41 rewrites it)", version));
 }
 
-/// The mesh of a file, as bytes.
-std::string mesh_bytes(const MeshFile& file, bool is_geometry) {
+HexMesh mesh_by_gmsh(ReadGmsh& read, const MeshFile& file, bool is_geometry) {
   std::ifstream stream(file.file.path);
   if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!is_geometry) check_format(stream);
-  gmsh().open(file.file.path, is_geometry);
-  HexMesh mesh = Builder().build();
+  const GmshModel model = read(file.file.path, is_geometry);
+  HexMesh mesh = Builder(model).build();
   for (Eigen::Vector3d& node : mesh.nodes.stored()) node *= file.scale;
-  return bytes_of_mesh(mesh);
+  return mesh;
+}
+
+/// @throws std::runtime_error if an index leads out of the mesh's arrays, or a position is not finite
+void check(const HexMesh& mesh) {
+  const auto exist = [n_nodes = mesh.nodes.size()](const auto& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](int node) { return node >= 0 && index(node) < n_nodes; });
+  };
+  const auto all_exist = [&](const auto& lists) { return std::all_of(lists.begin(), lists.end(), exist); };
+  bool is_sound = !mesh.cells.empty() && all_exist(mesh.cells) &&
+                  (mesh.group_of_cell.empty() || mesh.group_of_cell.size() == mesh.cells.size()) &&
+                  std::all_of(mesh.nodes.begin(), mesh.nodes.end(),
+                              [](const Eigen::Vector3d& node) { return node.allFinite(); });
+  for (const auto& [name, group] : mesh.groups)
+    is_sound = is_sound && exist(group.nodes) && all_exist(group.edges) && all_exist(group.faces);
+  if (!is_sound) throw std::runtime_error("is no sound mesh");
 }
 
 } // namespace
 
-const GmshFunctions& gmsh() {
-  static const auto* const functions =
-      static_cast<const GmshFunctions*>(load_shared_object("springproof_gmsh"));
-  return *functions;
-}
-
 std::string name_in_dimension(const std::string& name, int dimension) {
   constexpr std::array<const char*, 3> kinds{"point", "curve", "surface"};
   return name + " (" + kinds[index(dimension)] + ")";
+}
+
+std::string bytes_of_mesh(const HexMesh& mesh) {
+  return to_bytes(mesh.nodes.to_vector(), mesh.cells.to_vector(), mesh.groups, mesh.group_of_cell);
+}
+
+HexMesh mesh_from(const std::string& bytes) {
+  HexMesh mesh;
+  from_bytes(bytes, mesh.nodes.stored(), mesh.cells.stored(), mesh.groups, mesh.group_of_cell);
+  check(mesh);
+  find_grid(mesh);
+  return mesh;
 }
 
 HexMesh read_mesh(const MeshFile& mesh) {
@@ -208,11 +236,13 @@ HexMesh read_mesh(const MeshFile& mesh) {
   if (is_geometry && std::filesystem::exists(file.path + ".opt", absent))
     file.refuse("has options for gmsh beside it, " + file.path +
                 ".opt: write them into the .geo (Mesh.X = ...;)");
-  try {     // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
-    gmsh(); // loaded before the child is confined
+  try { // A .geo is a program, gmsh crashes on some broken meshes, and its answer may be anything.
+    // gmsh and the ninety libraries it needs, a tenth of a second, loaded before the child is confined.
+    ReadGmsh& read = **static_cast<ReadGmsh* const*>(load_shared_object("springproof_gmsh"));
     const Limits limits =
         is_geometry ? limits_to_mesh : limits_to_read(std::filesystem::file_size(file.path));
-    return mesh_from(run_confined([&] { return mesh_bytes(mesh, is_geometry); }, limits));
+    return mesh_from(
+        run_confined([&] { return bytes_of_mesh(mesh_by_gmsh(read, mesh, is_geometry)); }, limits));
   } catch (const std::exception& error) {
     file.refuse(error.what());
   }

@@ -1,8 +1,9 @@
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
+#include "cases/case/error.hpp"
+#include "cases/case/installation.hpp"
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
-#include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,22 @@ TriangleMesh with_triangles(const Surface& surface) {
 }
 
 } // namespace
+
+void check_has_vtk() {
+  std::error_code none;
+  if (!std::filesystem::exists(private_file("springproof_vtk.so"), none))
+    throw InputError(
+        "this build has no VTK (.vtu, .vtp and .stl files, pictures, surfaces in meshes): type ./do "
+        "packages, then ./do build");
+}
+
+const VtkFunctions& vtk() {
+  static const auto* const functions = [] {
+    check_has_vtk();
+    return static_cast<const VtkFunctions*>(load_shared_object("springproof_vtk"));
+  }();
+  return *functions;
+}
 
 Surface read_triangles(const std::string& path, std::vector<std::string>* remarks) {
   std::error_code error;

@@ -24,14 +24,32 @@ struct Share {
   Range own_nodes, cells; ///< each node and each cell is one rank's
   Range nodes;            ///< nodes with values on this rank: its own ones, and the vertices of its cells
 };
-Share share_of(const HexMesh& mesh, int rank, int n_ranks);
 
 /// A range that holds the vertices of these cells.
-Range vertices_of(const HexMesh& mesh, const Range& cells);
+inline Range vertices_of(const HexMesh& mesh, const Range& cells) {
+  if (cells.size() == 0) return {};
+  Range nodes{mesh.nodes.size(), 0};
+  for (std::size_t c = cells.begin; c < cells.end; ++c)
+    for (const int vertex : mesh.cells[c]) {
+      nodes.begin = std::min(nodes.begin, index(vertex));
+      nodes.end = std::max(nodes.end, index(vertex) + 1);
+    }
+  return nodes;
+}
 
 /// A rank's part of n things.
 inline Range part_of(std::size_t n, int rank, int n_ranks) {
   return {n * index(rank) / index(n_ranks), n * (index(rank) + 1) / index(n_ranks)};
+}
+
+inline Share share_of(const HexMesh& mesh, int rank, int n_ranks) {
+  Share share{part_of(mesh.nodes.size(), rank, n_ranks), part_of(mesh.cells.size(), rank, n_ranks), {}};
+  const Range vertices = vertices_of(mesh, share.cells);
+  share.nodes = share.own_nodes;
+  if (vertices.size() > 0)
+    share.nodes = {std::min(share.own_nodes.begin, vertices.begin),
+                   std::max(share.own_nodes.end, vertices.end)};
+  return share;
 }
 
 /// A value of a node or a cell.

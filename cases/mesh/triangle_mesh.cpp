@@ -42,10 +42,6 @@ TriangleMesh joined(const Surface& surface) {
   return mesh;
 }
 
-TriangleMesh outer_surface(const HexMesh& mesh) {
-  return triangles_of_faces(mesh, boundary_faces(mesh));
-}
-
 TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
   TriangleMesh outer;
   Numbering<int> numbers; // nodes' numbers

@@ -16,8 +16,7 @@ struct TriangleMesh {
 /// Joins vertices with equal coordinates, and drops triangles that have one of these twice.
 TriangleMesh joined(const Surface& surface);
 
-/// The faces of a body that belong to one cell only, each as two triangles.
-TriangleMesh outer_surface(const HexMesh& mesh);
+/// Faces as two triangles each.
 TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces);
 
 /// Barycentre of a triangle at given positions of the vertices, mm.

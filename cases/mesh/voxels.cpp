@@ -1,7 +1,7 @@
 #include "cases/mesh/voxels.hpp"
 
 #include "cases/mesh/hex_mesh.hpp"
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,13 +104,6 @@ void fill(Grid& grid, const Surface& surface) {
   }
 }
 
-/// Sizes of the pieces that hang together by faces, the largest first.
-std::vector<std::size_t> sizes_of_pieces(const Grid& grid) {
-  std::vector<std::size_t> sizes = pieces_of(grid).sizes;
-  std::sort(sizes.rbegin(), sizes.rend());
-  return sizes;
-}
-
 } // namespace
 
 Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
@@ -121,21 +114,24 @@ Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
   }
 }
 
-std::size_t n_open_edges(const Surface& surface) {
-  using Point = std::array<double, 3>;
-  std::map<std::array<Point, 2>, long> balance; // edges between two points: one way minus the other way
-  const auto point = [](const Vector3d& v) {
-    return Point{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
-  }; // -0 is 0
-  for (const auto& triangle : surface)
+std::size_t n_open_edges(const TriangleMesh& surface) {
+  std::map<std::array<int, 2>, long> balance; // of edges between two vertices: one way minus the other way
+  for (const auto& triangle : surface.triangles)
     for (std::size_t v = 0; v < 3; ++v) {
-      const Point a = point(triangle[v]), b = point(triangle[(v + 1) % 3]);
-      if (a < b) ++balance[{a, b}];
-      if (b < a) --balance[{b, a}];
+      const int a = triangle[v], b = triangle[(v + 1) % 3];
+      balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
     }
   std::size_t open = 0;
   for (const auto& [edge, difference] : balance) open += static_cast<std::size_t>(std::abs(difference));
   return open;
+}
+
+std::string several_pieces(std::vector<std::size_t> sizes, double edge) {
+  std::sort(sizes.rbegin(), sizes.rend());
+  return fmt::format(
+      "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and "
+      "the next of {}: ",
+      edge, sizes.size(), sizes.at(0), sizes.at(1));
 }
 
 VoxelCounts count_voxels(const Voxels& voxels) {
@@ -155,20 +151,16 @@ HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks)
 
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
   const auto refuse = [&](const std::string& reason) { voxels.file.refuse(reason); };
-  if (const std::size_t open = n_open_edges(surface))
+  if (const std::size_t open = n_open_edges(joined(surface)))
     refuse(fmt::format("is not closed: {} edges of its {} triangles have no neighbour running the other way",
                        open, surface.size()));
   Grid grid = empty_grid(surface, voxels);
   fill(grid, surface);
-  const std::vector<std::size_t> sizes = sizes_of_pieces(grid);
+  const std::vector<std::size_t> sizes = pieces_of(grid).sizes;
   if (sizes.empty())
     refuse(fmt::format("no cell of edge {} mm has its centre inside: {}", voxels.edge,
                        scale_hint(box_of(surface).sizes())));
-  if (sizes.size() > 1)
-    refuse(fmt::format(
-        "cells of edge {} mm fall into {} pieces that share no face, the largest of {} cells and the next of "
-        "{}: a smaller edge joins what is thin",
-        voxels.edge, sizes.size(), sizes[0], sizes[1]));
+  if (sizes.size() > 1) refuse(several_pieces(sizes, voxels.edge) + "a smaller edge joins what is thin");
   return make_grid_mesh(grid);
 }
 

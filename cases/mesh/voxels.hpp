@@ -13,10 +13,11 @@ namespace springproof::cases {
 Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks = nullptr);
 
 /// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
-/// has an inside. Vertices are the same when their coordinates are. (VTK's boundary edges have no direction:
-/// they miss a triangle that is turned over, and report an edge that two closed parts share.)
+/// has an inside. (VTK's boundary edges have no direction: they miss a triangle that is turned over, and
+/// report an edge that two closed parts share.)
+/// @param surface  joined()
 /// @return how many edges have no such partner; 0: closed
-std::size_t n_open_edges(const Surface& surface);
+std::size_t n_open_edges(const TriangleMesh& surface);
 
 /// Approximate number of cubes that make_voxel_mesh() makes, from the volume within the surface, and its
 /// grid's numbers of cubes along the axes (a million where there are more).
@@ -35,6 +36,10 @@ VoxelCounts count_voxels(const Voxels& voxels);
 HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
 /// The same for a surface that has been read and scaled.
 HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
+
+/// Says that a body falls into pieces.
+/// @param sizes  numbers of their cells, two or more   @param edge  of a cell, mm
+std::string several_pieces(std::vector<std::size_t> sizes, double edge);
 
 /// Hint in messages about a body that is too small or too large for its cells.
 /// @param size  along the axes, mm

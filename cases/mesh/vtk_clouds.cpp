@@ -1,12 +1,9 @@
 #include "cases/mesh/vtk_parts.hpp"
 
-#include "cases/mesh/vtk_grid.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vtkCellData.h>
 #include <vtkDataSetReader.h>
 #include <vtkGenericCell.h>
@@ -27,10 +24,6 @@ namespace {
 
 using Eigen::Vector3d;
 using DataSet = vtkSmartPointer<vtkDataSet>;
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw std::runtime_error(problem);
-}
 
 template<class Reader>
 DataSet read_xml(const std::string& content) {

@@ -1,24 +1,63 @@
-#include "cases/mesh/vtk_functions.hpp"
-
-#include "cases/mesh/vtk_grid.hpp"
 #include "cases/mesh/vtk_parts.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
+#include <vtkAlgorithm.h>
 #include <vtkCellData.h>
-#include <vtkNew.h>
+#include <vtkLogger.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkSTLReader.h>
 #include <vtkStaticPointLocator.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 namespace springproof::cases {
 
 namespace {
+
+/// Keeps the first of VTK's errors, without the place in VTK's source.
+class FirstError : public vtkOutputWindow {
+ public:
+  static FirstError* New();
+  /// @param message  "ERROR: In FILE, line N\nCLASS (ADDRESS): TEXT\n\n"
+  void DisplayErrorText(const char* message) override {
+    if (text.empty()) text = without_place(message);
+  }
+  /// Legacy files and pictures that end too early are no errors to VTK.
+  void DisplayGenericWarningText(const char* message) override {
+    const std::string warning = without_place(message);
+    const auto says = [&](const char* words) { return warning.rfind(words, 0) == 0; };
+    if (text.empty() && (says("Error reading") || says("File operation failed"))) text = warning;
+  }
+  void DisplayText(const char*) override {} // other warnings
+  std::string text;
+
+ private:
+  static std::string without_place(std::string message) {
+    const std::size_t address = message.find("): "), line = message.find('\n');
+    if (address != std::string::npos)
+      message.erase(0, address + 3);
+    else if (line != std::string::npos)
+      message.erase(0, line + 1);
+    message.erase(message.find_last_not_of(" \n") + 1);
+    return message;
+  }
+};
+vtkStandardNewMacro(FirstError)
+
+    template<class Action>
+    void run_quietly(const Action& action) {
+  const vtkNew<FirstError> error;
+  vtkOutputWindow::SetInstance(error);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkSMPTools::SetBackend("Sequential"); // confined processes may not start threads
+  action();
+  if (!error->text.empty()) refuse(error->text);
+}
 
 std::string write(vtkUnstructuredGrid& grid, const GridFields& fields) {
   for (const auto& field : fields.point_vectors) grid.GetPointData()->AddArray(array_of(field));
@@ -70,10 +109,10 @@ Surface read_triangles(const std::string& path) {
   if (reader->GetBinaryHeader()) { // VTK goes on to the end of the file
     const std::uint32_t stated = stated_triangles(path);
     if (stated > surface.size() && (std::filesystem::file_size(path) - head) % per_triangle != 0)
-      throw std::runtime_error(path + " ends within a triangle");
+      refuse(path + " ends within a triangle");
     if (stated == 0 || stated > surface.size())
-      throw std::runtime_error(path + " has " + std::to_string(surface.size()) +
-                               " triangles, and says that it has " + std::to_string(stated));
+      refuse(path + " has " + std::to_string(surface.size()) + " triangles, and says that it has " +
+             std::to_string(stated));
     surface.resize(stated);
   }
   for (std::size_t t = 0; t < surface.size(); ++t)
@@ -95,6 +134,14 @@ std::vector<std::size_t> nearest_points(const std::vector<Eigen::Vector3d>& poin
 }
 
 } // namespace
+
+void run(vtkAlgorithm& algorithm) {
+  run_quietly([&] { algorithm.Update(); });
+}
+
+void run_information(vtkAlgorithm& algorithm) {
+  run_quietly([&] { algorithm.UpdateInformation(); });
+}
 
 extern "C" const VtkFunctions springproof_vtk{
     write_unstructured_grid, write_lines, read_points,   read_cells, read_triangles,

@@ -3,7 +3,6 @@
 #include "cases/case/solution.hpp"
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
-#include "cases/mesh/volume.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
 namespace springproof::cases {
@@ -48,6 +47,21 @@ struct CellCloud {
   PointCloud cloud;
   Interpolation to_nodes;   ///< from the cloud's points to the nodes of a mesh
   Interpolation from_nodes; ///< from the nodes of the mesh to the cloud's points
+};
+
+/// Intensities of a picture in three dimensions. Voxel (i, j, k) reaches from (i, j, k) * spacing to
+/// (i + 1, j + 1, k + 1) * spacing: where a file places or turns its array in a scanner is left out.
+struct Volume {
+  std::array<int, 3> voxels{};      ///< along x, y, z, > 0
+  Eigen::Vector3d spacing{1, 1, 1}; ///< mm, > 0
+  std::vector<float> intensities;   ///< x fastest
+};
+
+/// What a picture's file can hold.
+struct VolumeBytes {
+  std::uint64_t in_file;
+  std::uint64_t of_voxels; ///< deflate makes at most 1032 bytes from one
+  bool is_compressed;      ///< by gzip, from the first byte on
 };
 
 /// A number at every point of a regular grid, such as the mask of a body or the density of a tissue.
@@ -99,6 +113,7 @@ struct VtkFunctions {
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& positions);
   /// Reads a file .nii, .nii.gz or .inv3.
+  /// @param bytes  bytes_of_volume(); compressed ones are inflated twice, to check them first
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
   /// The triangles of a file .vtp's content.
   Surface (*read_polygons)(const std::string& content);
@@ -122,5 +137,48 @@ const VtkFunctions& vtk();
 
 /// The symbol by which vtk() finds them.
 extern "C" const VtkFunctions springproof_vtk;
+
+// VTK's readers and filters in a confined process: they crash on some broken files, and allocate whatever a
+// file says that it has.
+
+/// Reads a file .stl, text or binary; coordinates are rounded to single precision. Anything after a binary
+/// file's last triangle, and a triangle that is there twice, are left out.
+/// @param remarks  receives what was left out, and how many triangles have no area
+/// @throws std::runtime_error with VTK's message; if the file has no triangles or a position that is not
+/// finite
+Surface read_triangles(const std::string& path, std::vector<std::string>* remarks = nullptr);
+
+/// @param content  the content of a file .vtu, .vtp, .vts, .vtr, .vti or .vtk
+/// @throws std::runtime_error with VTK's message; if it has no points
+PointCloud read_point_cloud(const std::string& content);
+
+/// The same with interpolation between its points and the nodes of a mesh.
+/// @throws std::runtime_error likewise; if it has no cells of a volume, or none near a node of the mesh
+CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh);
+
+/// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
+/// not be closed.
+/// @param remarks  as in read_triangles()
+/// @throws std::runtime_error with VTK's message; if it has no triangles or a position that is not finite
+TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks = nullptr);
+
+/// The surface that divides a picture's points with a value above the level from the others: closed, because
+/// beyond its borders a picture is below the level; seen from outside anticlockwise, outside being below.
+/// @throws std::runtime_error if there is none; if the sizes of the picture are not as many as its values
+TriangleMesh contour(const Picture& picture, const ContourSettings& settings);
+
+/// Reduces a surface with more triangles to about so many, by quadric decimation, in 20 s or not at all.
+/// @throws std::runtime_error with VTK's message; if it takes longer, or no triangle is left
+TriangleMesh decimated(const TriangleMesh& surface, std::size_t n_triangles);
+
+/// Values in the bytes that a confined process answered, which may be anything; bytes_of() makes them.
+/// @throws std::exception if the bytes are no such value: a field of another length than the points, no
+/// triangles, a position that is not finite, a weight of a point that does not exist
+Surface surface_from(const std::string& bytes);
+PointCloud point_cloud_from(const std::string& bytes);
+CellCloud cell_cloud_from(const std::string& bytes, std::size_t n_nodes);
+std::string bytes_of(const Surface& surface);
+std::string bytes_of(const PointCloud& cloud);
+std::string bytes_of(const CellCloud& cloud);
 
 } // namespace springproof::cases

@@ -2,10 +2,23 @@
 
 #include "cases/mesh/vtk_functions.hpp"
 
+#include <cstring>
+#include <stdexcept>
+#include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
+#include <vtkNew.h>
+#include <vtkUnstructuredGrid.h>
+
 class vtkAlgorithm;
 
-/// What the sources of the shared object springproof_vtk have for each other; VtkFunctions says what they do.
+/// What the sources of the shared object springproof_vtk have for each other; VtkFunctions says what its
+/// functions do.
 namespace springproof::cases {
+
+[[noreturn]] inline void refuse(const std::string& reason) {
+  throw std::runtime_error(reason);
+}
 
 /// Runs a reader or writer of VTK's, which prints nothing.
 /// @throws std::runtime_error with its first error, without the place in VTK's source
@@ -16,20 +29,48 @@ void run_information(vtkAlgorithm& algorithm);
 
 PointCloud read_points(const std::string& content);
 CellCloud read_cells(const std::string& content, const HexMesh& mesh);
-
 Surface read_polygons(const std::string& content);
 Surface contour_of(const Picture& picture, const ContourSettings& settings);
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles);
 std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& positions);
-
-/// Reads a file .nii or .nii.gz by VTK, or .inv3.
-/// @param bytes  bytes_of_volume(); compressed ones are inflated twice, to check them first
-/// @throws std::runtime_error with VTK's message, or the reason
 Volume read_volume(const std::string& path, const VolumeBytes& bytes);
 
-/// Reads a project of InVesalius: a gzipped tar whose main.plist names the file of the voxels, int16, least
-/// byte first, its shape (z, y, x) and the spacing (x, y, z).
-/// @throws std::runtime_error if it is none
-Volume read_inv3(const std::string& path, const VolumeBytes& bytes);
+/// An array of numbers, vectors or symmetric tensors, its components named as ParaView shows them.
+template<class Value>
+vtkNew<vtkDoubleArray> array_of(const NamedValues<Value>& field) {
+  constexpr int n = sizeof(Value) / sizeof(double);
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(field.name.c_str());
+  array->SetNumberOfComponents(n);
+  const std::array<const char*, 3> of_vector{"X", "Y", "Z"};
+  const std::array<const char*, 6> of_tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  for (std::size_t c = 0; c < n && n > 1; ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), n == 3 ? of_vector[c] : of_tensor[c]);
+  if (!field.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.unit.c_str());
+  array->SetNumberOfTuples(static_cast<vtkIdType>(field.values.size()));
+  std::memcpy(array->GetPointer(0), field.values.data(), field.values.size() * sizeof(Value));
+  return array;
+}
+
+/// Points without cells.
+inline vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& nodes) {
+  vtkNew<vtkPoints> points;
+  points->SetData(array_of(PointField{"rest position", nodes}));
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  return grid;
+}
+
+/// A mesh without data.
+inline vtkNew<vtkUnstructuredGrid> grid_of(const HexMesh& mesh) {
+  vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
+  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
+  for (const std::array<int, 8>& cell : mesh.cells) {
+    std::array<vtkIdType, 8> nodes;
+    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
+  }
+  return grid;
+}
 
 } // namespace springproof::cases

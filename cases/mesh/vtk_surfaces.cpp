@@ -1,9 +1,6 @@
 #include "cases/mesh/vtk_parts.hpp"
 
-#include "cases/mesh/vtk_grid.hpp"
-
 #include <algorithm>
-#include <stdexcept>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
@@ -33,7 +30,7 @@ void check_points_exist(vtkCellArray& cells, vtkIdType n_points) {
   for (cells.InitTraversal(); cells.GetNextCell(corners) != 0;)
     for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
       if (corners->GetId(c) < 0 || corners->GetId(c) >= n_points)
-        throw std::runtime_error("has a polygon of a point that does not exist");
+        refuse("has a polygon of a point that does not exist");
 }
 
 /// The triangles alone.
@@ -177,7 +174,7 @@ std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector
       double squared = 0;
       locator->FindClosestPoint(position.data(), nearest.data(), cell, found, part, squared);
     }
-    if (found < 0) throw std::runtime_error("a vertex of the surface has no nearest cell");
+    if (found < 0) refuse("a vertex of the surface has no nearest cell");
     places.push_back({static_cast<std::size_t>(found), nearest});
   }
   return places;

@@ -1,19 +1,24 @@
+#include "cases/case/input_file.hpp"
 #include "cases/mesh/vtk_parts.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <archive.h>
+#include <archive_entry.h>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <sstream>
-#include <stdexcept>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkNIFTIImageHeader.h>
 #include <vtkNIFTIImageReader.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
 #include <zlib.h>
 
 namespace springproof::cases {
@@ -31,8 +36,7 @@ Eigen::Vector3d edges_of_voxel(const Eigen::Matrix3d& steps) {
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3;
     if (!(std::abs(steps.col(a).dot(steps.col(b))) <= voxel_tolerance * edges[a] * edges[b]))
-      throw std::runtime_error(
-          "has sheared voxels: the axes of its array must be at right angles to each other; resample it");
+      refuse("has sheared voxels: the axes of its array must be at right angles to each other; resample it");
   }
   return edges;
 }
@@ -48,7 +52,7 @@ double unit_of_length(vtkNIFTIImageHeader& header) {
   constexpr std::array<double, 4> units{1, 1e3, 1, 1e-3}; // none, m, mm, um
   const auto unit = static_cast<std::size_t>(header.GetXYZTUnits() & 7);
   if (unit < units.size()) return units[unit];
-  throw std::runtime_error("has lengths in 'xyzt_units " + std::to_string(unit) + "', must be um, mm or m");
+  refuse("has lengths in 'xyzt_units " + std::to_string(unit) + "', must be um, mm or m");
 }
 
 /// The grid spacings of pixdim. The affine map of an sform leads to where the scanner or an aligned picture
@@ -68,8 +72,8 @@ Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader) {
       for (int a = 0; a < 3; ++a) steps(row, a) = rows[row][a];
     const Eigen::Vector3d by_map = edges_of_voxel(steps);
     if (!((by_map - edges).array().abs() <= voxel_tolerance * edges.array()).all())
-      throw std::runtime_error("says voxels of " + shown(edges) + " by its pixdim and of " + shown(by_map) +
-                               " by its sform, which must agree: set the one that is wrong");
+      refuse("says voxels of " + shown(edges) + " by its pixdim and of " + shown(by_map) +
+             " by its sform, which must agree: set the one that is wrong");
   }
   return edges * unit_of_length(header);
 }
@@ -85,8 +89,7 @@ void check_size_of_header(const std::string& path) {
   };
   for (const long size : {348L, 540L}) // NIfTI-1's and NIfTI-2's
     if (is_read && (number(bytes.begin()) == size || number(bytes.rbegin()) == size)) return;
-  throw std::runtime_error(
-      "is no NIfTI file: its first number, the size of its header, is neither 348 nor 540");
+  refuse("is no NIfTI file: its first number, the size of its header, is neither 348 nor 540");
 }
 
 /// Checks what VTK does not: it takes other magic words for older formats, and what is no length for 1 mm.
@@ -95,17 +98,65 @@ void check_header(vtkNIFTIImageReader& reader, const std::string& path) {
   vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
   const std::string magic = header.GetMagic() == nullptr ? "" : header.GetMagic();
   if (magic.rfind("n+1", 0) != 0 && magic.rfind("n+2", 0) != 0)
-    throw std::runtime_error("is no NIfTI file with its voxels: its magic word is neither n+1 nor n+2");
+    refuse("is no NIfTI file with its voxels: its magic word is neither n+1 nor n+2");
   for (int a = 1; a <= std::min<std::int64_t>(3, header.GetDim(0)); ++a)
     if (const double length = header.GetPixDim(a); !(length > 0))
-      throw std::runtime_error("has voxels of " + std::to_string(length) + " mm, must be above 0 mm");
+      refuse("has voxels of " + std::to_string(length) + " mm, must be above 0 mm");
   const int bits =
       8 * vtkDataArray::GetDataTypeSize(reader.GetDataScalarType()) * reader.GetNumberOfScalarComponents();
   if (header.GetBitPix() != bits)
-    throw std::runtime_error("says " + std::to_string(header.GetBitPix()) + " bits a voxel, its type has " +
-                             std::to_string(bits));
+    refuse("says " + std::to_string(header.GetBitPix()) + " bits a voxel, its type has " +
+           std::to_string(bits));
   if (!std::isfinite(reader.GetRescaleSlope()) || !std::isfinite(reader.GetRescaleIntercept()))
-    throw std::runtime_error("has a scale of its intensities that is no number");
+    refuse("has a scale of its intensities that is no number");
+}
+
+/// @param most_bytes  most bytes of voxels that the file can hold
+/// @throws std::runtime_error unless there are voxels of a finite size above 0, no more than the file can
+/// hold, and so few that they can be numbered
+/// @return how many there are
+std::size_t checked_voxels(const std::array<int, 3>& voxels, const Eigen::Vector3d& spacing,
+                           std::size_t bytes_a_voxel, std::uint64_t most_bytes) {
+  const std::string size =
+      std::to_string(voxels[0]) + " x " + std::to_string(voxels[1]) + " x " + std::to_string(voxels[2]);
+  double n = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (voxels[a] < 1) refuse("has " + size + " voxels, must have some in every direction");
+    n *= voxels[a];
+    const double length = spacing[static_cast<int>(a)];
+    if (!(length > 1e-6 && length < 1e6))
+      refuse("has voxels of " + std::to_string(length) + " mm, must be from 1e-6 to 1e6 mm");
+  }
+  if (!(n * static_cast<double>(bytes_a_voxel) <= static_cast<double>(most_bytes)))
+    refuse("says that it has " + size + " voxels, more than the file can hold");
+  if (!(n <= std::numeric_limits<int>::max())) refuse("has " + size + " voxels, must have fewer than 2^31");
+  return static_cast<std::size_t>(n);
+}
+
+/// Inflates a gzipped file piece by piece, and keeps none: readers believe bytes that a checksum refutes, and
+/// what has no end.
+/// @param least, most  how many bytes it may hold
+/// @throws std::runtime_error unless it is whole, its checksums right, and holds as many
+void check_gzip(const std::string& path, std::uint64_t least, std::uint64_t most) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  if (!file) refuse("cannot be read");
+  std::array<char, 1 << 16> piece;
+  std::uint64_t held = 0;
+  for (int n = 1; (n = gzread(file.get(), piece.data(), piece.size())) > 0;) {
+    held += static_cast<std::uint64_t>(n);
+    if (held > most)
+      refuse("holds more than " + std::to_string(most) +
+             " bytes where it is compressed, far more than its header says");
+  }
+  int status = Z_OK;
+  const std::string message = gzerror(file.get(), &status); // "PATH: reason"
+  if (status == Z_BUF_ERROR) refuse("is cut short: what is compressed has no end");
+  if (status != Z_OK || gzdirect(file.get()) != 0)
+    refuse("is damaged where it is compressed: " +
+           (status == Z_OK ? "incorrect header check" : message.substr(path.size() + 2)));
+  if (held < least)
+    refuse("is cut short: holds " + std::to_string(held) + " bytes where it is compressed, its header says " +
+           std::to_string(least));
 }
 
 /// Checks the size of a compressed file: it may hold its header, as many voxels as that says, and further
@@ -137,58 +188,108 @@ void run_on(const std::string& path, const Action& action) {
   try {
     action();
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(in_one_line(error.what(), path));
+    refuse(in_one_line(error.what(), path));
   }
+}
+
+constexpr std::uint64_t most_bytes_of_list = 1'000'000, most_bytes_of_project = 20'000'000'000;
+
+/// The content of the first file of a gzipped tar that has a name in its folder.
+/// @param what  what it is, for messages   @param least, most  how many bytes it may have
+std::string unpacked(const std::string& path, const std::string& what, const std::string& wanted,
+                     std::uint64_t least, std::uint64_t most) {
+  const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
+  archive_read_support_filter_gzip(reader.get());
+  archive_read_support_format_tar(reader.get());
+  const auto check = [&](long long status) {
+    if (status >= ARCHIVE_WARN) return;
+    const char* reason = archive_error_string(reader.get());
+    refuse(std::string("is no gzipped tar: ") + (reason == nullptr ? "damaged" : reason));
+  };
+  check(archive_read_open_filename(reader.get(), path.c_str(), 1 << 16));
+  for (archive_entry* entry = nullptr;;) {
+    const int status = archive_read_next_header(reader.get(), &entry);
+    if (status == ARCHIVE_EOF) refuse("has no " + what);
+    check(status);
+    const char* name = archive_entry_pathname(entry);
+    if (name == nullptr || std::filesystem::path(name).filename() != wanted) continue;
+    const la_int64_t size = archive_entry_size(entry);
+    const auto n_bytes = static_cast<std::uint64_t>(size);
+    if (size < 0 || n_bytes < least || n_bytes > most)
+      refuse(what + " has " + std::to_string(size) + " bytes, which cannot be");
+    std::string content(n_bytes, '\0');
+    const la_ssize_t n = archive_read_data(reader.get(), content.data(), content.size());
+    check(n);
+    if (n != size) refuse(what + " is cut short");
+    return content;
+  }
+}
+
+/// The value of a key of a property list's dictionary.
+vtkXMLDataElement& value_of_key(vtkXMLDataElement& dictionary, const std::string& key) {
+  const auto is_key = [&](vtkXMLDataElement* element) {
+    return std::strcmp(element->GetName(), "key") == 0 && element->GetCharacterData() != nullptr &&
+           key == element->GetCharacterData();
+  };
+  for (int i = 0; i + 1 < dictionary.GetNumberOfNestedElements(); ++i)
+    if (is_key(dictionary.GetNestedElement(i))) return *dictionary.GetNestedElement(i + 1);
+  refuse("main.plist has no " + key);
+}
+
+std::string text_of(vtkXMLDataElement& element, const std::string& key) {
+  if (element.GetCharacterData() == nullptr) refuse("main.plist has no value of " + key);
+  return element.GetCharacterData();
+}
+
+/// The three numbers of an array.
+std::array<double, 3> numbers_of(vtkXMLDataElement& dictionary, const std::string& key) {
+  vtkXMLDataElement& list = value_of_key(dictionary, key);
+  if (list.GetNumberOfNestedElements() != 3) refuse("main.plist has no three numbers of " + key);
+  std::array<double, 3> numbers{};
+  for (int i = 0; i < 3; ++i) {
+    const std::string text = text_of(*list.GetNestedElement(i), key);
+    const auto number = number_in<double>(text);
+    if (!number) refuse("main.plist says " + key + " '" + text.substr(0, 100) + "', must be a number");
+    numbers[static_cast<std::size_t>(i)] = *number;
+  }
+  return numbers;
+}
+
+/// Reads a project of InVesalius: a gzipped tar whose main.plist names the file of the voxels, int16, least
+/// byte first, its shape (z, y, x) and the spacing (x, y, z).
+/// @throws std::runtime_error if it is none
+Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
+  // Masks and surfaces beside the voxels may take more than these.
+  if (bytes.is_compressed) check_gzip(path, 0, most_bytes_of_project);
+  const std::string list = unpacked(path, "main.plist", "main.plist", 0, most_bytes_of_list);
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(list.c_str()));
+  if (!root || root->GetNumberOfNestedElements() < 1) refuse("main.plist is no property list");
+  vtkXMLDataElement& project = *root->GetNestedElement(0);
+  vtkXMLDataElement& matrix = value_of_key(project, "matrix");
+  if (const std::string type = text_of(value_of_key(matrix, "dtype"), "dtype"); type != "int16")
+    refuse("main.plist says dtype '" + type + "', must be int16");
+  const std::array<double, 3> shape = numbers_of(matrix, "shape"), spacing = numbers_of(project, "spacing");
+  Volume volume;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!(shape[a] >= 1 && shape[a] < 1e6)) refuse("main.plist says a shape that is none");
+    volume.voxels[2 - a] = static_cast<int>(shape[a]);
+  }
+  volume.spacing = Eigen::Vector3d(spacing.data());
+  const std::size_t n = checked_voxels(volume.voxels, volume.spacing, sizeof(std::int16_t), bytes.of_voxels);
+  const std::string file = text_of(value_of_key(matrix, "filename"), "filename");
+  const std::size_t n_bytes = n * sizeof(std::int16_t);
+  const std::string voxels = unpacked(path, "file of voxels", file, n_bytes, n_bytes);
+  std::vector<std::int16_t> numbers(n);
+  std::memcpy(numbers.data(), voxels.data(), voxels.size());
+  volume.intensities.assign(numbers.begin(), numbers.end());
+  return volume;
 }
 
 } // namespace
 
-std::size_t checked_voxels(const std::array<int, 3>& voxels, const Eigen::Vector3d& spacing,
-                           std::size_t bytes_a_voxel, std::uint64_t most_bytes) {
-  const std::string size =
-      std::to_string(voxels[0]) + " x " + std::to_string(voxels[1]) + " x " + std::to_string(voxels[2]);
-  double n = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (voxels[a] < 1) throw std::runtime_error("has " + size + " voxels, must have some in every direction");
-    n *= voxels[a];
-    const double length = spacing[static_cast<int>(a)];
-    if (!(length > 1e-6 && length < 1e6))
-      throw std::runtime_error("has voxels of " + std::to_string(length) +
-                               " mm, must be from 1e-6 to 1e6 mm");
-  }
-  if (!(n * static_cast<double>(bytes_a_voxel) <= static_cast<double>(most_bytes)))
-    throw std::runtime_error("says that it has " + size + " voxels, more than the file can hold");
-  if (!(n <= std::numeric_limits<int>::max()))
-    throw std::runtime_error("has " + size + " voxels, must have fewer than 2^31");
-  return static_cast<std::size_t>(n);
-}
-
-void check_gzip(const std::string& path, std::uint64_t least, std::uint64_t most) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
-  if (!file) throw std::runtime_error("cannot be read");
-  std::array<char, 1 << 16> piece;
-  std::uint64_t held = 0;
-  for (int n = 1; (n = gzread(file.get(), piece.data(), piece.size())) > 0;) {
-    held += static_cast<std::uint64_t>(n);
-    if (held > most)
-      throw std::runtime_error("holds more than " + std::to_string(most) +
-                               " bytes where it is compressed, far more than its header says");
-  }
-  int status = Z_OK;
-  const std::string message = gzerror(file.get(), &status); // "PATH: reason"
-  if (status == Z_BUF_ERROR) throw std::runtime_error("is cut short: what is compressed has no end");
-  if (status != Z_OK || gzdirect(file.get()) != 0)
-    throw std::runtime_error("is damaged where it is compressed: " +
-                             (status == Z_OK ? "incorrect header check" : message.substr(path.size() + 2)));
-  if (held < least)
-    throw std::runtime_error("is cut short: holds " + std::to_string(held) +
-                             " bytes where it is compressed, its header says " + std::to_string(least));
-}
-
 Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
-  const std::string project = ".inv3";
-  if (path.size() > project.size() && path.substr(path.size() - project.size()) == project)
-    return read_inv3(path, bytes);
+  if (std::filesystem::path(path).extension() == ".inv3") return read_inv3(path, bytes);
   const vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(path.c_str());
   run_on(path, [&] { run_information(*reader); });
@@ -199,11 +300,11 @@ Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
     volume.voxels[a] = n > 0 && n < std::numeric_limits<int>::max() ? static_cast<int>(n) : 0;
   }
   if (const int n = reader->GetNumberOfScalarComponents(); n != 1)
-    throw std::runtime_error("has " + std::to_string(n) + " numbers a voxel, must have one");
+    refuse("has " + std::to_string(n) + " numbers a voxel, must have one");
   check_header(*reader, path);
   volume.spacing = voxel_of(*reader);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
-  if (bytes_a_voxel < 1) throw std::runtime_error("has voxels of no type of numbers");
+  if (bytes_a_voxel < 1) refuse("has voxels of no type of numbers");
   const std::size_t n =
       checked_voxels(volume.voxels, volume.spacing, static_cast<std::size_t>(bytes_a_voxel), bytes.of_voxels);
   if (bytes.is_compressed)
@@ -211,7 +312,7 @@ Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
   run_on(path, [&] { run(*reader); });
   vtkDataArray* numbers = reader->GetOutput()->GetPointData()->GetScalars();
   if (numbers == nullptr || static_cast<std::size_t>(numbers->GetNumberOfValues()) != n)
-    throw std::runtime_error("has other voxels than it says");
+    refuse("has other voxels than it says");
   const double slope = reader->GetRescaleSlope(), intercept = reader->GetRescaleIntercept();
   volume.intensities.resize(n);
   for (std::size_t v = 0; v < n; ++v) {

@@ -4,7 +4,6 @@
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
-#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/loads.hpp"

@@ -3,7 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/error_bars/time_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/provenance/machine.hpp"

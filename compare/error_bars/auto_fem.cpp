@@ -2,12 +2,11 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/measure/turns.hpp"
 #include "compare/solve/estimate.hpp"
-#include "mechanics/hexahedron.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,21 +22,18 @@ constexpr double seconds_an_iteration =
     1e-6; ///< cost of one unknown on grids; what is hard to solve takes more iterations
 constexpr double default_width = 1; ///< percent: width assumed for an error without an expectation
 
-/// The expectations that ask something of the finite elements, with the measure of each.
-std::vector<std::pair<cases::Expectation, cases::Measure>> gates_of(const cases::Case& definition) {
-  std::vector<std::pair<cases::Expectation, cases::Measure>> gates;
-  for (const cases::Expectation& expectation : definition.expectations)
-    if (const auto* measure = find_named(definition.measures, expectation.measure);
-        measure && expectation.quantity != cases::Quantity::msm)
-      gates.emplace_back(expectation, *measure);
-  return gates;
-}
-
-/// What the narrowest expectation tolerates, percent.
-double tolerated_by_all(const cases::Scene& scene, const cases::Solution& solution) {
+/// The least that the expectations which ask something of the finite elements tolerate, percent; infinity
+/// without one.
+/// @param value_of  returns the finite elements' value of a measure; nothing where it does not count
+template<class ValueOf>
+double least_tolerated(const cases::Case& definition, const ValueOf& value_of) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [expectation, measure] : gates_of(scene.definition))
-    least = std::min(least, tolerated_error_percent(expectation, evaluate(measure, scene, solution)));
+  for (const cases::Expectation& expectation : definition.expectations) {
+    const auto* measure = find_named(definition.measures, expectation.measure);
+    if (!measure || expectation.quantity == cases::Quantity::msm) continue;
+    if (const std::optional<double> value = value_of(*measure))
+      least = std::min(least, tolerated_error_percent(expectation, *value));
+  }
   return least;
 }
 
@@ -61,7 +57,9 @@ Answers try_small_strain(const cases::Scene& scene) {
     return tried;
   }
   const double gradient = 100 * largest_gradient(scene.mesh, linearly.displacement, linearly.sharing.get());
-  const double tolerated = tolerated_by_all(scene, linearly);
+  const double tolerated = least_tolerated(scene.definition, [&](const cases::Measure& measure) {
+    return std::optional(evaluate(measure, scene, linearly));
+  });
   const bool is_small = gradient < tolerated;
   tried.choices.push_back(fmt::format(
       "formulation {}: the largest displacement gradient of a linear solve ({:.2f} s) is {:.3g} %, {} "
@@ -77,9 +75,9 @@ Answers try_small_strain(const cases::Scene& scene) {
 
 /// What the reference of a measure may be uncertain by, percent of it.
 double wanted_percent(const cases::Scene& scene, const std::string& measure, double reference) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [expectation, expected_of] : gates_of(scene.definition))
-    if (expected_of.name == measure) least = std::min(least, tolerated_error_percent(expectation, reference));
+  const double least = least_tolerated(scene.definition, [&](const cases::Measure& expected_of) {
+    return expected_of.name == measure ? std::optional(reference) : std::nullopt;
+  });
   return std::isfinite(least) ? least : default_width / 4;
 }
 
@@ -220,11 +218,8 @@ double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vec
   const cases::Share here = cases::share_here(mesh, sharing);
   double largest = 0;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
-    const Eigen::Vector3d centre = Eigen::Vector3d::Constant(0.5);
     const Eigen::Matrix3d gradient =
-        mechanics::jacobian(cases::cell_vertices(mesh, c, displacement, here.nodes.begin), centre) *
-            mechanics::jacobian(cases::cell_vertices(mesh, c), centre).inverse() -
-        Eigen::Matrix3d::Identity();
+        deformation_gradient(mesh, c, displacement, here.nodes.begin) - Eigen::Matrix3d::Identity();
     largest = std::max(largest, Eigen::JacobiSVD<Eigen::Matrix3d>(gradient).singularValues()[0]);
   }
   return sharing ? sharing->largest(largest) : largest;

@@ -20,20 +20,11 @@ std::string exact(double number) {
   return fmt::format("{}", number);
 }
 
-std::vector<std::string> exact(const Vector3d& vector) {
-  return {exact(vector.x()), exact(vector.y()), exact(vector.z())};
-}
-
-/// 1 in the components that are constrained, else 0.
-std::vector<int> constrained(const msm::Problem& problem, std::size_t node) {
-  std::vector<int> components;
-  for (std::size_t a = 0; a < 3; ++a) components.push_back(problem.is_constrained[3 * node + a] ? 1 : 0);
-  return components;
-}
-
-/// Prescribed displacements at full load, mm.
-msm::Points prescribed(const msm::Problem& problem) {
-  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
+template<class Numbers>
+std::vector<std::string> exact(const Numbers& numbers) {
+  std::vector<std::string> texts;
+  for (const auto number : numbers) texts.push_back(fmt::format("{}", number));
+  return texts;
 }
 
 #pragma GCC diagnostic error "-Wswitch" // a law that the files cannot tell must not compile
@@ -93,7 +84,7 @@ void write_volume_terms_csv(const std::string& folder, const msm::Lattice& latti
             "node_5", "node_6", "node_7");
     for (const msm::VolumeCell& cell : lattice.volume_cells)
       csv.row(exact(cell.stiffness), exact(cell.rest_volume), cell.is_logarithmic ? "logarithmic" : "linear",
-              std::vector<int>(cell.nodes.begin(), cell.nodes.end()));
+              exact(cell.nodes));
   });
 }
 
@@ -107,13 +98,8 @@ void write_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice
       header.push_back(fmt::format("stiffness_{}{}_{}{}_N_per_mm3", a, b, c, d));
   write_csv_file(folder + "/tetrahedra.csv", [&](CsvWriter& csv) {
     csv.row(header);
-    for (const msm::Tetrahedron& t : lattice.tetrahedra) {
-      std::vector<std::string> values;
-      for (const double length : t.rest_lengths) values.push_back(exact(length));
-      for (Eigen::Index e = 0; e < 6; ++e)
-        for (Eigen::Index f = 0; f < 6; ++f) values.push_back(exact(t.stiffness(e, f)));
-      csv.row(std::vector<int>(t.nodes.begin(), t.nodes.end()), values);
-    }
+    for (const msm::Tetrahedron& t : lattice.tetrahedra)
+      csv.row(exact(t.nodes), exact(t.rest_lengths), exact(t.stiffness.reshaped<Eigen::RowMajor>()));
   });
 }
 
@@ -170,6 +156,16 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
 }
 
 } // namespace
+
+std::vector<int> constrained(const msm::Problem& problem, std::size_t node) {
+  std::vector<int> components;
+  for (std::size_t a = 0; a < 3; ++a) components.push_back(problem.is_constrained[3 * node + a] ? 1 : 0);
+  return components;
+}
+
+msm::Points prescribed(const msm::Problem& problem) {
+  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
+}
 
 msm::Problem exported_problem(const cases::Scene& scene) {
   msm::Problem problem = msm::make_problem(scene);

@@ -43,6 +43,12 @@ std::vector<std::string> export_springs(const std::string& folder, ExportTarget 
                                         const std::string& name, const msm::Problem& problem,
                                         const std::optional<ExportedMotion>& motion = {});
 
+/// 1 in the components in which a node is constrained, else 0.
+std::vector<int> constrained(const msm::Problem& problem, std::size_t node);
+
+/// Prescribed displacements at full load, mm.
+msm::Points prescribed(const msm::Problem& problem);
+
 /// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
 /// diagonal; 0 for a link of a network that is none of these.
 std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links);

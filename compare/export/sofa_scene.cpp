@@ -15,25 +15,16 @@ namespace {
 
 using cases::index;
 using Eigen::Vector3d;
-using Json = nlohmann::ordered_json;
 
 constexpr double thousand = 1e3; ///< mN of a N, kg of a tonne, mN/mm of a N/mm
 
 /// Nodes by their constrained components, 1 or 0 each.
-std::map<std::array<int, 3>, std::vector<int>> supports(const msm::Problem& problem) {
-  std::map<std::array<int, 3>, std::vector<int>> by_components;
-  for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n) {
-    std::array<int, 3> components;
-    for (std::size_t a = 0; a < 3; ++a) components[a] = problem.is_constrained[3 * n + a] ? 1 : 0;
-    if (components != std::array<int, 3>{0, 0, 0}) by_components[components].push_back(static_cast<int>(n));
-  }
+std::map<std::vector<int>, std::vector<std::size_t>> supports(const msm::Problem& problem) {
+  std::map<std::vector<int>, std::vector<std::size_t>> by_components;
+  for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n)
+    by_components[constrained(problem, n)].push_back(n);
+  by_components.erase({0, 0, 0});
   return by_components;
-}
-
-/// Where nodes begin, mm from rest: a motion where it starts, an equilibrium with its moved nodes in place.
-msm::Points start_of(const msm::Problem& problem, const ExportedMotion* motion) {
-  if (motion) return motion->start;
-  return problem.on_all_points(problem.supports ? problem.supports(1) : std::vector<cases::NodeVector>{});
 }
 
 Json history_to_json(const cases::History& history) {
@@ -103,8 +94,9 @@ void write_json(std::ostream& out, const std::string& name, const msm::Problem& 
   begin_list("positions");
   for (const Vector3d& x : rest) next(), fmt::print(out, "[{}, {}, {}]", x.x(), x.y(), x.z());
   out << "]";
-  begin_list("start"); // node, mm from its rest position
-  const msm::Points start = start_of(problem, motion);
+  // Node, mm from its rest position: a motion where it starts, an equilibrium with its moved nodes in place.
+  begin_list("start");
+  const msm::Points start = motion ? motion->start : prescribed(problem);
   for (std::size_t n = 0; n < start.size(); ++n)
     if (const Vector3d& u = start[n]; u != Vector3d::Zero())
       next(), fmt::print(out, "[{}, {}, {}, {}]", n, u.x(), u.y(), u.z());

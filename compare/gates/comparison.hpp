@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/measured_values.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/measure/surfaces.hpp"
 

@@ -44,9 +44,7 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
   // Were every vertex a centre, the spheres would have no radius and cover nothing between the vertices.
   const std::size_t most_spheres = std::max<std::size_t>(1, surface_.rest.vertices.size() / 2);
   spheres_ = mechanics::cover(surface_.rest.vertices, std::min(settings.n_spheres, most_spheres));
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& node : scene.mesh.nodes) box.extend(node);
-  size_ = box.sizes().norm();
+  size_ = cases::bounding_box(scene.mesh.nodes).sizes().norm();
   displacement_.assign(scene.mesh.nodes.size(), Vector3d::Zero());
   if (scene.definition.dynamics->start == cases::MotionStart::equilibrium)
     displacement_ =

@@ -1,6 +1,6 @@
 #include "compare/interact/simulation.hpp"
 
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/table/table.hpp"
 
 #include <algorithm>

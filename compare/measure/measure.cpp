@@ -2,7 +2,6 @@
 
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/measure/of_cells.hpp"
 #include "compare/measure/turns.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
@@ -326,15 +325,16 @@ std::optional<double> value_of(const cases::Measure& measure, const cases::Scene
   return value_over_time(*measure.over_time, series_of(measure, scene, solution));
 }
 
-std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
-                              const cases::Solution& solution) {
+std::variant<double, std::string> finite_value(const cases::Measure& measure, const cases::Scene& scene,
+                                               const cases::Solution& solution) {
   if (!can_evaluate(measure, solution)) return "the solution is of displacements alone, without its fields";
-  if (measure.over_time && solution.trajectory) {
-    const auto number = number_over_time(*measure.over_time, series_of(measure, scene, solution));
-    return std::holds_alternative<double>(number) ? "" : std::get<std::string>(number);
-  }
-  const auto value = value_of(measure, scene, solution);
-  return value && std::isfinite(*value) ? "" : "it is not a finite number";
+  std::variant<double, std::string> found;
+  if (measure.over_time && solution.trajectory)
+    found = number_over_time(*measure.over_time, series_of(measure, scene, solution));
+  else
+    found = evaluate(measure, scene, solution);
+  const double* value = std::get_if<double>(&found);
+  return !value || std::isfinite(*value) ? found : "it is not a finite number";
 }
 
 bool is_trajectory_norm(const cases::Measure& measure) {

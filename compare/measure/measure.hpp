@@ -32,9 +32,9 @@ TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
 std::optional<double> value_of(const cases::Measure& measure, const cases::Scene& scene,
                                const cases::Solution& solution);
 
-/// Why value_of() has no finite value of a converged solution; empty: it has one.
-std::string why_without_value(const cases::Measure& measure, const cases::Scene& scene,
-                              const cases::Solution& solution);
+/// The same, or why it is no finite value.
+std::variant<double, std::string> finite_value(const cases::Measure& measure, const cases::Scene& scene,
+                                               const cases::Solution& solution);
 
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  one for which is_field_norm() holds   @param field  a vector per node that is here
@@ -84,5 +84,29 @@ const Named* find_named(const std::vector<Named>& all, const std::string& name) 
     if (one.name == name) return &one;
   return nullptr;
 }
+
+// Measures of tensors in cells, and of a solution over a region.
+
+/// A component of a symmetric tensor, its von Mises equivalent or a principal value, in the tensor's unit.
+double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent component);
+
+/// sqrt(3/2 dev(sigma) : dev(sigma))
+double von_mises(const cases::SymmetricTensor& tensor);
+
+/// sqrt(sigma : sigma)
+double tensor_norm(const cases::SymmetricTensor& tensor);
+
+/// A statistic of a component of the cells' tensors, over the cells that have a face in the measure's region,
+/// or over all; means are weighted by the cells' volume at rest.
+/// @param of_cells  tensors of the cells that are here
+double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
+                 const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells);
+
+/// The largest curvature, 1/mm, of the lines of nodes along an axis of the body at rest that lie in the
+/// measure's region: of three neighbours, the inverse radius of the circle through their deformed places,
+///   4 A / (a b c),  A the area and a, b, c the sides of their triangle.
+/// 0 where no three nodes follow each other.
+double largest_curvature(const cases::measures::Curvature& measure, const cases::Scene& scene,
+                         const cases::Solution& solution);
 
 } // namespace springproof::compare

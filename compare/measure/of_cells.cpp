@@ -1,6 +1,5 @@
-#include "compare/measure/of_cells.hpp"
-
 #include "cases/mesh/sharing.hpp"
+#include "compare/measure/measure.hpp"
 #include "mechanics/larger.hpp"
 
 #include <Eigen/Eigenvalues>

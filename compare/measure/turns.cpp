@@ -5,8 +5,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <queue>
+#include <tuple>
 
 namespace springproof::compare {
 
@@ -30,21 +31,12 @@ class TurnedNodes {
       : segment_(segment), mesh_(scene.mesh), turned_(mesh_.nodes.size(), Vector3d::Zero()),
         degrees_(mesh_.nodes.size(), 0), is_counted_(mesh_.nodes.size(), false) {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      const Vector3d turned = turned_by_cell(segment, mesh_, c, displacement, 0);
+      const Vector3d turned = deformation_gradient(mesh_, c, displacement) * segment.along;
       for (const int node : mesh_.cells[c]) turned_[index(node)] += turned;
     }
     for (std::size_t n = 0; n < degrees_.size(); ++n) degrees_[n] = degrees_between(segment, turned_[n]);
   }
 
-  /// Where a cell takes the segment.
-  static Vector3d turned_by_cell(const TurnedSegment& segment, const cases::HexMesh& mesh, std::size_t cell,
-                                 const std::vector<Vector3d>& displacement, std::size_t first_node) {
-    const Vector3d centre = Vector3d::Constant(0.5);
-    const Eigen::Matrix3d at_rest = mechanics::jacobian(cases::cell_vertices(mesh, cell), centre),
-                          now = mechanics::jacobian(
-                              cases::cell_vertices(mesh, cell, displacement, first_node), centre);
-    return now * at_rest.inverse() * segment.along;
-  }
   /// Angle in (-180, 180].
   static double degrees_between(const TurnedSegment& segment, const Vector3d& turned) {
     const double x = segment.along[segment.from], y = segment.along[segment.towards];
@@ -53,16 +45,15 @@ class TurnedNodes {
   }
 
   void begin_at(int node, double near) {
-    if (is_counted_[index(node)]) return;
-    count(node, near);
-    has_begun_ = true;
+    if (!is_counted_[index(node)]) count(node, near);
   }
-  bool has_begun() const { return has_begun_; }
+  bool has_begun() const { return !neighbours_.empty(); }
 
   /// Counts the turns of all nodes within reach, through the smallest differences first.
   void count_all() {
-    while (const auto step = take_smallest()) {
-      const auto [from, to] = *step;
+    while (!steps_.empty()) {
+      const auto [size, from, to] = steps_.top();
+      steps_.pop();
       if (!is_counted_[index(to)]) count(to, degrees_[index(from)]);
     }
   }
@@ -71,17 +62,15 @@ class TurnedNodes {
   }
 
  private:
-  using Step = std::pair<int, int>; ///< from a node that is counted to another one
-  static constexpr std::size_t n_sizes = 64;
+  using Step = std::tuple<double, int, int>; ///< degrees from a node that is counted to another one
 
   const TurnedSegment& segment_;
   const cases::HexMesh& mesh_;
   std::vector<Vector3d> turned_;
   std::vector<double> degrees_;
   std::vector<bool> is_counted_;
-  bool has_begun_ = false;
-  std::vector<std::vector<int>> neighbours_;
-  std::array<std::vector<Step>, n_sizes> steps_; ///< by the size of their difference
+  std::vector<std::vector<int>> neighbours_;                           ///< by node, from the first count on
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_; ///< the smallest first
 
   void count(int node, double near) {
     degrees_[index(node)] = nearest(degrees_[index(node)], near);
@@ -89,10 +78,8 @@ class TurnedNodes {
     if (neighbours_.empty()) find_neighbours();
     for (const int other : neighbours_[index(node)]) {
       if (is_counted_[index(other)]) continue;
-      const double apart =
-          std::abs(nearest(degrees_[index(other)], degrees_[index(node)]) - degrees_[index(node)]);
-      const auto size = static_cast<std::size_t>(apart / (full_turn / 2) * n_sizes);
-      steps_[std::min(size, n_sizes - 1)].push_back({node, other});
+      const double here = degrees_[index(node)];
+      steps_.emplace(std::abs(nearest(degrees_[index(other)], here) - here), node, other);
     }
   }
   void find_neighbours() {
@@ -105,15 +92,6 @@ class TurnedNodes {
       }
     for (std::vector<int>& of_node : neighbours_) cases::make_set(of_node);
   }
-  std::optional<Step> take_smallest() {
-    for (std::vector<Step>& steps : steps_) {
-      if (steps.empty()) continue;
-      const Step step = steps.back();
-      steps.pop_back();
-      return step;
-    }
-    return std::nullopt;
-  }
 };
 
 /// Whether a cell turns by more than a quarter: without one, no two neighbours differ by half a turn.
@@ -123,7 +101,7 @@ bool is_turned_far(const TurnedSegment& segment, const cases::Scene& scene,
   double largest = 0;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
     const Vector3d turned =
-        TurnedNodes::turned_by_cell(segment, scene.mesh, c, displacement, here.nodes.begin);
+        deformation_gradient(scene.mesh, c, displacement, here.nodes.begin) * segment.along;
     largest = std::max(largest, std::abs(TurnedNodes::degrees_between(segment, turned)));
   }
   if (sharing) largest = sharing->largest(largest);
@@ -150,6 +128,13 @@ void begin_at_supports(TurnedNodes& nodes, const TurnedSegment& segment, const c
 }
 
 } // namespace
+
+Eigen::Matrix3d deformation_gradient(const cases::HexMesh& mesh, std::size_t cell,
+                                     const std::vector<Vector3d>& displacement, std::size_t first_node) {
+  const Vector3d centre = Vector3d::Constant(0.5);
+  return mechanics::jacobian(cases::cell_vertices(mesh, cell, displacement, first_node), centre) *
+         mechanics::jacobian(cases::cell_vertices(mesh, cell), centre).inverse();
+}
 
 double count_turns(double degrees, const TurnedSegment& segment, const cases::Scene& scene,
                    const std::vector<Vector3d>& displacement, const cases::Sharing* sharing,

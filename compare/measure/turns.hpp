@@ -10,6 +10,12 @@ namespace springproof::compare {
 
 constexpr double degrees_per_radian = 57.295779513082320877;
 
+/// The deformation gradient at the centre of a cell.
+/// @param displacement  mm, one per node from the first on
+Eigen::Matrix3d deformation_gradient(const cases::HexMesh& mesh, std::size_t cell,
+                                     const std::vector<Eigen::Vector3d>& displacement,
+                                     std::size_t first_node = 0);
+
 /// What is turned in a plane, and at which nodes.
 struct TurnedSegment {
   Eigen::Vector3d along; ///< at rest, of any length, in the plane

@@ -105,21 +105,27 @@ std::string last_error(std::istream& in) {
 
 /// What CalculiX leaves of a run.
 struct CalculixRun {
-  std::ifstream data, progress; ///< its files .dat and .sta
-  std::string error;            ///< the last that it printed
+  cases::Scene refined; ///< what it solved
+  std::vector<CalculixOutput> blocks;
+  int newton_iterations; ///< of all increments
+  std::string error;     ///< the last that it printed
 };
 
 /// Runs CalculiX.  @return nothing when there is no `ccx`   @throws SolveError when it stops
-template<class WriteInput>
-std::optional<CalculixRun> run_calculix(const ScratchFolder& scratch, const WriteInput& write_input) {
-  write_file(scratch.path() / "case.inp", write_input);
+std::optional<CalculixRun> run_calculix(const cases::Scene& scene,
+                                        void (*write_input)(std::ostream&, const cases::Scene&)) {
+  CalculixRun run{cases::refine(scene, scene.definition.fem.refine), {}, 0, ""};
+  const ScratchFolder scratch("ccx");
+  write_file(scratch.path() / "case.inp", [&](std::ostream& out) { write_input(out, run.refined); });
   const auto end = call_program(
       {{"ccx", "-i", "case"}, scratch.path(), {"OMP_NUM_THREADS=1", "CCX_NPROC_EQUATION_SOLVER=1"}});
   if (!end) return std::nullopt;
   std::istringstream log(end->said);
-  CalculixRun run{std::ifstream(scratch.path() / "case.dat"), std::ifstream(scratch.path() / "case.sta"),
-                  last_error(log)};
-  if (end->status != 0 || !run.data) throw cases::SolveError("CalculiX stopped: " + run.error);
+  run.error = last_error(log);
+  std::ifstream data(scratch.path() / "case.dat"), progress(scratch.path() / "case.sta");
+  if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + run.error);
+  run.blocks = read_calculix_blocks(data, run.refined.mesh.nodes.size());
+  run.newton_iterations = count_iterations(progress);
   return run;
 }
 
@@ -225,16 +231,13 @@ void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
 }
 
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene) {
-  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
-  const ScratchFolder scratch("ccx");
-  auto run = run_calculix(scratch, [&](std::ostream& out) { write_motion_input(out, refined); });
+  auto run = run_calculix(scene, write_motion_input);
   if (!run) return {};
-  std::vector<CalculixOutput> steps = read_calculix_blocks(run->data, refined.mesh.nodes.size());
   const auto n_steps = static_cast<std::size_t>(scene.definition.dynamics->n_steps());
-  if (steps.size() != n_steps)
-    throw cases::SolveError(fmt::format("CalculiX printed {} steps of {}", steps.size(), n_steps));
-  for (CalculixOutput& step : steps) step.displacement.resize(scene.mesh.nodes.size());
-  return steps;
+  if (run->blocks.size() != n_steps)
+    throw cases::SolveError(fmt::format("CalculiX printed {} steps of {}", run->blocks.size(), n_steps));
+  for (CalculixOutput& step : run->blocks) step.displacement.resize(scene.mesh.nodes.size());
+  return std::move(run->blocks);
 }
 
 std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n_nodes) {
@@ -299,17 +302,15 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   solution.message = reason_without_calculix(scene.definition).value_or("");
   if (!solution.message.empty()) return solution; // skipped
   if (scene.definition.dynamics) return follow_with_calculix(scene);
-  const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
-  const ScratchFolder scratch("ccx");
-  auto run = run_calculix(scratch, [&](std::ostream& out) { write_calculix_input(out, refined); });
+  const auto run = run_calculix(scene, write_calculix_input);
   if (!run) {
     solution.message = not_installed;
     return solution; // skipped
   }
-  const CalculixOutput output = read_calculix_blocks(run->data, refined.mesh.nodes.size()).back();
+  const CalculixOutput& output = run->blocks.back();
   solution.load_reached = output.load_reached;
-  solution.newton_iterations = count_iterations(run->progress);
-  const std::vector<bool> fixed = cases::constrained_dofs(refined);
+  solution.newton_iterations = run->newton_iterations;
+  const std::vector<bool> fixed = cases::constrained_dofs(run->refined);
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
   if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
     throw cases::SolveError("CalculiX stopped: " + run->error, solution);
@@ -320,7 +321,7 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   solution.displacement = output.displacement;
   solution.displacement.resize(scene.mesh.nodes.size());
   msm::measure_cells(scene.mesh, solution);
-  solution.cell_volume = body_cell_volumes(scene, refined, output.displacement);
+  solution.cell_volume = body_cell_volumes(scene, run->refined, output.displacement);
   return solution;
 }
 

@@ -1,11 +1,9 @@
-#include "compare/peers/displacement_file.hpp"
+#include "compare/peers/external_side.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/input_file.hpp"
-#include "cases/mesh/read_vtk.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <set>
 #include <utility>
@@ -105,9 +103,7 @@ std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, 
 }
 
 double same_place(const cases::HexMesh& mesh) {
-  Eigen::AlignedBox3d body;
-  for (const Vector3d& node : mesh.nodes) body.extend(node);
-  return 1e-6 * body.diagonal().norm();
+  return 1e-6 * cases::bounding_box(mesh.nodes).diagonal().norm();
 }
 
 std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,

@@ -3,7 +3,8 @@
 #include "cases/case/error.hpp"
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
+#include "compare/measure/measure.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
@@ -22,13 +23,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A file whose ending and name were looked at.
-struct ResultFile {
-  std::string text;
-  bool is_csv;
-};
-
-ResultFile read_result_file(const std::string& path) {
+/// The content of a file whose ending and name were looked at, and whether it is a .csv.
+std::pair<std::string, bool> read_result_file(const std::string& path) {
   static const std::vector<std::string> endings{".csv", ".vtu", ".vtp", ".vtk", ".vts", ".vtr", ".vti"};
   const std::string ending = std::filesystem::path(path).extension();
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
@@ -94,17 +90,14 @@ Interpolated interpolated(const Answer& fem, const cases::HexMesh& mesh, const c
 constexpr double told_support = 0.01; ///< part of the largest displacement
 constexpr double told_work = 0.5;
 
-double largest(const std::vector<Vector3d>& vectors) {
-  double found = 0;
-  for (const Vector3d& vector : vectors) found = std::max(found, vector.norm());
-  return found;
-}
-
 /// What is held elsewhere than the case holds it; empty: nothing.
 std::string moved_supports(const cases::HexMesh& mesh, const msm::Problem& problem,
                            const std::vector<Vector3d>& displacement) {
   const msm::Points held = problem.supports ? problem.on_all_points(problem.supports(1))
                                             : msm::Points(displacement.size(), Vector3d::Zero());
+  const auto largest = [&](const std::vector<Vector3d>& field) {
+    return field_norm(cases::measures::DisplacementFieldMax{}, mesh, field);
+  };
   const double told = told_support * std::max(largest(displacement), largest(held));
   std::size_t n_held = 0, n_moved = 0, worst_node = 0;
   int worst_axis = 0;

@@ -1,6 +1,7 @@
 #include "compare/provenance/print.hpp"
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <utility>
 
 namespace springproof::compare {
@@ -26,21 +27,13 @@ struct Character {
   bool is_valid;
 };
 
-/// Unicode 15, table 3-7: the shortest form alone, without surrogates.
 Character character_at(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[at + n]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t size = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  char32_t code = lead & (0xffu >> (size + 1));
-  bool is_valid = lead >= 0xc2 && lead <= 0xf4 && at + size <= text.size();
-  for (std::size_t n = 1; is_valid && n < size; ++n) {
-    is_valid = (byte(n) & 0xc0) == 0x80;
-    code = code << 6 | (byte(n) & 0x3f);
-  }
-  is_valid = is_valid && code >= least[size] && code <= 0x10ffff && !(code >= 0xd800 && code <= 0xdfff);
-  return is_valid ? Character{code, size, true} : Character{lead, 1, false};
+  namespace utf = boost::locale::utf;
+  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
+  auto end = begin;
+  const utf::code_point code = utf::utf_traits<char>::decode(end, text.end());
+  if (code == utf::illegal || code == utf::incomplete) return {static_cast<unsigned char>(*begin), 1, false};
+  return {code, static_cast<std::size_t>(end - begin), true};
 }
 
 std::string escaped(char32_t code) {

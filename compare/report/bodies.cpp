@@ -76,9 +76,8 @@ double largest_scale(const Overlay& overlay) {
   double largest = 0;
   for (const DeformedBody* body : {&overlay.fem, &overlay.springs})
     for (const Eigen::Vector3d& u : *body->displacement) largest = std::max(largest, u.norm());
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& x : overlay.fem.mesh->nodes) box.extend(x);
-  return largest > 0 ? std::clamp(std::round(0.5 * box.sizes().maxCoeff() / largest), 2.0, 100.0) : 2.0;
+  const double size = cases::bounding_box(overlay.fem.mesh->nodes).sizes().maxCoeff();
+  return largest > 0 ? std::clamp(std::round(0.5 * size / largest), 2.0, 100.0) : 2.0;
 }
 
 Json measure_to_json(const MeasuredValue& measure) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/error_bars/measured_values.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/study/study.hpp"
 #include "compare/thesis/figures.hpp"
 #include "compare/thesis/regenerate.hpp"

@@ -1,6 +1,6 @@
 #include "compare/sweep/sweep.hpp"
 
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 
 #include <algorithm>

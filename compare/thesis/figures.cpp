@@ -111,9 +111,8 @@ std::vector<std::pair<std::string, std::vector<Line>>> blocks_of(const Overlay& 
 
 /// Decimals of coordinates: four, and more for a body smaller than 1 mm.
 int decimals_of(const cases::HexMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& x : mesh.nodes) box.extend(x);
-  return 4 + std::max(0, -static_cast<int>(std::floor(std::log10(box.sizes().maxCoeff()))));
+  const double size = cases::bounding_box(mesh.nodes).sizes().maxCoeff();
+  return 4 + std::max(0, -static_cast<int>(std::floor(std::log10(size))));
 }
 
 /// The order of figures 4.15 and 5.9: a row per test, small loads left and large ones right.

@@ -5,7 +5,6 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/of_cells.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/peers/displacement_file.hpp"
+#include "compare/peers/external_side.hpp"
 #include "tests/fuzz/promise.hpp"
 
 #include <cstdint>

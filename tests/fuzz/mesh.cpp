@@ -2,7 +2,7 @@
 // file there, and may have been taken over by it. gmsh itself, which cannot be built with the sanitizers
 // here, may crash: that is what it is confined for, and what tests/faults/mutated_files.py tries.
 
-#include "cases/mesh/mesh_bytes.hpp"
+#include "cases/mesh/read_mesh.hpp"
 #include "tests/fuzz/promise.hpp"
 
 #include <cstdint>

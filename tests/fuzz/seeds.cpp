@@ -2,8 +2,8 @@
 // fuzzers begin.
 
 #include "cases/mesh/labels.hpp"
-#include "cases/mesh/mesh_bytes.hpp"
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/read_mesh.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "compare/solve/fields.hpp"
 
 #include <filesystem>

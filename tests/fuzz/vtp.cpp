@@ -1,7 +1,7 @@
 // Surfaces that a body takes along as the confined process answers, which VTK's reader may have been taken
 // over in, joined and bound to cells: a target for libFuzzer.
 
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "mechanics/surface/embedded_surface.hpp"
 #include "tests/fuzz/promise.hpp"
 

@@ -1,7 +1,7 @@
 // Points, their vectors and interpolation between them as the confined process answers, which VTK's reader
 // may have been taken over in: a target for libFuzzer.
 
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "tests/fuzz/displacements.hpp"
 
 using namespace springproof;

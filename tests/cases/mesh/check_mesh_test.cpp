@@ -1,4 +1,4 @@
-#include "cases/mesh/check_mesh.hpp"
+#include "cases/mesh/read_mesh.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>

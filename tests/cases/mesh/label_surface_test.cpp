@@ -39,13 +39,6 @@ Labels largest_piece(double edge) {
   return labels;
 }
 
-Surface triangles_of(const TriangleMesh& mesh) {
-  Surface surface;
-  for (const auto& [a, b, c] : mesh.triangles)
-    surface.push_back({mesh.vertices[index(a)], mesh.vertices[index(b)], mesh.vertices[index(c)]});
-  return surface;
-}
-
 } // namespace
 
 TEST_CASE("the contour of a body's picture is where the intensity is, not where the cells end",
@@ -55,7 +48,7 @@ TEST_CASE("the contour of a body's picture is where the intensity is, not where 
   labels.file.path = folder.write("ball.nii", pictures::nifti_of(ball_and_plate()));
   SECTION("of the whole picture: the sphere, without the plate") {
     const TriangleMesh skin = label_surface(labels, {100, 0, 0});
-    CHECK(n_open_edges(triangles_of(skin)) == 0);
+    CHECK(n_open_edges(skin) == 0);
     REQUIRE(skin.triangles.size() > 500);
     // The distance is linear along an edge of h = 2 mm but for its curvature, h²/(8 r).
     for (const Vector3d& vertex : skin.vertices)
@@ -70,7 +63,7 @@ TEST_CASE("the contour of a body's picture is where the intensity is, not where 
     labels.crop = {Vector3d(0, 0, 0), Vector3d(11, 24, 22)};
     labels.edge = 1;
     const TriangleMesh half = label_surface(labels, {100, 0, 0});
-    CHECK(n_open_edges(triangles_of(half)) == 0);
+    CHECK(n_open_edges(half) == 0);
     double furthest = 0;
     for (const Vector3d& vertex : half.vertices) furthest = std::max(furthest, vertex.x());
     CHECK(furthest <= 11);

@@ -1,4 +1,4 @@
-#include "cases/mesh/mesh_bytes.hpp"
+#include "cases/mesh/read_mesh.hpp"
 
 #include "cases/case/case.hpp"
 #include "cases/mesh/fields.hpp"

@@ -1,4 +1,4 @@
-#include "cases/mesh/read_vtk.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include "cases/mesh/voxels.hpp"
 #include "tests/support/case_text.hpp"
@@ -26,13 +26,6 @@ Picture ball(bool is_mask, double radius = 8) {
   return picture;
 }
 
-Surface corners_of(const TriangleMesh& mesh) {
-  Surface surface;
-  for (const auto& [a, b, c] : mesh.triangles)
-    surface.push_back({mesh.vertices[index(a)], mesh.vertices[index(b)], mesh.vertices[index(c)]});
-  return surface;
-}
-
 double volume_of(const TriangleMesh& mesh) {
   double volume = 0;
   for (const auto& triangle : mesh.triangles)
@@ -52,7 +45,7 @@ const std::string polygons = R"(<VTKFile type="PolyData" version="0.1" byte_orde
 TEST_CASE("the contour of a ball is closed, looks outwards and has its volume", "[verification]") {
   const double exact = 4 * std::acos(-1.0) / 3 * 512;
   const TriangleMesh smooth = contour(ball(false), {0, 0, 0});
-  CHECK(n_open_edges(corners_of(smooth)) == 0);
+  CHECK(n_open_edges(smooth) == 0);
   CHECK(volume_of(smooth) == Approx(exact).epsilon(0.01)); // second order in 1 mm over a radius of 8
   for (const Vector3d& vertex : smooth.vertices) // a linear profile errs along edges by curvature: h²/(8 r)
     REQUIRE(std::abs((vertex - Vector3d(12, 11, 10)).norm() - 8) < 1. / (8 * 8));
@@ -64,7 +57,7 @@ TEST_CASE("a contour of fewer triangles is closed and keeps the volume") {
   REQUIRE(all.triangles.size() > 1500);
   CHECK(fewer.triangles.size() <= 600);
   CHECK(fewer.triangles.size() > 500);
-  CHECK(n_open_edges(corners_of(fewer)) == 0);
+  CHECK(n_open_edges(fewer) == 0);
   CHECK(volume_of(fewer) == Approx(volume_of(all)).epsilon(0.01));
 }
 
@@ -72,7 +65,7 @@ TEST_CASE("a surface of fewer triangles is closed, looks outwards and stays wher
   const TriangleMesh fine = contour(ball(false), {0, 0, 0}), coarse = decimated(fine, 300);
   CHECK(coarse.triangles.size() <= 300);
   CHECK(coarse.triangles.size() > 200);
-  CHECK(n_open_edges(corners_of(coarse)) == 0);
+  CHECK(n_open_edges(coarse) == 0);
   CHECK(volume_of(coarse) == Approx(volume_of(fine)).epsilon(0.05));
   for (const Vector3d& vertex : coarse.vertices)
     REQUIRE(std::abs((vertex - Vector3d(12, 11, 10)).norm() - 8) < 0.5); // edges of 2.5 mm or so
@@ -82,7 +75,7 @@ TEST_CASE("a surface of fewer triangles is closed, looks outwards and stays wher
 
 TEST_CASE("a body that reaches the borders of its picture has a closed contour") {
   const TriangleMesh cut = contour(ball(true, 12), {0.5, 0, 0});
-  CHECK(n_open_edges(corners_of(cut)) == 0);
+  CHECK(n_open_edges(cut) == 0);
   CHECK(volume_of(cut) > 0);
 }
 

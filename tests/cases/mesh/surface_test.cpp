@@ -71,7 +71,7 @@ TEST_CASE("a surface is the same from text and from a binary file") {
   REQUIRE(text.size() == 4);
   CHECK(text[1][2] == Vector3d(0, 0, 1));
   CHECK(read_stl({folder.write("binary.stl", as_binary(text))}) == text);
-  CHECK(n_open_edges(text) == 0);
+  CHECK(n_open_edges(joined(text)) == 0);
 }
 
 TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
@@ -81,9 +81,9 @@ TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
   open.pop_back();
   std::swap(turned[2][0], turned[2][1]);
   doubled.push_back(doubled[0]);
-  CHECK(n_open_edges(open) == 3);
-  CHECK(n_open_edges(turned) == 6); // each of its edges now runs twice the same way
-  CHECK(n_open_edges(doubled) == 3);
+  CHECK(n_open_edges(joined(open)) == 3);
+  CHECK(n_open_edges(joined(turned)) == 6); // each of its edges now runs twice the same way
+  CHECK(n_open_edges(joined(doubled)) == 3);
 }
 
 TEST_CASE("what is no STL, is cut short or has a position that is not finite is refused with its name") {

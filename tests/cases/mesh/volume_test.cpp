@@ -1,4 +1,4 @@
-#include "cases/mesh/volume.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 
 #include "tests/support/case_text.hpp"
 #include "tests/support/pictures.hpp"

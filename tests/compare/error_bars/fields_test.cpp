@@ -1,6 +1,6 @@
 // Forces, energy, stress and strain of both models, from the case to the error against the limit.
 #include "compare/error_bars/auto_fem.hpp"
-#include "compare/error_bars/measured_values.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/sweep/sweep.hpp"

@@ -1,4 +1,4 @@
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/solve/solvers.hpp"

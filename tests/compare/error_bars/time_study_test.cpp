@@ -1,4 +1,4 @@
-#include "compare/error_bars/time_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"

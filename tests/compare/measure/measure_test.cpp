@@ -1,6 +1,5 @@
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/of_cells.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

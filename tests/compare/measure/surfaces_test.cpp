@@ -82,7 +82,7 @@ TEST_CASE("landmarks on a tilted surface have the mean and deviation of their ra
   answers.msm = answer_of(scene, [](const Vector3d&) { return Vector3d(0, 0, 0); });
   const LandmarkDistance top = landmark_distances(scene, answers)[0];
   // Barycentres at thirds of the squares around (2.1, 1.9), by their diagonals x = y.
-  const cases::TriangleMesh outer = cases::outer_surface(scene.mesh);
+  const cases::TriangleMesh outer = cases::triangles_of_faces(scene.mesh, cases::boundary_faces(scene.mesh));
   std::vector<std::pair<double, double>> lengths; // distance from the point, length of the ray
   for (const auto& triangle : outer.triangles) {
     const Vector3d at = cases::barycentre(triangle, outer.vertices);
@@ -187,7 +187,7 @@ cases::Scene bar_with_skin() {
   cases::Scene scene = cases::make_scene(definition);
   scene.definition.surface.emplace();
   scene.definition.dynamics.emplace();
-  scene.surface = cases::outer_surface(scene.mesh);
+  scene.surface = cases::triangles_of_faces(scene.mesh, cases::boundary_faces(scene.mesh));
   return scene;
 }
 

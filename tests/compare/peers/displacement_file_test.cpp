@@ -1,5 +1,3 @@
-#include "compare/peers/displacement_file.hpp"
-
 #include "cases/case/error.hpp"
 #include "compare/peers/external_side.hpp"
 #include "compare/write/write.hpp"

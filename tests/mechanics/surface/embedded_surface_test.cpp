@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 mechanics::EmbeddedSurface surface_of(const cases::HexMesh& mesh) {
-  return mechanics::embed(cases::outer_surface(mesh), mesh);
+  return mechanics::embed(cases::triangles_of_faces(mesh, cases::boundary_faces(mesh)), mesh);
 }
 
 /// Sum over the nodes of a patch of weight times a function of their place.
@@ -133,7 +133,7 @@ TEST_CASE("a point outside of a body is bound to the nearest point of its cells"
 
 TEST_CASE("the outer surface of a box is closed, bound to its nodes and seen from outside") {
   const cases::HexMesh mesh = body(0);
-  const cases::TriangleMesh outer = cases::outer_surface(mesh);
+  const cases::TriangleMesh outer = cases::triangles_of_faces(mesh, cases::boundary_faces(mesh));
   CHECK(outer.vertices.size() == mesh.nodes.size() - 3 * 2 * 4);
   CHECK(outer.triangles.size() == 2 * 2 * (4 * 3 + 3 * 5 + 4 * 5));
   double volume = 0;

@@ -1,14 +1,15 @@
 #pragma once
 
-#include "cases/scene/scene.hpp"
-#include "compare/solve/answers.hpp"
+#include "compare/solve/solve.hpp"
 
-#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
 
+/// The errors that meshes and steps in time leave, and the measures of both models with them.
 namespace springproof::compare {
 
 /// What a quantity's values on a sequence of uniformly refined meshes tell of its limit.
@@ -25,10 +26,10 @@ using MeshVerdict = std::variant<MeshLimit, std::string>;
 /// @param coarse_to_fine  three or more values, each mesh refined from the one before
 /// @param ratio           ratio of mesh widths, > 1
 /// @return a reason instead of a limit if a value is not finite, if the values oscillate or do not draw
-/// nearer to each other, if they agree to `resolved` of their size (there is nothing left to extrapolate), or
+/// nearer to each other, if they agree to 1e-9 of their size (there is nothing left to extrapolate), or
 /// if the finest is zero. Source: P. J. Roache, Perspective: a method for uniform reporting of grid
 /// refinement studies, J. Fluids Eng. 116 (1994).
-MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio, double resolved = 1e-9);
+MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio);
 
 /// Error bar of a value on any of the meshes: 1.25 |(f - f0)/f| x 100, which on the finest is the grid
 /// convergence index.
@@ -97,5 +98,66 @@ struct MeshStudy {
 /// What the answers on refined meshes tell of the finite elements' own error, measure by measure.
 /// @param meshes  the scene's, its own among them   @param own_refine  the scene's own refinement
 MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine);
+
+/// A measure on both sides. A side that failed or was skipped has no value; values are finite.
+///
+/// The reference is the limit of the finite elements under refinement where the case has one and its study
+/// shows it, else the finite elements on the case's own mesh. Errors are (value - reference)/reference; a
+/// field norm's is taken of the difference of the fields, and never negative.
+struct MeasuredValue {
+  std::string name, unit;
+  std::optional<double> fem, msm;      ///< in the unit
+  std::optional<double> error_percent; ///< springs against the reference
+  std::optional<double> peer{};        ///< another program's value, when it was asked
+  std::optional<Limit> fem_limit{};    ///< the reference, in the unit; absent: the same mesh is the reference
+  std::optional<double> error_uncertainty_percent{}; ///< points, left by the limit; absent without it
+  std::optional<double> error_same_mesh_percent{};   ///< springs against the finite elements' value
+  std::optional<double> fem_error_percent{}; ///< finite elements' value against the limit; absent without it
+  /// Estimate of what interpolation from another mesh adds to the springs' value, in the unit, and to their
+  /// error, points; for a field norm, the norm of that field. Absent where nothing was interpolated.
+  std::optional<double> interpolation_error{}, interpolation_error_percent{};
+  /// Why a side that has an answer has no value, such as a frequency of what does not swing; empty: it has
+  /// one.
+  std::string fem_reason{}, msm_reason{};
+};
+
+/// All measures of a case, in its order; after them, of a dynamic case with [surface], that surface's
+/// (cases::surface_measure), without values unless both models moved to the end.
+/// @param study  study of the same case; null: there is none
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers, const MeshStudy* study);
+
+/// A model's value of a measure with the case's step and with half of it.
+struct HalvedStep {
+  double value, half_step; ///< with the case's step and half of it, in the measure's unit
+  double extrapolated;     ///< Richardson's, by the order p of the study: f0 = f2 + (f2 - f1)/(2^p - 1)
+  std::optional<double> error_percent; ///< `value` against that; none where it is 0 but for rounding
+};
+
+struct TimeError {
+  std::string measure, unit;
+  std::optional<HalvedStep> fem,
+      msm; ///< absent where the model failed, was not asked for, or has no such value
+};
+
+struct TimeStudy {
+  /// Order of the scheme; 1 where a load jumps on the way: a step that meets the jump has one side's load for
+  /// a part of the step, which moves the jump by that part.
+  int order = 1;
+  bool has_jumps = false;
+  std::vector<TimeError> errors;       ///< one per measure
+  std::vector<std::string> failures{}; ///< a sentence for each model that failed with half the step
+};
+
+/// Solves a dynamic case once more with half its step. Collective over MPI_COMM_WORLD.
+/// @param answers  those to the case as it is
+/// @throws InputError if the case has no [dynamics]
+TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
+                     SolveFem solve_fem);
+
+void write_time_study_text(std::ostream& out, const TimeStudy& study);
+
+/// {"order", "load_jumps", "failures": [...], "measures": [{"measure", "unit", "fem": {"value", "half_step",
+/// "extrapolated", "error_percent"} or null, "msm"}]}
+nlohmann::ordered_json time_study_to_json(const TimeStudy& study);
 
 } // namespace springproof::compare

@@ -1,6 +1,12 @@
-#include "compare/error_bars/mesh_study.hpp"
+#include "compare/error_bars/convergence.hpp"
 
+#include "cases/case/read_case.hpp"
+#include "cases/scene/scene.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/measure/surfaces.hpp"
+#include "compare/provenance/print.hpp"
+#include "compare/table/json.hpp"
+#include "mechanics/dynamics/scheme.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,6 +14,14 @@
 #include <fmt/format.h>
 
 namespace springproof::compare {
+
+void to_json(Json& json, const HalvedStep& halved) {
+  json = SPRINGPROOF_MEMBERS(halved, value, half_step, extrapolated, error_percent);
+}
+
+void to_json(Json& json, const TimeError& error) {
+  json = SPRINGPROOF_MEMBERS(error, measure, unit, fem, msm);
+}
 
 namespace {
 
@@ -53,7 +67,7 @@ bool is_accident(double power, double formal_order) {
 
 } // namespace
 
-MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio, double resolved) {
+MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double ratio) {
   assert(coarse_to_fine.size() >= 3 && ratio > 1);
   const std::size_t n = coarse_to_fine.size();
   const double f1 = coarse_to_fine[n - 1], f2 = coarse_to_fine[n - 2], f3 = coarse_to_fine[n - 3];
@@ -61,9 +75,9 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
   if (!std::isfinite(last) || !std::isfinite(before)) return "a value is not finite";
   if (f1 == 0) return "the value is zero, and the error is relative to it";
   const double scale = std::max({std::abs(f1), std::abs(f2), std::abs(f3)});
-  if (std::abs(last) <= resolved * scale)
+  if (std::abs(last) <= rounding * scale)
     return fmt::format("the two finest meshes agree to {:.0e}: there is nothing to extrapolate from",
-                       resolved);
+                       rounding);
   if (last * before < 0)
     return fmt::format("the values oscillate: {:.6g}, {:.6g}, {:.6g} from coarse to fine", f3, f2, f1);
   if (!(std::abs(last) < std::abs(before)))
@@ -187,6 +201,81 @@ void find_reference(StudiedMeasure& studied, const cases::measures::Kind& kind, 
   if (!of_field->note.empty()) studied.reference->note = of_field->note;
 }
 
+/// Errors against the limit, in place of those against the same mesh.
+void hold_against_limit(MeasuredValue& value, const cases::Measure& measure, const cases::Scene& scene,
+                        const Answers& answers, const MeshStudy& study) {
+  const Limit& limit = value.fem_limit.value();
+  const auto error_of = [&](const Answer& answer,
+                            const std::optional<double>& of_side) -> std::optional<double> {
+    if (!of_side) return std::nullopt;
+    const double zero = zero_of(measure, scene, answers.fem.solution);
+    if (!is_field_norm(measure.kind)) return error_percent(limit.value, *of_side, zero);
+    return field_error_percent(measure.kind, scene.mesh, study.field->value, answer.solution.displacement,
+                               zero, answer.solution.sharing.get());
+  };
+  value.error_percent = error_of(answers.msm, value.msm);
+  value.fem_error_percent = error_of(answers.fem, value.fem);
+  if (!value.error_percent) return;
+  const double part = 100 * limit.uncertainty / std::abs(limit.value);
+  // A change d of the limit changes r = 100 (m/f - 1) by (100 + r) d/f, and a difference of fields by d.
+  value.error_uncertainty_percent =
+      is_field_norm(measure.kind) ? part : part * std::abs(1 + *value.error_percent / 100);
+}
+
+/// Adds how much the finite elements' value changes on the way to the results' mesh and back.
+void add_interpolation_error(MeasuredValue& value, const cases::Measure& measure, const cases::Scene& scene,
+                             const Answers& answers) {
+  const cases::Solution &fem = answers.fem.solution, &back = answers.interpolated->fem_and_back.solution;
+  if (is_field_norm(measure.kind)) {
+    std::vector<Eigen::Vector3d> change;
+    for (std::size_t n = 0; n < fem.displacement.size(); ++n)
+      change.push_back(back.displacement[n] - fem.displacement[n]);
+    value.interpolation_error = field_norm(measure.kind, scene.mesh, change, fem.sharing.get());
+  } else {
+    value.interpolation_error = std::abs(evaluate(measure, scene, back) - evaluate(measure, scene, fem));
+  }
+  if (const auto percent = measure_error_percent(measure, scene, fem, back))
+    value.interpolation_error_percent = std::abs(*percent);
+}
+
+/// Measures the surface that a dynamic case names, over the time of the written bodies.
+MeasuredValue surface_over_time(const cases::Scene& scene, const Answers& answers) {
+  MeasuredValue value{cases::surface_measure, "mm", {}, {}, {}};
+  const auto motion = surface_motion(scene, answers);
+  if (!motion) return value;
+  value.fem = value_over_time(cases::OverTime::trajectory_l2, {motion->time, motion->fem});
+  value.msm = value_over_time(cases::OverTime::trajectory_l2, {motion->time, motion->msm});
+  value.error_percent = value.error_same_mesh_percent = motion->error_percent;
+  return value;
+}
+
+cases::Scene with_half_the_step(cases::Scene scene) {
+  cases::Dynamics& dynamics = *scene.definition.dynamics;
+  dynamics.step /= 2;
+  dynamics.write_every *= 2; // the same bodies
+  return scene;
+}
+
+std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases::Scene& scene, int order,
+                                      const Answer& whole, const Answer& half) {
+  if (!whole.converged() || !half.converged()) return std::nullopt;
+  const auto value = value_of(measure, scene, whole.solution),
+             with_half = value_of(measure, scene, half.solution);
+  if (!value || !with_half) return std::nullopt;
+  const double extrapolated = *with_half + (*with_half - *value) / (std::pow(2, order) - 1);
+  return HalvedStep{*value, *with_half, extrapolated,
+                    error_percent(extrapolated, *value, zero_of(measure, scene, whole.solution))};
+}
+
+std::vector<std::string> failures_of(const Answers& halves) {
+  std::vector<std::string> found;
+  for (const auto& [side, answer] : {std::pair("fem", &halves.fem), std::pair("msm", &halves.msm)})
+    if (const cases::Solution& solution = answer->solution; solution.status == cases::Status::failed)
+      found.push_back(fmt::format("{} with half the step, at {:.4g} of the time: {}", side,
+                                  solution.load_reached, solution.message));
+  return found;
+}
+
 } // namespace
 
 MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine) {
@@ -228,6 +317,82 @@ MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, i
   }
   if (auto* found = std::get_if<FieldLimit>(&field)) study.field = std::move(*found);
   return study;
+}
+
+std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& answers,
+                                   const MeshStudy* study) {
+  std::vector<MeasuredValue> values;
+  for (const cases::Measure& measure : scene.definition.measures) {
+    MeasuredValue value{measure.name, unit_of(measure), {}, {}, {}};
+    const auto value_by = [&](const Answer& answer, std::string& reason) -> std::optional<double> {
+      if (!answer.converged()) return std::nullopt;
+      const auto found = finite_value(measure, scene, answer.solution);
+      if (const auto* number = std::get_if<double>(&found)) return *number;
+      reason = std::get<std::string>(found);
+      return std::nullopt;
+    };
+    value.fem = value_by(answers.fem, value.fem_reason);
+    value.msm = value_by(answers.msm, value.msm_reason);
+    std::string unused;
+    if (answers.peer) value.peer = value_by(answers.peer->answer, unused);
+    if (value.fem && value.msm)
+      value.error_same_mesh_percent =
+          measure_error_percent(measure, scene, answers.fem.solution, answers.msm.solution);
+    value.error_percent = value.error_same_mesh_percent;
+    // The limit of a motion's norm is one number, but the error would be the whole course's.
+    const bool is_studied = study && !is_trajectory_norm(measure);
+    const StudiedMeasure* studied = is_studied ? find_named(study->measures, measure.name) : nullptr;
+    if (studied && studied->reference) {
+      value.fem_limit = studied->reference;
+      hold_against_limit(value, measure, scene, answers, *study);
+    }
+    if (answers.interpolated && answers.fem.converged())
+      add_interpolation_error(value, measure, scene, answers);
+    values.push_back(value);
+  }
+  if (scene.definition.surface && scene.definition.dynamics)
+    values.push_back(surface_over_time(scene, answers));
+  return values;
+}
+
+TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
+                     SolveFem solve_fem) {
+  if (!scene.definition.dynamics)
+    throw cases::InputError(scene.definition.file +
+                            ": --converge-time halves the steps of [dynamics], which is "
+                            "missing");
+  Request single = request;
+  single.meshes = 0;
+  single.peer.clear();
+  const Answers halves = solve(with_half_the_step(scene), single, solve_fem);
+  TimeStudy study;
+  study.has_jumps = cases::jumps_on_the_way(scene);
+  study.order = study.has_jumps ? 1 : mechanics::order_of(scene.definition.dynamics->scheme);
+  study.failures = failures_of(halves);
+  for (const cases::Measure& measure : scene.definition.measures)
+    study.errors.push_back({measure.name, unit_of(measure),
+                            halved_step(measure, scene, study.order, answers.fem, halves.fem),
+                            halved_step(measure, scene, study.order, answers.msm, halves.msm)});
+  return study;
+}
+
+void write_time_study_text(std::ostream& out, const TimeStudy& study) {
+  const auto text = [](const std::optional<HalvedStep>& halved) {
+    return halved && halved->error_percent ? fmt::format("{:+.2g}", *halved->error_percent)
+                                           : std::string("-");
+  };
+  print(out, "  {:<24} {:>14} {:>14}{}\n", "error of the steps, %", "fem", "msm",
+        study.has_jumps ? "   (order 1: a load jumps on the way)" : "");
+  for (const TimeError& error : study.errors)
+    print(out, "  {:<24} {:>14} {:>14}\n", error.measure, text(error.fem), text(error.msm));
+  for (const std::string& failure : study.failures) print(out, "  FAILED: {}\n", failure);
+}
+
+Json time_study_to_json(const TimeStudy& study) {
+  return {{"order", study.order},
+          {"load_jumps", study.has_jumps},
+          {"failures", study.failures},
+          {"measures", study.errors}};
 }
 
 } // namespace springproof::compare
