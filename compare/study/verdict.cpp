@@ -193,7 +193,7 @@ void write_next_commands(std::ostream& out, const std::vector<NextCommand>& next
   if (!next.empty()) print(out, "What to type next:\n");
   for (const auto& [line, what] : next) {
     const std::string text = "  " + line, comment = "# " + what;
-    if (printed_width(text) + 3 + printed_width(comment) <= screen_width)
+    if (n_characters(text) + 3 + n_characters(comment) <= screen_width)
       print(out, "{}   {}\n", text, comment);
     else
       print(out, "  {}\n{}\n", comment, text);

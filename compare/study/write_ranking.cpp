@@ -43,7 +43,7 @@ Json trial_to_json(const Trial& trial) {
           {"errors_percent", errors}};
 }
 
-void write_table(std::ostream& out, const Ranking& ranking) {
+void write_designs_table(std::ostream& out, const Ranking& ranking) {
   const Trial* best = ranking.recommended();
   const bool moves = std::any_of(ranking.designs.begin(), ranking.designs.end(),
                                  [](const Trial& r) { return r.milliseconds_a_step.has_value(); });
@@ -56,15 +56,15 @@ void write_table(std::ostream& out, const Ranking& ranking) {
   }
   const Column time =
       moves ? Column{"ms a step", "milliseconds_a_step", "{:.1f}"} : Column{"ms", "milliseconds", "{:.1f}"};
-  TextTable({{"  design"},
-             {"worst %"},
-             {"measure", "worst_at", "{:<}"},
-             {"volume %", "worst_volume_error_percent", "{:.2f}"},
-             {"stable"},
-             {"moduli", "has_moduli"},
-             time},
-            rows)
-      .write(out);
+  write_table(out,
+              {{"  design"},
+               {"worst %"},
+               {"measure", "worst_at", "{:<}"},
+               {"volume %", "worst_volume_error_percent", "{:.2f}"},
+               {"stable"},
+               {"moduli", "has_moduli"},
+               time},
+              rows);
 }
 
 } // namespace
@@ -74,7 +74,7 @@ void write_ranking_text(std::ostream& out, const Ranking& ranking) {
       out,
       fmt::format("{}: designs by their worst error against {}", ranking.case_name, reference_text(ranking)),
       2);
-  if (ranking.fem.converged()) write_table(out, ranking);
+  if (ranking.fem.converged()) write_designs_table(out, ranking);
   for (const Trial& ranked : ranking.designs)
     if (!ranked.worst)
       write_wrapped(out,

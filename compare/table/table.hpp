@@ -113,9 +113,6 @@ void write_csv_file(const std::string& path, const Write& write, int digits = 8)
 /// Writes json_text() of a document as a file, whole or not at all.
 void write_json_file(const std::string& path, const Json& document);
 
-/// Number of characters of a text as it is printed, see one_line().
-std::size_t printed_width(const std::string& text);
-
 /// Writes a text in lines of at most 100 columns, as far as its words allow.
 /// @param text    its leading blanks are the first line's
 /// @param indent  blanks in front of the other lines
@@ -123,24 +120,11 @@ void write_wrapped(std::ostream& out, const std::string& text, std::size_t inden
 
 /// Rows under their headings. A column is as wide as its widest text. Texts of the first column begin at the
 /// left, those of others end at the right unless their format says "<".
-class TextTable {
- public:
-  explicit TextTable(Columns columns) : columns_(std::move(columns)) {}
-  /// @param rows  a list of objects: a number is written by its column's format, null as "-", truth as "yes"
-  ///              or "no"
-  TextTable(Columns columns, const Json& rows);
+/// @param rows  a list of objects: a number is written by its column's format, null as "-", truth as "yes" or
+///              "no"
+void write_table(std::ostream& out, const Columns& columns, const Json& rows);
 
-  /// @param row  as many texts as there are columns
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// Number of columns of the terminal that the widest line takes.
-  std::size_t width() const;
-  void write(std::ostream& out) const;
-
- private:
-  std::vector<std::size_t> widths() const;
-
-  Columns columns_;
-  std::vector<std::vector<std::string>> rows_;
-};
+/// Number of columns of the terminal that the widest line takes.
+std::size_t table_width(const Columns& columns, const Json& rows);
 
 } // namespace springproof::compare
